@@ -1,0 +1,149 @@
+# hoodoo: build, demo, test. `make help` lists the targets.
+
+PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers \
+	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
+	libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
+TEST_PACKAGES = libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-numpy python3-scipy
+PEER_PACKAGES = blender slurm-wlm munge python3-venv
+DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
+
+VERSION = 0.1.0
+BUILD = build
+CC = gcc
+CXX = g++
+OPT = -O2 -g
+WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+SANITIZE =
+COMMIT = $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
+
+CPPFLAGS = -D_GNU_SOURCE -Isrc -Ishaders -I. -I$(BUILD)/gen
+CFLAGS = -std=c11 $(OPT) $(WARN) -fno-math-errno -ffp-contract=off -fopenmp $(SANITIZE)
+CXXFLAGS = -std=c++17 $(OPT) -Wall -Wextra $(SANITIZE) -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
+LDLIBS = -lvulkan -lopenvdb -ltbb -lOpenEXRCore-3_1 -lOpenImageIO -lfyaml -lzstd -lxxhash -lm -lpthread -lstdc++
+EXR_FLAGS = -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
+
+Q = $(if $(V),,@)
+SRC = $(shell find src farm render -name '*.c')
+SHIM = $(shell find src farm render -name '*_shim.cpp')
+SHADER = $(shell find shaders -name '*.comp.glsl')
+KERNEL = $(subst /,_,$(patsubst shaders/%.comp.glsl,%,$(SHADER)))
+LIB_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/main.c,$(SRC))) $(SHIM:%.cpp=$(BUILD)/%.o) \
+	$(BUILD)/gen/gpu/kernels.o
+TEST_SRC = $(wildcard tests/*/test_*.c)
+TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
+TEST_HELP = $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/ref/*.c))
+
+## all: build build/hoodoo (installs what is missing when root)
+all: $(BUILD)/hoodoo
+
+## deps: install the Debian packages this needs, or print the one command that does
+deps: $(BUILD)/.deps
+$(BUILD)/.deps: Makefile
+	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) && touch $@
+deps-test: $(BUILD)/.deps-test
+$(BUILD)/.deps-test: Makefile
+	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) && touch $@
+deps-peers: $(BUILD)/.deps-peers
+$(BUILD)/.deps-peers: Makefile
+	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(PEER_PACKAGES) && touch $@
+
+$(BUILD)/hoodoo: $(BUILD)/src/main.o $(BUILD)/libhoodoo.a
+	@echo "link $@"
+	$(Q)$(CC) $(CFLAGS) -o $@ $^ $(LDLIBS)
+
+$(BUILD)/libhoodoo.a: $(LIB_OBJ)
+	@echo "ar $@"
+	$(Q)rm -f $@ && ar rcs $@ $^
+
+$(BUILD)/%.o: %.c | $(BUILD)/.deps $(BUILD)/gen/gpu/kernels.h
+	@echo "cc $<"
+	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) $(EXR_FLAGS) -MMD -MP -c -o $@ $<
+
+$(BUILD)/%_shim.o: %_shim.cpp | $(BUILD)/.deps
+	@echo "c++ $<"
+	$(Q)mkdir -p $(@D) && $(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
+
+# The version is in one object, so that a commit does not rebuild the rest.
+$(BUILD)/src/base/version.o: CPPFLAGS += -DHOODOO_VERSION='"$(VERSION)"' -DHOODOO_COMMIT='"$(COMMIT)"'
+$(BUILD)/src/base/version.o: $(wildcard .git/HEAD .git/logs/HEAD)
+
+# ---- shaders: GLSL -> three SPIR-V variants, checked, embedded as words
+
+VARIANTS = texel storage wide
+SPV = $(foreach v,$(VARIANTS),$(patsubst shaders/%.comp.glsl,$(BUILD)/shaders/%.$(v).spv,$(SHADER)))
+define spirv_rule
+$(BUILD)/shaders/%.$(1).spv: shaders/%.comp.glsl | $(BUILD)/.deps
+	@echo "glsl $$< $(1)"
+	$$(Q)mkdir -p $$(@D) && glslangValidator -V --target-env vulkan1.2 --quiet -Ishaders -DVARIANT_$(1) \
+		--depfile $$@.d -o $$@ $$< && spirv-val --target-env vulkan1.2 --scalar-block-layout $$@
+endef
+$(foreach v,$(VARIANTS),$(eval $(call spirv_rule,$(v))))
+
+$(BUILD)/gen/gpu/kernels.h: $(SHADER) src/gpu/embed.sh | $(BUILD)/.deps
+	$(Q)mkdir -p $(@D) && sh src/gpu/embed.sh header $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
+$(BUILD)/gen/gpu/kernels.c: $(SPV) src/gpu/embed.sh
+	$(Q)sh src/gpu/embed.sh source $(BUILD)/shaders $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
+$(BUILD)/gen/gpu/kernels.o: $(BUILD)/gen/gpu/kernels.c $(BUILD)/gen/gpu/kernels.h
+	@echo "cc $<"
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+
+# ---- demo, tests
+
+## demo: erode an arch for 60 frames into out/demo and make its stills and turntable (no GPU needed)
+demo: $(BUILD)/hoodoo
+	$(Q)sh jobs/demo.sh $(BUILD)/hoodoo
+
+$(BUILD)/tests/%: tests/%.c $(BUILD)/libhoodoo.a $(TEST_HELP) | $(BUILD)/.deps-test
+	@echo "test $<"
+	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) -Itests $(CFLAGS) $(EXR_FLAGS) -MMD -MP -o $@ $< $(TEST_HELP) $(BUILD)/libhoodoo.a \
+		-lcmocka $(LDLIBS)
+
+## test: build and run the tests (under 20 minutes on 2 cores)
+test: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
+	$(Q)sh tests/run.sh $(BUILD) unit gpu physics restart cli
+
+## test-peers: read what we write with Blender and other programs (large packages)
+test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers
+	$(Q)sh tests/run.sh $(BUILD) peers
+
+## test-long: the slow proofs: every interruption, resolution, sweeps
+test-long: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
+	$(Q)sh tests/run.sh $(BUILD) long
+
+## bench: speed, as ratios against plain C in the same run
+bench: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/bench/bench
+	$(Q)$(BUILD)/tests/bench/bench $(BUILD)/hoodoo
+
+## format: lay out the C by .clang-format
+format:
+	$(Q)clang-format -i $(shell find src farm render tests -name '*.[ch]' -o -name '*_shim.cpp')
+
+## lint: warnings of both compilers, format, headers that stand alone, walls between folders
+lint: deps-test
+	$(Q)sh tests/lint.sh $(PACKAGES) $(TEST_PACKAGES) $(DEV_PACKAGES)
+
+## asan: build and run the tests under the address sanitizer
+asan:
+	$(Q)$(MAKE) BUILD=build-asan OPT='-O1 -g' SANITIZE='-fsanitize=address -fno-omit-frame-pointer' test
+
+## ubsan: build and run the tests under the undefined behaviour sanitizer
+ubsan:
+	$(Q)$(MAKE) BUILD=build-ubsan OPT='-O1 -g' SANITIZE='-fsanitize=undefined -fno-sanitize-recover=all' test
+
+## install: copy hoodoo to PREFIX/bin (default /usr/local)
+PREFIX = /usr/local
+install: $(BUILD)/hoodoo
+	install -D -m 755 $(BUILD)/hoodoo $(DESTDIR)$(PREFIX)/bin/hoodoo
+
+## clean: remove what was built (out/ stays)
+clean:
+	rm -rf build build-asan build-ubsan
+
+## help: list the targets
+help:
+	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
+
+.PHONY: all deps deps-test deps-peers demo test test-peers test-long bench format lint asan ubsan install clean help
+.DEFAULT_GOAL = all
+.DELETE_ON_ERROR:
+-include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

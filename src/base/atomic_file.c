@@ -1,0 +1,148 @@
+#include "base/atomic_file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+
+/* Temporary names are NAME.tmp-PID-TIME-COUNT: unique across the containers of a farm that share a disk. */
+static const char TEMPORARY[] = ".tmp-";
+
+static status fsync_folder_of(const char *path)
+{
+    char folder[4096];
+    const char *slash = strrchr(path, '/');
+    if (!slash)
+        snprintf(folder, sizeof folder, ".");
+    else
+        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+    int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0)
+        return fail(E_OUTPUT, "%s: cannot open the folder: %s", folder, strerror(errno));
+    /* Some network file systems refuse fsync on folders (EINVAL); there is nothing more to be had from those. */
+    int bad = fsync(fd) != 0 && errno != EINVAL ? errno : 0;
+    close(fd);
+    return bad ? fail(E_OUTPUT, "%s: cannot fsync the folder: %s", folder, strerror(bad)) : OK;
+}
+
+status atomic_file_write(const char *path, const void *bytes, size_t n)
+{
+    static atomic_uint count;
+    char temporary[4096];
+    struct timeval now;
+    gettimeofday(&now, NULL);
+    int length = snprintf(temporary, sizeof temporary, "%s%s%ld-%lx%05lx-%u", path, TEMPORARY, (long)getpid(),
+                          (unsigned long)now.tv_sec, (unsigned long)now.tv_usec, atomic_fetch_add(&count, 1));
+    if (length < 0 || (size_t)length >= sizeof temporary)
+        return fail(E_OUTPUT, "%.200s...: the path is too long", path);
+
+    status st = OK;
+    int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return fail(E_OUTPUT, "%s: cannot be written: %s", path, strerror(errno));
+    size_t written = 0;
+    while (written < n) {
+        ssize_t k = write(fd, (const char *)bytes + written, n - written);
+        if (k < 0 && errno == EINTR)
+            continue;
+        if (k <= 0) {
+            st = fail(E_OUTPUT, "%s: only %zu of %zu bytes could be written: %s", path, written, n,
+                      strerror(k < 0 ? errno : ENOSPC));
+            break;
+        }
+        written += (size_t)k;
+    }
+    if (st == OK && fsync(fd) != 0)
+        st = fail(E_OUTPUT, "%s: cannot fsync: %s", path, strerror(errno));
+    if (close(fd) != 0 && st == OK)
+        st = fail(E_OUTPUT, "%s: cannot close: %s", path, strerror(errno));
+    if (st == OK && rename(temporary, path) != 0)
+        st = fail(E_OUTPUT, "%s: cannot rename into place: %s", path, strerror(errno));
+    if (st != OK) {
+        unlink(temporary);
+        return st;
+    }
+    return fsync_folder_of(path);
+}
+
+status folder_make(const char *path)
+{
+    char part[4096];
+    size_t n = strlen(path);
+    if (n == 0 || n >= sizeof part)
+        return fail(E_OUTPUT, "'%.200s': not a usable folder name", path);
+    memcpy(part, path, n + 1);
+    for (size_t i = 1; i <= n; i++) {
+        if (part[i] != '/' && part[i] != '\0')
+            continue;
+        char keep = part[i];
+        part[i] = '\0';
+        struct stat info;
+        if (mkdir(part, 0777) != 0 && (errno != EEXIST || stat(part, &info) != 0 || !S_ISDIR(info.st_mode)))
+            return fail(E_OUTPUT, "%s: cannot make the folder: %s", part,
+                        strerror(errno == EEXIST ? ENOTDIR : errno));
+        part[i] = keep;
+    }
+    return OK;
+}
+
+void atomic_file_sweep(const char *folder)
+{
+    DIR *d = opendir(folder);
+    if (!d)
+        return;
+    for (struct dirent *e; (e = readdir(d));)
+        if (strstr(e->d_name, TEMPORARY))
+            unlinkat(dirfd(d), e->d_name, 0);
+    closedir(d);
+}
+
+status file_read(const char *path, size_t limit, void *bytes, size_t *n)
+{
+    status st = OK;
+    char *data = NULL;
+    struct stat info;
+    size_t size = 0;
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0 || fstat(fd, &info) != 0) {
+        st = fail(E_INPUT, "%s: %s", path, strerror(errno));
+        goto done;
+    }
+    if (!S_ISREG(info.st_mode)) {
+        st = fail(E_INPUT, "%s: not a regular file", path);
+        goto done;
+    }
+    if ((size_t)info.st_size > limit) {
+        st = fail(E_INPUT, "%s: %lld bytes, more than the %zu allowed here", path, (long long)info.st_size, limit);
+        goto done;
+    }
+    size = (size_t)info.st_size;
+    TRY(memory_alloc(size + 1, 1, path, &data));
+    for (size_t got = 0; got < size;) {
+        ssize_t k = read(fd, data + got, size - got);
+        if (k < 0 && errno == EINTR)
+            continue;
+        if (k <= 0) {
+            st = fail(E_INPUT, "%s: read %zu of %zu bytes: %s", path, got, size, k < 0 ? strerror(errno) : "it shrank");
+            goto done;
+        }
+        got += (size_t)k;
+    }
+    memcpy(bytes, &data, sizeof data);
+    *n = size;
+    data = NULL;
+done:
+    if (fd >= 0)
+        close(fd);
+    free(data);
+    return st;
+}

@@ -1,0 +1,24 @@
+/* Frame ranges as a job or --frames gives them: "1001", "1001-1110", "1001-1110x2", "1001-1110:2". */
+#ifndef HOODOO_RANGES_H
+#define HOODOO_RANGES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/status.h"
+
+struct frame_range {
+    int first, last; /* inclusive; first <= last */
+    int step;        /* >= 1 */
+};
+
+/* E_USAGE says what is wrong with `text`; the caller's message should add where it stands. Frames are -999999..9999999. */
+MUST_USE status range_parse(const char *text, struct frame_range *out);
+
+/* "1001-1110x2" in `out`; returns out. */
+const char *range_text(struct frame_range r, char out[48]);
+
+size_t range_count(struct frame_range r);
+bool range_holds(struct frame_range r, int frame);
+
+#endif

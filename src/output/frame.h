@@ -1,0 +1,67 @@
+/* A finished frame in host memory: what the writer turns into files. Everything is in the simulator's axes (z up, m). */
+#ifndef HOODOO_FRAME_H
+#define HOODOO_FRAME_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "job/job.h"
+#include "particles/rock.h"
+
+/* A dense scalar field sampled at voxel centres: origin + (i, j, k) * voxel, numbered (k ny + j) nx + i. */
+enum grid_class { GRID_LEVEL_SET, GRID_FOG, GRID_PLAIN };
+
+struct frame_grid {
+    const char *name; /* surface, density, stress, ... */
+    const char *unit;
+    enum grid_class class;
+    float *value; /* owned by the frame */
+};
+
+struct frame_grids {
+    int n[3];
+    double voxel, origin[3]; /* m */
+    size_t n_grids;
+    struct frame_grid grid[8];
+};
+/* In every grid, voxels where `density` is 0 are inactive, except in `surface`, whose active voxels are those with
+ * |value| < 3 voxels (its background). */
+
+/* One camera's picture: planes of width * height values, top row first. */
+struct aov_channel {
+    const char *part;    /* layer of a multi-part file: rgba, depth, N, P, stress, ... */
+    const char *name;    /* full channel name: "R", "Z", "N.X", "stress.trace" */
+    const float *value;  /* or NULL */
+    const uint32_t *id;  /* where value is NULL */
+    int half;            /* write as half */
+};
+
+struct aov_image {
+    const char *camera;
+    int width, height;
+    double world_to_camera[16], world_to_ndc[16]; /* as EXR stores them, row vectors, in the files' axes */
+    size_t n_channels;
+    struct aov_channel *channel;
+    void *memory; /* holds every plane; owned by the frame */
+};
+
+/* Where every particle of the start went. start = rock + deposit + fallen + left, exactly. */
+struct ledger {
+    uint64_t start, rock, deposit, fallen, left;
+};
+
+struct frame {
+    int number;
+    double years; /* since the first frame */
+    struct rock rock;
+    struct frame_grids grids;
+    size_t n_images;
+    struct aov_image *image;
+    struct ledger ledger;
+    double volume_m3;       /* sum of viability times h^3 */
+    double start_volume_m3;
+    double max_stress_Pa;
+    int stress_iterations;
+};
+
+#endif

@@ -1,0 +1,36 @@
+#include "particles/rock.h"
+
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+const struct rock_field_info rock_field_table[ROCK_FIELDS] = {
+#define FIELD(name, type, components, keep, vdb, unit, meaning)                                                \
+    {#name, vdb, unit, meaning, components, _Generic((type)0, float: 1, default: 0), keep},
+#include "particles/particles.def"
+};
+
+size_t rock_field_size(enum rock_field field)
+{
+    return (size_t)rock_field_table[field].components * 4;
+}
+
+status rock_alloc(struct rock *rock, size_t n, int keep)
+{
+    status st = OK;
+    *rock = (struct rock){.n = n};
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (rock_field_table[f].keep <= keep)
+            TRY(memory_alloc(n, rock_field_size((enum rock_field)f), rock_field_table[f].name, &rock->field[f]));
+done:
+    if (st != OK)
+        rock_free(rock);
+    return st;
+}
+
+void rock_free(struct rock *rock)
+{
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        free(rock->field[f]);
+    *rock = (struct rock){0};
+}

@@ -1,0 +1,46 @@
+/* The rock as host memory: one array a field, as scenes make it, checkpoints keep it and files show it. */
+#ifndef HOODOO_ROCK_H
+#define HOODOO_ROCK_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "base/status.h"
+
+enum { STATE, DERIVED };
+
+enum rock_field {
+#define FIELD(name, type, components, keep, vdb, unit, meaning) ROCK_##name,
+#include "particles/particles.def"
+    ROCK_FIELDS
+};
+
+struct rock_field_info {
+    const char *name, *vdb, *unit, *meaning;
+    int components; /* 1 or 4 */
+    int is_float;   /* else uint32_t */
+    int keep;       /* STATE or DERIVED */
+};
+
+extern const struct rock_field_info rock_field_table[ROCK_FIELDS];
+
+/* n particles. Arrays have n * components items; a field nobody has filled yet is NULL. */
+struct rock {
+    size_t n;
+    union {
+        struct {
+#define FIELD(name, type, components, keep, vdb, unit, meaning) type *name;
+#include "particles/particles.def"
+        };
+        void *field[ROCK_FIELDS];
+    };
+};
+
+/* Zeroed arrays for n particles, for fields with keep <= `keep` (STATE, or DERIVED for all). */
+MUST_USE status rock_alloc(struct rock *rock, size_t n, int keep);
+void rock_free(struct rock *rock);
+
+/* Bytes of one particle's value of a field. */
+size_t rock_field_size(enum rock_field field);
+
+#endif
