@@ -81,7 +81,7 @@ $(foreach v,$(VARIANTS),$(eval $(call spirv_rule,$(v))))
 
 $(BUILD)/gen/gpu/kernels.h: $(SHADER) src/gpu/embed.sh | $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && sh src/gpu/embed.sh header $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
-$(BUILD)/gen/gpu/kernels.c: $(SPV) src/gpu/embed.sh
+$(BUILD)/gen/gpu/kernels.c: $(SPV) $(BUILD)/gen/gpu/kernels.h src/gpu/embed.sh
 	$(Q)sh src/gpu/embed.sh source $(BUILD)/shaders $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
 $(BUILD)/gen/gpu/kernels.o: $(BUILD)/gen/gpu/kernels.c $(BUILD)/gen/gpu/kernels.h
 	@echo "cc $<"
