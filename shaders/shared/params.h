@@ -1,4 +1,5 @@
-/* Parameters of the kernels, read by both languages. Scalars only, so that layouts cannot differ. At most 128 bytes. */
+/* Parameters of the kernels, read by both languages. Scalars only, so that layouts cannot differ. At most 128 bytes.
+ * `n` is always the number of invocations that work. */
 #ifndef HOODOO_PARAMS_H
 #define HOODOO_PARAMS_H
 
@@ -16,4 +17,127 @@ struct count_params {
 };
 SHARED_SIZE(count_params, 4)
 
+/* ---- gpu: scan, sort, reduce */
+
+#define SCAN_RUN 64u
+#define REDUCE_THREADS 2048u
+
+struct scan_params {
+    uint n; /* runs */
+    uint n_values;
+};
+SHARED_SIZE(scan_params, 8)
+
+struct sort_params {
+    uint n;
+    uint n_ordered; /* keys from here on may come in any order */
+};
+SHARED_SIZE(sort_params, 8)
+
+struct reduce_params {
+    uint n; /* REDUCE_THREADS */
+    uint n_values;
+};
+SHARED_SIZE(reduce_params, 8)
+
+struct reduce_end_params {
+    uint n; /* 64 */
+    uint maximum;
+    uint slot;
+};
+SHARED_SIZE(reduce_end_params, 12)
+
+/* ---- particles: the voxel index */
+
+struct voxel_params {
+    uint n;
+    uint nx, ny, nz; /* voxels of the domain */
+    float h;         /* m: voxel size, the particle spacing */
+};
+SHARED_SIZE(voxel_params, 20)
+
+/* ---- stress: hexahedra of 2 h; nodes and cells have a margin of one empty cell on every side */
+
+#define STRESS_FILL_FLOOR 0.05f
+
+struct stress_params {
+    uint n;
+    uint cx, cy, cz; /* cells with margin; nodes are one more on each axis */
+    float lambda, mu; /* Pa */
+    float dx;         /* m */
+    float weight;     /* N: of a full cell */
+};
+SHARED_SIZE(stress_params, 32)
+
+/* Words of the solver's scalar buffer; the energy that each iteration took out of the error begins at CG_ENERGY. */
+#define CG_RZ 0u
+#define CG_ALPHA 1u
+#define CG_BETA 2u
+#define CG_WORK 3u
+#define CG_MOST 4u
+#define CG_ENERGY 8u
+#define CG_CHECK 16u
+
+struct cg_params {
+    uint n;         /* 64 */
+    uint iteration; /* modulo CG_CHECK */
+    uint first;     /* 1: there is no direction yet */
+};
+SHARED_SIZE(cg_params, 12)
+
+struct interlock_params {
+    uint n;
+    float band;
+};
+SHARED_SIZE(interlock_params, 8)
+
+/* ---- erosion */
+
+struct erosion_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;                 /* m */
+    float dt;                /* kyr */
+    float deflation;         /* k_d */
+    float cohesion, friction, strength; /* mu_c (Pa), mu_f, alpha (Pa) */
+    float abrasion;          /* k_a (|v| / v_ref)^2 */
+    float wind_x, wind_y, wind_z; /* unit vector, where it blows to */
+    float shelter;           /* m */
+};
+SHARED_SIZE(erosion_params, 60)
+
+/* Words the erosion counts into. */
+#define COUNT_ERODED 0u
+#define COUNT_FALLEN 1u
+#define COUNT_CHANGED 2u
+
+/* ---- field: the surface field and what lies on it */
+
+struct field_params {
+    uint n;
+    uint nx, ny, nz; /* voxels of the domain (particle index) */
+    float h;         /* m */
+    uint fx, fy, fz; /* voxels of the field */
+    float voxel;     /* m: of the field */
+    float origin_x, origin_y, origin_z; /* m: centre of its voxel 0 */
+    float radius;    /* m: of the kernel */
+};
+SHARED_SIZE(field_params, 52)
+
+struct march_params {
+    uint n;
+    uint width, height;
+    uint fx, fy, fz;
+    float voxel;
+    float origin_x, origin_y, origin_z;
+    float eye_x, eye_y, eye_z;
+    float right_x, right_y, right_z; /* half the film's width, in directions at distance 1 */
+    float down_x, down_y, down_z;    /* half its height */
+    float ahead_x, ahead_y, ahead_z;
+    float sun_x, sun_y, sun_z; /* unit vector towards the sun */
+    float far;                 /* m */
+};
+SHARED_SIZE(march_params, 104)
+
+#undef SHARED_SIZE
 #endif

@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The numbers of the items whose flag is set, in order; place is the flags' scan.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, flags)
+READ_U(1, place)
+WRITE_U(2, list)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n && LOAD_U(flags, i) != 0u)
+        AT(list, LOAD_U(place, i)) = i;
+}

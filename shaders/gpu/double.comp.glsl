@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One pass of pointer doubling: to[i] = from[from[i]]; sets changed[0] if any pointer moved.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, from)
+WRITE_U(1, to)
+WRITE_U(2, changed)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint a = LOAD_U(from, i), b = LOAD_U(from, a);
+    AT(to, i) = b;
+    if (a != b)
+        AT(changed, 0) = 1u;
+}

@@ -1,0 +1,189 @@
+/* Buffers on the device, and the bytes that travel to and from them. */
+#include <assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "gpu/internal.h"
+
+static uint32_t memory_type(const struct gpu *gpu, uint32_t allowed, VkMemoryPropertyFlags flags)
+{
+    for (uint32_t i = 0; i < gpu->memory.memoryTypeCount; i++)
+        if ((allowed & (1u << i)) && (gpu->memory.memoryTypes[i].propertyFlags & flags) == flags)
+            return i;
+    return UINT32_MAX;
+}
+
+void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags wanted,
+                       VkMemoryPropertyFlags preferred, VkBuffer *buffer, VkDeviceMemory *memory)
+{
+    VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
+    VkMemoryAllocateFlagsInfo flags = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
+                                       .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
+    bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
+    VkMemoryAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .pNext = addressed ? &flags : NULL};
+    VkMemoryRequirements need;
+    if (gpu->st != OK)
+        return;
+    VK_TRY(gpu, vkCreateBuffer(gpu->device, &info, NULL, buffer));
+    vkGetBufferMemoryRequirements(gpu->device, *buffer, &need);
+    allocate.allocationSize = need.size;
+    allocate.memoryTypeIndex = memory_type(gpu, need.memoryTypeBits, wanted | preferred);
+    if (allocate.memoryTypeIndex == UINT32_MAX)
+        allocate.memoryTypeIndex = memory_type(gpu, need.memoryTypeBits, wanted);
+    if (allocate.memoryTypeIndex == UINT32_MAX) {
+        gpu_break(gpu, VK_ERROR_FEATURE_NOT_PRESENT, "no memory of the wanted kind");
+        goto done;
+    }
+    VK_TRY(gpu, vkAllocateMemory(gpu->device, &allocate, NULL, memory));
+    VK_TRY(gpu, vkBindBufferMemory(gpu->device, *buffer, *memory, 0));
+done:;
+}
+
+status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t item, struct gpu_buffer **out)
+{
+    status st = OK;
+    struct gpu_buffer *b = NULL;
+    assert(item == 4 || item == 16);
+    TRY(gpu_status(gpu));
+    TRY(memory_alloc(1, sizeof *b, name, &b));
+    snprintf(b->name, sizeof b->name, "%s", name);
+    b->n = n;
+    b->item = item;
+    b->bytes = (n ? n : 1) * item;
+    if (b->bytes > gpu_memory_free(gpu)) {
+        st = fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, and %.1f MB are free", gpu->info.name, name,
+                  (double)b->bytes / 1e6, (double)gpu_memory_free(gpu) / 1e6);
+        goto done;
+    }
+    raw_buffer_create(gpu, b->bytes,
+                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                      VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                      gpu->info.is_cpu ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0,
+                      &b->handle, &b->memory);
+    if (gpu->st == E_MEMORY) {
+        /* Not sticky: the caller may ask for less. */
+        st = fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, and the device does not have them: %s", gpu->info.name, name,
+                  (double)b->bytes / 1e6, gpu->message);
+        gpu->st = OK;
+        goto done;
+    }
+    TRY(gpu_status(gpu));
+    if (gpu->info.is_cpu) {
+        VK_TRY(gpu, vkMapMemory(gpu->device, b->memory, 0, VK_WHOLE_SIZE, 0, &b->mapped));
+    }
+    VkBufferDeviceAddressInfo address = {.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .buffer = b->handle};
+    b->address = vkGetBufferDeviceAddress(gpu->device, &address);
+    gpu_fill(gpu, b, 0);
+    *out = b;
+    b = NULL;
+done:
+    gpu_buffer_destroy(gpu, &b);
+    return st != OK ? st : gpu_status(gpu);
+}
+
+void gpu_buffer_destroy(struct gpu *gpu, struct gpu_buffer **handle)
+{
+    struct gpu_buffer *b = *handle;
+    if (!b)
+        return;
+    if (gpu_wait(gpu) != OK)
+        vkDeviceWaitIdle(gpu->device);
+    for (int i = 0; i < 3; i++)
+        vkDestroyBufferView(gpu->device, b->view[i], NULL);
+    vkDestroyBuffer(gpu->device, b->handle, NULL);
+    vkFreeMemory(gpu->device, b->memory, NULL);
+    free(b);
+    *handle = NULL;
+}
+
+size_t gpu_buffer_count(const struct gpu_buffer *buffer)
+{
+    return buffer->n;
+}
+
+size_t gpu_buffer_item(const struct gpu_buffer *buffer)
+{
+    return buffer->item;
+}
+
+VkBufferView buffer_view(struct gpu *gpu, struct gpu_buffer *b, char letter)
+{
+    static const VkFormat format[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32_UINT, VK_FORMAT_R32G32B32A32_SFLOAT};
+    int i = letter == 'F' ? 0 : letter == 'U' ? 1 : 2;
+    VkBufferViewCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO, .buffer = b->handle, .format = format[i], .range = b->bytes};
+    if (!b->view[i])
+        VK_TRY(gpu, vkCreateBufferView(gpu->device, &info, NULL, &b->view[i]));
+done:
+    return b->view[i];
+}
+
+void gpu_fill(struct gpu *gpu, struct gpu_buffer *buffer, uint32_t word)
+{
+    VkCommandBuffer commands = record_begin(gpu);
+    if (!commands)
+        return;
+    record_accesses(gpu, commands, &(struct access){buffer, true}, 1);
+    vkCmdFillBuffer(commands, buffer->handle, 0, VK_WHOLE_SIZE, word);
+}
+
+void gpu_copy(struct gpu *gpu, struct gpu_buffer *to, const struct gpu_buffer *from, size_t n_items)
+{
+    assert(to->item == from->item && n_items <= to->n && n_items <= from->n);
+    VkCommandBuffer commands = record_begin(gpu);
+    VkBufferCopy region = {.size = n_items * to->item};
+    if (!commands || n_items == 0)
+        return;
+    record_accesses(gpu, commands, (struct access[]){{(struct gpu_buffer *)from, false}, {to, true}}, 2);
+    vkCmdCopyBuffer(commands, from->handle, to->handle, 1, &region);
+}
+
+/* One piece through the staging buffer, where device memory is out of the host's reach. */
+static void stage(struct gpu *gpu, struct gpu_buffer *b, VkDeviceSize offset, VkDeviceSize bytes, bool upload)
+{
+    VkCommandBuffer commands = record_begin(gpu);
+    if (!commands)
+        return;
+    record_accesses(gpu, commands, &(struct access){b, upload}, 1);
+    VkBufferCopy region = {
+        .srcOffset = upload ? 0 : offset, .dstOffset = upload ? offset : 0, .size = bytes};
+    vkCmdCopyBuffer(commands, upload ? gpu->staging : b->handle, upload ? b->handle : gpu->staging, 1, &region);
+}
+
+static status transfer(struct gpu *gpu, struct gpu_buffer *b, size_t first, char *host, size_t n_items, bool upload)
+{
+    status st = OK;
+    assert(first <= b->n && n_items <= b->n - first);
+    size_t offset = first * b->item, bytes = n_items * b->item;
+    TRY(gpu_wait(gpu));
+    if (b->mapped) {
+        if (bytes)
+            memcpy(upload ? (char *)b->mapped + offset : host, upload ? host : (char *)b->mapped + offset, bytes);
+        goto done;
+    }
+    for (size_t at = 0; at < bytes; at += STAGING_BYTES) {
+        size_t piece = bytes - at < STAGING_BYTES ? bytes - at : STAGING_BYTES;
+        if (upload)
+            memcpy(gpu->staging_mapped, host + at, piece);
+        stage(gpu, b, offset + at, piece, upload);
+        TRY(gpu_wait(gpu));
+        if (!upload)
+            memcpy(host + at, gpu->staging_mapped, piece);
+    }
+done:
+    return st;
+}
+
+status gpu_upload(struct gpu *gpu, struct gpu_buffer *to, size_t first, const void *from, size_t n_items)
+{
+    return transfer(gpu, to, first, (char *)from, n_items, true);
+}
+
+status gpu_download(struct gpu *gpu, const struct gpu_buffer *from, size_t first, void *to, size_t n_items)
+{
+    return transfer(gpu, (struct gpu_buffer *)from, first, to, n_items, false);
+}

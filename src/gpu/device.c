@@ -1,0 +1,378 @@
+/* Devices: listing them, choosing one, opening and closing it. */
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/hash.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "base/version.h"
+#include "gpu/internal.h"
+
+const char *vk_result_text(VkResult result)
+{
+    switch (result) {
+#define CASE(name)                                                                                             \
+    case name:                                                                                                 \
+        return #name;
+        CASE(VK_SUCCESS)
+        CASE(VK_NOT_READY)
+        CASE(VK_TIMEOUT)
+        CASE(VK_ERROR_OUT_OF_HOST_MEMORY)
+        CASE(VK_ERROR_OUT_OF_DEVICE_MEMORY)
+        CASE(VK_ERROR_INITIALIZATION_FAILED)
+        CASE(VK_ERROR_DEVICE_LOST)
+        CASE(VK_ERROR_LAYER_NOT_PRESENT)
+        CASE(VK_ERROR_EXTENSION_NOT_PRESENT)
+        CASE(VK_ERROR_FEATURE_NOT_PRESENT)
+        CASE(VK_ERROR_INCOMPATIBLE_DRIVER)
+        CASE(VK_ERROR_TOO_MANY_OBJECTS)
+#undef CASE
+    default:
+        return "unknown VkResult";
+    }
+}
+
+void gpu_break(struct gpu *gpu, VkResult result, const char *call)
+{
+    if (gpu->st != OK)
+        return;
+    bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    gpu->st = memory ? E_MEMORY : E_DEVICE;
+    snprintf(gpu->message, sizeof gpu->message, "%s: %s (%.200s)%s", gpu->info.name, vk_result_text(result), call,
+             result == VK_ERROR_DEVICE_LOST ? "; run the same command again to go on from the last checkpoint" : "");
+}
+
+status gpu_status(const struct gpu *gpu)
+{
+    return gpu->st == OK ? OK : fail(gpu->st, "%s", gpu->message);
+}
+
+static status instance_create(VkInstance *out)
+{
+    VkApplicationInfo application = {
+        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "hoodoo", .apiVersion = VK_API_VERSION_1_2};
+    VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
+    VkResult result = vkCreateInstance(&info, NULL, out);
+    if (result != VK_SUCCESS)
+        return fail(E_DEVICE,
+                    "no Vulkan driver could be started (%s); install mesa-vulkan-drivers for a CPU device, or the GPU's "
+                    "own driver",
+                    vk_result_text(result));
+    return OK;
+}
+
+static bool has_extension(VkPhysicalDevice physical, const char *name)
+{
+    uint32_t n = 0;
+    bool found = false;
+    vkEnumerateDeviceExtensionProperties(physical, NULL, &n, NULL);
+    VkExtensionProperties *list = calloc(n ? n : 1, sizeof *list);
+    if (list && vkEnumerateDeviceExtensionProperties(physical, NULL, &n, list) == VK_SUCCESS)
+        for (uint32_t i = 0; i < n && !found; i++)
+            found = strcmp(list[i].extensionName, name) == 0;
+    free(list);
+    return found;
+}
+
+static uint32_t compute_family(VkPhysicalDevice physical, uint32_t *timestamp_bits)
+{
+    VkQueueFamilyProperties family[32];
+    uint32_t n = 32;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &n, family);
+    for (uint32_t i = 0; i < n; i++)
+        if (family[i].queueFlags & VK_QUEUE_COMPUTE_BIT) {
+            *timestamp_bits = family[i].timestampValidBits;
+            return i;
+        }
+    return UINT32_MAX;
+}
+
+static void describe(VkPhysicalDevice physical, int index, struct gpu_info *info)
+{
+    static const char *const types[] = {"other", "integrated", "discrete", "virtual", "cpu"};
+    bool pci = has_extension(physical, VK_EXT_PCI_BUS_INFO_EXTENSION_NAME);
+    VkPhysicalDevicePCIBusInfoPropertiesEXT bus = {.sType =
+                                                       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PCI_BUS_INFO_PROPERTIES_EXT};
+    VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
+                                               .pNext = pci ? &bus : NULL};
+    VkPhysicalDeviceIDProperties id = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES, .pNext = &driver};
+    VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &id};
+    VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features12};
+    VkPhysicalDeviceMemoryProperties memory;
+    uint32_t bits;
+
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    *info = (struct gpu_info){.index = index};
+    snprintf(info->name, sizeof info->name, "%.255s", properties.properties.deviceName);
+    snprintf(info->driver, sizeof info->driver, "%.100s %.100s", driver.driverName, driver.driverInfo);
+    for (size_t i = 0; i < VK_UUID_SIZE; i++)
+        snprintf(info->uuid + 2 * i, 3, "%02x", id.deviceUUID[i]);
+    if (pci)
+        snprintf(info->pci, sizeof info->pci, "%04x:%02x:%02x.%x", bus.pciDomain & 0xffff, bus.pciBus & 0xff,
+                 bus.pciDevice & 0xff, bus.pciFunction & 0xf);
+    int type = (int)properties.properties.deviceType;
+    snprintf(info->type, sizeof info->type, "%s", types[type >= 0 && type <= 4 ? type : 0]);
+    info->is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    for (uint32_t i = 0; i < memory.memoryHeapCount; i++)
+        if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) && memory.memoryHeaps[i].size > info->memory)
+            info->memory = memory.memoryHeaps[i].size;
+    if (properties.properties.apiVersion >= VK_API_VERSION_1_2) {
+        vkGetPhysicalDeviceFeatures2(physical, &features);
+        info->usable = features12.bufferDeviceAddress && features12.scalarBlockLayout &&
+                       compute_family(physical, &bits) != UINT32_MAX;
+    }
+}
+
+static status enumerate(VkInstance instance, VkPhysicalDevice **physical, struct gpu_info **info, uint32_t *n)
+{
+    status st = OK;
+    *physical = NULL;
+    *info = NULL;
+    *n = 0;
+    VkResult result = vkEnumeratePhysicalDevices(instance, n, NULL);
+    if (result != VK_SUCCESS || *n == 0)
+        return fail(E_DEVICE, "no Vulkan device found; install mesa-vulkan-drivers for a CPU device, or the GPU's driver");
+    TRY(memory_alloc(*n, sizeof **physical, "the list of devices", physical));
+    TRY(memory_alloc(*n, sizeof **info, "the list of devices", info));
+    vkEnumeratePhysicalDevices(instance, n, *physical);
+    for (uint32_t i = 0; i < *n; i++)
+        describe((*physical)[i], (int)i, &(*info)[i]);
+done:
+    return st;
+}
+
+status gpu_list(struct gpu_info **out, size_t *n)
+{
+    status st = OK;
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice *physical = NULL;
+    struct gpu_info *info = NULL;
+    uint32_t count = 0;
+    TRY(instance_create(&instance));
+    TRY(enumerate(instance, &physical, &info, &count));
+    *out = info;
+    *n = count;
+    info = NULL;
+done:
+    free(physical);
+    free(info);
+    if (instance)
+        vkDestroyInstance(instance, NULL);
+    return st;
+}
+
+static int preference(const struct gpu_info *info)
+{
+    static const char *const order[] = {"discrete", "integrated", "virtual", "other", "cpu"};
+    int rank = 0;
+    while (rank < 4 && strcmp(info->type, order[rank]) != 0)
+        rank++;
+    return info->usable ? rank : 99;
+}
+
+/* Slurm numbers its GPUs by PCI address; Vulkan does not. */
+static int slurm_device(const struct gpu_info *info, uint32_t n, const char **why)
+{
+    const char *ids = getenv("SLURM_STEP_GPUS");
+    int gpus[64], n_gpus = 0;
+    if (!ids)
+        ids = getenv("SLURM_JOB_GPUS");
+    for (uint32_t i = 0; i < n && n_gpus < 64; i++)
+        if (info[i].usable && !info[i].is_cpu)
+            gpus[n_gpus++] = (int)i;
+    if (n_gpus == 1)
+        return gpus[0];
+    *why = n_gpus == 0 ? "no GPU is visible, and Slurm jobs never fall back to a CPU device"
+           : !ids      ? "neither SLURM_STEP_GPUS nor SLURM_JOB_GPUS is set"
+                       : "the GPUs' PCI addresses are unknown, so Slurm's numbers cannot be matched";
+    if (n_gpus == 0 || !ids)
+        return -1;
+    for (int i = 1; i < n_gpus; i++)
+        for (int j = i; j > 0 && strcmp(info[gpus[j]].pci, info[gpus[j - 1]].pci) < 0; j--) {
+            int swap = gpus[j];
+            gpus[j] = gpus[j - 1];
+            gpus[j - 1] = swap;
+        }
+    if (info[gpus[0]].pci[0] == '\0')
+        return -1;
+    *why = "Slurm's number is not one of the GPUs seen here";
+    int wanted = atoi(ids);
+    return isdigit((unsigned char)*ids) && wanted < n_gpus ? gpus[wanted] : -1;
+}
+
+static status choose(const char *wanted, const struct gpu_info *info, uint32_t n, uint32_t *chosen)
+{
+    int found = -1;
+    const char *why = "there is no such device";
+    if (!wanted || strcmp(wanted, "auto") == 0) {
+        why = "none of them has Vulkan 1.2 with buffer addresses and scalar layout";
+        for (uint32_t i = 0; i < n; i++)
+            if (info[i].usable && (found < 0 || preference(&info[i]) < preference(&info[found])))
+                found = (int)i;
+    } else if (strcmp(wanted, "slurm") == 0) {
+        found = slurm_device(info, n, &why);
+    } else if (strncmp(wanted, "uuid:", 5) == 0 || strncmp(wanted, "pci:", 4) == 0) {
+        bool uuid = wanted[0] == 'u';
+        char hex[64] = "";
+        size_t length = 0;
+        for (const char *c = wanted + (uuid ? 5 : 4); *c && length < sizeof hex - 1; c++)
+            if (!uuid || *c != '-')
+                hex[length++] = *c;
+        for (uint32_t i = 0; i < n && found < 0; i++)
+            if (length && strcasecmp(uuid ? info[i].uuid : info[i].pci, hex) == 0)
+                found = (int)i;
+    } else {
+        char *end;
+        long index = strtol(wanted, &end, 10);
+        if (*wanted == '\0' || *end || index < 0)
+            return fail(E_USAGE, "--device %.60s: write auto, INDEX, uuid:HEX, pci:DDDD:BB:DD.F or slurm", wanted);
+        found = index < (long)n ? (int)index : -1;
+    }
+    if (found >= 0 && !info[found].usable) {
+        why = "it lacks Vulkan 1.2 with buffer addresses and scalar layout";
+        found = -1;
+    }
+    if (found < 0) {
+        char list[512] = "";
+        size_t used = 0;
+        for (uint32_t i = 0; i < n && used < sizeof list - 1; i++)
+            used += (size_t)snprintf(list + used, sizeof list - used, "%s%u: %s", i ? ", " : "", i, info[i].name);
+        return fail(E_DEVICE, "--device %s: %s; devices here: %s", wanted ? wanted : "auto", why, list);
+    }
+    *chosen = (uint32_t)found;
+    return OK;
+}
+
+static status device_open(struct gpu *gpu)
+{
+    float priority = 1;
+    const char *extension[1];
+    uint32_t n_extensions = 0;
+    gpu->family = compute_family(gpu->physical, &gpu->timestamp_bits);
+    gpu->has_budget = has_extension(gpu->physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+    if (gpu->has_budget)
+        extension[n_extensions++] = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
+    VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                     .queueFamilyIndex = gpu->family,
+                                     .queueCount = 1,
+                                     .pQueuePriorities = &priority};
+    VkPhysicalDeviceVulkan12Features features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                                 .bufferDeviceAddress = VK_TRUE,
+                                                 .scalarBlockLayout = VK_TRUE};
+    VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                               .pNext = &features,
+                               .queueCreateInfoCount = 1,
+                               .pQueueCreateInfos = &queue,
+                               .enabledExtensionCount = n_extensions,
+                               .ppEnabledExtensionNames = extension};
+    VkPhysicalDeviceProperties properties;
+    VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                    .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
+                                    .queueFamilyIndex = gpu->family};
+    vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
+    vkGetPhysicalDeviceProperties(gpu->physical, &properties);
+    gpu->range_limit = gpu->options.range_limit ? gpu->options.range_limit : properties.limits.maxStorageBufferRange;
+    gpu->texel_limit = properties.limits.maxTexelBufferElements;
+    gpu->group_limit = properties.limits.maxComputeWorkGroupCount[0];
+    gpu->timestamp_ns = (double)properties.limits.timestampPeriod;
+    gpu->variant = gpu->options.variant  ? (enum kernel_variant)(gpu->options.variant - 1)
+                   : gpu->info.is_cpu    ? VARIANT_TEXEL
+                                         : VARIANT_STORAGE;
+    VK_TRY(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device));
+    vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
+    VK_TRY(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->commands));
+    if (!gpu->info.is_cpu) {
+        raw_buffer_create(gpu, STAGING_BYTES, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                          VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                          VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &gpu->staging, &gpu->staging_memory);
+        if (gpu->st == OK)
+            VK_TRY(gpu, vkMapMemory(gpu->device, gpu->staging_memory, 0, VK_WHOLE_SIZE, 0, (void **)&gpu->staging_mapped));
+    }
+    slots_create(gpu);
+done:
+    return gpu_status(gpu);
+}
+
+status gpu_create(const struct gpu_options *options, struct gpu **out)
+{
+    status st = OK;
+    VkPhysicalDevice *physical = NULL;
+    struct gpu_info *info = NULL;
+    uint32_t n, chosen;
+    struct gpu *gpu = NULL;
+    TRY(memory_alloc(1, sizeof *gpu, "the device", &gpu));
+    gpu->options = *options;
+    gpu->epoch = 1;
+    TRY(instance_create(&gpu->instance));
+    TRY(enumerate(gpu->instance, &physical, &info, &n));
+    TRY(choose(options->device, info, n, &chosen));
+    gpu->info = info[chosen];
+    gpu->physical = physical[chosen];
+    TRY(device_open(gpu));
+    *out = gpu;
+    gpu = NULL;
+done:
+    free(physical);
+    free(info);
+    gpu_destroy(&gpu);
+    return st;
+}
+
+void gpu_destroy(struct gpu **handle)
+{
+    struct gpu *gpu = *handle;
+    if (!gpu)
+        return;
+    if (gpu->device) {
+        vkDeviceWaitIdle(gpu->device);
+        pipelines_destroy(gpu);
+        slots_destroy(gpu);
+        vkDestroyBuffer(gpu->device, gpu->staging, NULL);
+        vkFreeMemory(gpu->device, gpu->staging_memory, NULL);
+        vkDestroyCommandPool(gpu->device, gpu->commands, NULL);
+        vkDestroyDevice(gpu->device, NULL);
+    }
+    if (gpu->instance)
+        vkDestroyInstance(gpu->instance, NULL);
+    free(gpu);
+    *handle = NULL;
+}
+
+const struct gpu_info *gpu_info(const struct gpu *gpu)
+{
+    return &gpu->info;
+}
+
+uint64_t gpu_memory_free(const struct gpu *gpu)
+{
+    if (gpu->info.is_cpu)
+        return memory_available();
+    if (!gpu->has_budget)
+        return gpu->info.memory;
+    VkPhysicalDeviceMemoryBudgetPropertiesEXT budget = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT};
+    VkPhysicalDeviceMemoryProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
+                                                    .pNext = &budget};
+    uint64_t most = 0;
+    vkGetPhysicalDeviceMemoryProperties2(gpu->physical, &properties);
+    for (uint32_t i = 0; i < gpu->memory.memoryHeapCount; i++) {
+        uint64_t left = budget.heapBudget[i] > budget.heapUsage[i] ? budget.heapBudget[i] - budget.heapUsage[i] : 0;
+        if ((gpu->memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) && left > most)
+            most = left;
+    }
+    return most;
+}
+
+uint64_t gpu_kernels_hash(void)
+{
+    uint64_t hash[KERNELS][VARIANTS];
+    for (int i = 0; i < KERNELS; i++)
+        for (int v = 0; v < VARIANTS; v++)
+            hash[i][v] = hash_bytes(kernel_source[i].spirv[v], kernel_source[i].size[v]);
+    return hash_bytes(hash, sizeof hash);
+}

@@ -1,0 +1,187 @@
+/* Recording: commands into slots, barriers between those that touch the same buffer, submission, timers. */
+#include <assert.h>
+#include <string.h>
+
+#include "gpu/internal.h"
+
+bool slots_create(struct gpu *gpu)
+{
+    VkCommandBufferAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                            .commandPool = gpu->commands,
+                                            .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                            .commandBufferCount = 1};
+    VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, DISPATCHES_PER_SLOT * BINDINGS_MAX},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, DISPATCHES_PER_SLOT * BINDINGS_MAX},
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, DISPATCHES_PER_SLOT},
+    };
+    VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                       .maxSets = DISPATCHES_PER_SLOT,
+                                       .poolSizeCount = 3,
+                                       .pPoolSizes = sizes};
+    VkQueryPoolCreateInfo queries = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                     .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                     .queryCount = 2 * DISPATCHES_PER_SLOT};
+    for (int i = 0; i < SLOTS && gpu->st == OK; i++) {
+        struct slot *s = &gpu->slot[i];
+        VK_TRY(gpu, vkAllocateCommandBuffers(gpu->device, &allocate, &s->commands));
+        VK_TRY(gpu, vkCreateFence(gpu->device, &fence, NULL, &s->fence));
+        VK_TRY(gpu, vkCreateDescriptorPool(gpu->device, &pool, NULL, &s->pool));
+        VK_TRY(gpu, vkCreateQueryPool(gpu->device, &queries, NULL, &s->queries));
+        raw_buffer_create(gpu, (VkDeviceSize)DISPATCHES_PER_SLOT * BINDINGS_MAX * 16, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                          VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0, &s->addresses,
+                          &s->addresses_memory);
+        if (gpu->st == OK)
+            VK_TRY(gpu,
+                   vkMapMemory(gpu->device, s->addresses_memory, 0, VK_WHOLE_SIZE, 0, (void **)&s->addresses_mapped));
+    }
+done:
+    return gpu->st == OK;
+}
+
+void slots_destroy(struct gpu *gpu)
+{
+    for (int i = 0; i < SLOTS; i++) {
+        struct slot *s = &gpu->slot[i];
+        vkDestroyFence(gpu->device, s->fence, NULL);
+        vkDestroyDescriptorPool(gpu->device, s->pool, NULL);
+        vkDestroyQueryPool(gpu->device, s->queries, NULL);
+        vkDestroyBuffer(gpu->device, s->addresses, NULL);
+        vkFreeMemory(gpu->device, s->addresses_memory, NULL);
+    }
+}
+
+static void collect_times(struct gpu *gpu, struct slot *s)
+{
+    uint64_t stamp[2 * DISPATCHES_PER_SLOT];
+    if (!gpu->timestamp_bits || s->n_dispatches == 0)
+        return;
+    VK_TRY(gpu, vkGetQueryPoolResults(gpu->device, s->queries, 0, 2 * s->n_dispatches,
+                                      2 * s->n_dispatches * sizeof *stamp, stamp, sizeof *stamp,
+                                      VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    for (uint32_t i = 0; i < s->n_dispatches; i++) {
+        uint64_t ns = (uint64_t)((double)(stamp[2 * i + 1] - stamp[2 * i]) * gpu->timestamp_ns);
+        struct gpu_time *times[] = {&gpu->kernel[s->dispatch[i].kernel], &gpu->stage[s->dispatch[i].stage]};
+        for (int t = 0; t < 2; t++) {
+            times[t]->ns += ns;
+            times[t]->dispatches++;
+        }
+    }
+done:;
+}
+
+static void slot_finish(struct gpu *gpu, struct slot *s)
+{
+    if (!s->submitted || gpu->st != OK)
+        return;
+    VK_TRY(gpu, vkWaitForFences(gpu->device, 1, &s->fence, VK_TRUE, UINT64_MAX));
+    s->submitted = false;
+    collect_times(gpu, s);
+    VK_TRY(gpu, vkResetFences(gpu->device, 1, &s->fence));
+    VK_TRY(gpu, vkResetDescriptorPool(gpu->device, s->pool, 0));
+done:;
+}
+
+VkCommandBuffer record_begin(struct gpu *gpu)
+{
+    struct slot *s = &gpu->slot[gpu->current];
+    VkCommandBufferBeginInfo begin = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                      .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    if (gpu->st != OK)
+        return VK_NULL_HANDLE;
+    if (gpu->recording)
+        return s->commands;
+    slot_finish(gpu, s);
+    s->n_dispatches = 0;
+    VK_TRY(gpu, vkBeginCommandBuffer(s->commands, &begin));
+    vkCmdResetQueryPool(s->commands, s->queries, 0, 2 * DISPATCHES_PER_SLOT);
+    gpu->recording = true;
+done:
+    return gpu->st == OK ? s->commands : VK_NULL_HANDLE;
+}
+
+static void barrier(struct gpu *gpu, VkCommandBuffer commands)
+{
+    VkMemoryBarrier memory = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                              .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                              .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                                               VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
+    VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    vkCmdPipelineBarrier(commands, stages, stages, 0, 1, &memory, 0, NULL, 0, NULL);
+    gpu->epoch++;
+}
+
+void record_accesses(struct gpu *gpu, VkCommandBuffer commands, const struct access *access, size_t n)
+{
+    bool conflict = false;
+    for (size_t i = 0; i < n; i++) {
+        const struct gpu_buffer *b = access[i].buffer;
+        conflict |= b->written == gpu->epoch || (access[i].write && b->read == gpu->epoch);
+    }
+    if (conflict)
+        barrier(gpu, commands);
+    for (size_t i = 0; i < n; i++)
+        *(access[i].write ? &access[i].buffer->written : &access[i].buffer->read) = gpu->epoch;
+}
+
+void gpu_submit(struct gpu *gpu)
+{
+    struct slot *s = &gpu->slot[gpu->current];
+    VkSubmitInfo submit = {
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &s->commands};
+    VkMemoryBarrier to_host = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                               .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                               .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
+    if (gpu->st != OK || !gpu->recording)
+        return;
+    /* The next slot's commands may touch the same buffers, and the host may read them after the fence. */
+    barrier(gpu, s->commands);
+    vkCmdPipelineBarrier(s->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                         VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0, NULL, 0, NULL);
+    gpu->recording = false;
+    VK_TRY(gpu, vkEndCommandBuffer(s->commands));
+    VK_TRY(gpu, vkQueueSubmit(gpu->queue, 1, &submit, s->fence));
+    s->submitted = true;
+    gpu->current = (gpu->current + 1) % SLOTS;
+done:;
+}
+
+status gpu_wait(struct gpu *gpu)
+{
+    gpu_submit(gpu);
+    for (int i = 0; i < SLOTS; i++)
+        slot_finish(gpu, &gpu->slot[(gpu->current + i) % SLOTS]);
+    return gpu_status(gpu);
+}
+
+void gpu_stage(struct gpu *gpu, const char *name)
+{
+    for (int i = 0; i < gpu->n_stages; i++)
+        if (strcmp(gpu->stage[i].name, name) == 0) {
+            gpu->current_stage = i;
+            return;
+        }
+    assert(gpu->n_stages < STAGES_MAX);
+    gpu->current_stage = gpu->n_stages++;
+    gpu->stage[gpu->current_stage] = (struct gpu_time){.name = name};
+}
+
+size_t gpu_stage_times(const struct gpu *gpu, const struct gpu_time **times)
+{
+    *times = gpu->stage;
+    return (size_t)gpu->n_stages;
+}
+
+const struct gpu_time *gpu_kernel_time(const struct gpu *gpu, enum gpu_kernel kernel)
+{
+    return &gpu->kernel[kernel];
+}
+
+void gpu_times_reset(struct gpu *gpu)
+{
+    for (int i = 0; i < gpu->n_stages; i++)
+        gpu->stage[i].ns = gpu->stage[i].dispatches = 0;
+    for (int i = 0; i < KERNELS; i++)
+        gpu->kernel[i] = (struct gpu_time){.name = kernel_source[i].name};
+}

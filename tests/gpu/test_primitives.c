@@ -1,0 +1,257 @@
+/* Scan, sort, compaction, reductions and pointer doubling against plain C, in every kernel variant and past the device's range. */
+#include "check.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "gpu/kernel_source.h"
+#include "gpu/primitives.h"
+
+static uint32_t noise(uint32_t x)
+{
+    x = (x ^ 61u) ^ (x >> 16);
+    x *= 9u;
+    x ^= x >> 4;
+    x *= 0x27d4eb2du;
+    return x ^ (x >> 15);
+}
+
+static struct gpu *open_gpu(void **state)
+{
+    const struct gpu_options *options = *state;
+    struct gpu *gpu = NULL;
+    assert_ok(gpu_create(options, &gpu));
+    return gpu;
+}
+
+static struct gpu_buffer *buffer_of(struct gpu *gpu, const void *data, size_t n)
+{
+    struct gpu_buffer *b = NULL;
+    assert_ok(gpu_buffer_create(gpu, "test", n, 4, &b));
+    if (data)
+        assert_ok(gpu_upload(gpu, b, 0, data, n));
+    return b;
+}
+
+static uint32_t *random_words(size_t n, uint32_t below)
+{
+    uint32_t *v = malloc((n + 1) * sizeof *v);
+    for (size_t i = 0; i < n; i++)
+        v[i] = noise((uint32_t)i) % below;
+    return v;
+}
+
+static void scan_equals_running_sum(void **state)
+{
+    static const size_t sizes[] = {1, 2, 63, 64, 65, 4096, 4097, 300001};
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_work *work;
+    assert_ok(gpu_work_create(gpu, 300001, &work));
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+        size_t n = sizes[s];
+        uint32_t *v = random_words(n, 1000), *got = malloc(n * 4), sum = 0;
+        struct gpu_buffer *b = buffer_of(gpu, v, n);
+        gpu_scan(gpu, work, b, n);
+        assert_ok(gpu_download(gpu, b, 0, got, n));
+        for (size_t i = 0; i < n; sum += v[i++])
+            assert_int_equal(got[i], sum);
+        gpu_buffer_destroy(gpu, &b);
+        free(v);
+        free(got);
+    }
+    gpu_work_destroy(gpu, &work);
+    gpu_destroy(&gpu);
+}
+
+static void sort_is_stable_by_id(void **state)
+{
+    enum { N = 50000, KEYS = 7000 };
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_work *work;
+    uint32_t *keys = random_words(N, KEYS), *ids = malloc(N * 4), *order = malloc(N * 4), *start = malloc((KEYS + 1) * 4);
+    assert_ok(gpu_work_create(gpu, N, &work));
+    for (uint32_t i = 0; i < N; i++)
+        ids[i] = i * 2654435761u; /* unique, in no order */
+    struct gpu_sort sort = {.keys = buffer_of(gpu, keys, N),
+                            .ids = buffer_of(gpu, ids, N),
+                            .start = buffer_of(gpu, NULL, KEYS + 1),
+                            .order = buffer_of(gpu, NULL, N),
+                            .taken = buffer_of(gpu, NULL, KEYS),
+                            .unordered = buffer_of(gpu, NULL, N),
+                            .n = N,
+                            .n_keys = KEYS,
+                            .n_ordered = KEYS};
+    gpu_sort(gpu, work, &sort);
+    assert_ok(gpu_download(gpu, sort.order, 0, order, N));
+    assert_ok(gpu_download(gpu, sort.start, 0, start, KEYS + 1));
+    assert_int_equal(start[KEYS], N);
+    for (uint32_t r = 0; r < N; r++) {
+        uint32_t i = order[r];
+        assert_true(start[keys[i]] <= r && r < start[keys[i] + 1]);
+        if (r > 0)
+            assert_true(keys[order[r - 1]] < keys[i] || (keys[order[r - 1]] == keys[i] && ids[order[r - 1]] < ids[i]));
+    }
+    gpu_buffer_destroy(gpu, &sort.keys);
+    gpu_buffer_destroy(gpu, &sort.ids);
+    gpu_buffer_destroy(gpu, &sort.start);
+    gpu_buffer_destroy(gpu, &sort.order);
+    gpu_buffer_destroy(gpu, &sort.taken);
+    gpu_buffer_destroy(gpu, &sort.unordered);
+    gpu_work_destroy(gpu, &work);
+    gpu_destroy(&gpu);
+    free(keys);
+    free(ids);
+    free(order);
+    free(start);
+}
+
+static void compaction_keeps_order(void **state)
+{
+    enum { N = 12345 };
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_work *work;
+    uint32_t *flags = random_words(N, 2), *list = malloc(N * 4);
+    size_t n_list, expected = 0;
+    assert_ok(gpu_work_create(gpu, N, &work));
+    struct gpu_buffer *f = buffer_of(gpu, flags, N), *place = buffer_of(gpu, NULL, N), *l = buffer_of(gpu, NULL, N);
+    assert_ok(gpu_compact(gpu, work, f, place, l, N, &n_list));
+    assert_ok(gpu_download(gpu, l, 0, list, n_list));
+    for (uint32_t i = 0; i < N; i++)
+        if (flags[i])
+            assert_int_equal(list[expected++], i);
+    assert_int_equal(n_list, expected);
+    gpu_buffer_destroy(gpu, &f);
+    gpu_buffer_destroy(gpu, &place);
+    gpu_buffer_destroy(gpu, &l);
+    gpu_work_destroy(gpu, &work);
+    gpu_destroy(&gpu);
+    free(flags);
+    free(list);
+}
+
+static void reductions_agree_with_double(void **state)
+{
+    enum { N = 100003 };
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_work *work;
+    float *v = malloc(N * sizeof *v), got[2], most = 0;
+    double sum = 0;
+    assert_ok(gpu_work_create(gpu, N, &work));
+    for (uint32_t i = 0; i < N; i++) {
+        v[i] = (float)noise(i) / 4294967296.0f - 0.25f;
+        sum += (double)v[i];
+        most = v[i] > most ? v[i] : -v[i] > most ? -v[i] : most;
+    }
+    struct gpu_buffer *b = buffer_of(gpu, v, N), *scalars = buffer_of(gpu, NULL, 8);
+    gpu_sum(gpu, work, b, N, scalars, 3);
+    gpu_max(gpu, work, b, N, scalars, 4);
+    assert_ok(gpu_download(gpu, scalars, 3, got, 2));
+    assert_true((double)got[0] > sum * (1 - 1e-5) && (double)got[0] < sum * (1 + 1e-5));
+    assert_true(got[1] >= most && got[1] <= most);
+    v[N / 2] = (float)0x7fc00000; /* replaced below by a NaN, by its bits */
+    uint32_t nan = 0x7fc00000u;
+    memcpy(&v[N / 2], &nan, 4);
+    assert_ok(gpu_upload(gpu, b, 0, v, N));
+    gpu_max(gpu, work, b, N, scalars, 4);
+    assert_ok(gpu_download(gpu, scalars, 4, got, 1));
+    assert_true(got[0] > 1e38f);
+    gpu_buffer_destroy(gpu, &b);
+    gpu_buffer_destroy(gpu, &scalars);
+    gpu_work_destroy(gpu, &work);
+    gpu_destroy(&gpu);
+    free(v);
+}
+
+static void pointers_double_to_their_roots(void **state)
+{
+    enum { N = 40000 };
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_work *work;
+    uint32_t *p = malloc(N * 4), *got = malloc(N * 4);
+    assert_ok(gpu_work_create(gpu, N, &work));
+    for (uint32_t i = 0; i < N; i++)
+        p[i] = i < 10 ? i : i < N / 2 ? i - 1 : noise(i) % i; /* one long chain, and a bush */
+    struct gpu_buffer *b = buffer_of(gpu, p, N), *other = buffer_of(gpu, NULL, N);
+    assert_ok(gpu_double_pointers(gpu, work, b, other, N));
+    assert_ok(gpu_download(gpu, b, 0, got, N));
+    for (uint32_t i = 0; i < N; i++) {
+        uint32_t root = i;
+        while (p[root] != root)
+            root = p[root] < i ? got[p[root]] : p[root];
+        assert_int_equal(got[i], root);
+    }
+    gpu_buffer_destroy(gpu, &b);
+    gpu_buffer_destroy(gpu, &other);
+    gpu_work_destroy(gpu, &work);
+    gpu_destroy(&gpu);
+    free(p);
+    free(got);
+}
+
+/* lavapipe binds at most 128 MiB as a storage buffer. */
+static void buffers_beyond_the_storage_range_work(void **state)
+{
+    enum { N = 48 << 20 };
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_buffer *b = buffer_of(gpu, NULL, N);
+    struct count_params k = {N};
+    uint32_t got[3];
+    GPU_RUN(gpu, gpu_iota, N, k, b);
+    assert_ok(gpu_download(gpu, b, N - 3, got, 3));
+    assert_int_equal(got[0], N - 3);
+    assert_int_equal(got[2], N - 1);
+    assert_ok(gpu_download(gpu, b, 33554433, got, 1));
+    assert_int_equal(got[0], 33554433);
+    gpu_buffer_destroy(gpu, &b);
+    gpu_destroy(&gpu);
+}
+
+static void unknown_devices_are_refused(void **state)
+{
+    static const char *const wrong[] = {"99", "uuid:00000000000000000000000000000001", "pci:ffff:ff:1f.7", "slurm"};
+    struct gpu *gpu = NULL;
+    (void)state;
+    unsetenv("SLURM_JOB_GPUS");
+    unsetenv("SLURM_STEP_GPUS");
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        if (i == 3 && gpu_create(&(struct gpu_options){.device = "auto"}, &gpu) == OK && !gpu_info(gpu)->is_cpu) {
+            gpu_destroy(&gpu); /* with one GPU Slurm needs no number */
+            continue;
+        }
+        gpu_destroy(&gpu);
+        assert_int_equal(gpu_create(&(struct gpu_options){.device = wrong[i]}, &gpu), E_DEVICE);
+        assert_non_null(strstr(status_message(), "devices here"));
+    }
+    assert_int_equal(gpu_create(&(struct gpu_options){.device = "first"}, &gpu), E_USAGE);
+}
+
+static void a_buffer_too_large_is_refused_with_its_size(void **state)
+{
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_buffer *b = NULL;
+    assert_int_equal(gpu_buffer_create(gpu, "huge", (size_t)1 << 40, 16, &b), E_MEMORY);
+    assert_non_null(strstr(status_message(), "huge"));
+    assert_non_null(strstr(status_message(), "MB"));
+    assert_ok(gpu_buffer_create(gpu, "small", 16, 16, &b));
+    gpu_buffer_destroy(gpu, &b);
+    gpu_destroy(&gpu);
+}
+
+int main(void)
+{
+    static struct gpu_options own = {.device = "auto"};
+    static struct gpu_options storage = {.device = "auto", .variant = VARIANT_STORAGE + 1};
+    static struct gpu_options wide = {.device = "auto", .range_limit = 1};
+#define EACH(test, options) {#test " (" #options ")", test, NULL, NULL, &options}
+    const struct CMUnitTest tests[] = {
+        EACH(scan_equals_running_sum, own),        EACH(scan_equals_running_sum, storage),
+        EACH(scan_equals_running_sum, wide),       EACH(sort_is_stable_by_id, own),
+        EACH(sort_is_stable_by_id, storage),       EACH(sort_is_stable_by_id, wide),
+        EACH(compaction_keeps_order, own),         EACH(compaction_keeps_order, wide),
+        EACH(reductions_agree_with_double, own),   EACH(reductions_agree_with_double, storage),
+        EACH(reductions_agree_with_double, wide),  EACH(pointers_double_to_their_roots, own),
+        EACH(pointers_double_to_their_roots, wide), EACH(buffers_beyond_the_storage_range_work, own),
+        EACH(unknown_devices_are_refused, own),    EACH(a_buffer_too_large_is_refused_with_its_size, own),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
