@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Surface particles are those with an empty voxel at a face of theirs (Arenite 5.1). Below the ground is not empty.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_V(0, position)
+READ_U(1, start)
+WRITE_U(2, exposed)
+PARAMS(voxel_params)
+#include "particles/voxel.glsl"
+
+bool empty(ivec3 v)
+{
+    if (v.z < 0)
+        return false;
+    if (!voxel_inside(v))
+        return true;
+    uint c = voxel_index(v);
+    return LOAD_U(start, c) == LOAD_U(start, c + 1u);
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    ivec3 v = voxel_of(LOAD_V(position, i).xyz);
+    bool bare = empty(v + ivec3(1, 0, 0)) || empty(v - ivec3(1, 0, 0)) || empty(v + ivec3(0, 1, 0)) ||
+                empty(v - ivec3(0, 1, 0)) || empty(v + ivec3(0, 0, 1)) || empty(v - ivec3(0, 0, 1));
+    AT(exposed, i) = bare ? 1u : 0u;
+}

@@ -1,0 +1,63 @@
+// K u at a node: linear elasticity on trilinear hexahedra, one element matrix for all cells, scaled by their stiffness.
+//
+// With N_a the product of (1 -+ x) / 2 along the axes, the blocks of the element matrix are
+//   K_ab^ii = (lambda + 2 mu) s_i m_j m_k + mu (s_j m_i m_k + s_k m_i m_j)
+//   K_ab^ij = (lambda g_ai g_bj + mu g_aj g_bi) m_k / 4
+// where along each axis s = 1, m = 1/3 if a and b agree, s = -1, m = 1/6 if not, and g = -1 at the low end, 1 at the high end. These
+// have ten distinct magnitudes; everything else below is a constant once unrolled.
+// Needs READ_V(u), READ_F(fill), k.lambda, k.mu, k.dx and stress/grid.glsl.
+
+#define SAME(a, b) ((a) == (b))
+#define M(a, b) (SAME(a, b) ? 1.0 / 3.0 : 1.0 / 6.0)
+#define S(a, b) (SAME(a, b) ? 1.0 : -1.0)
+#define G(a) (2.0 * float(a) - 1.0)
+#define DIAGONAL(ai, bi, aj, bj, ak, bk)                                                                       \
+    (stiff * (S(ai, bi) * M(aj, bj) * M(ak, bk)) +                                                             \
+     shear * (S(aj, bj) * M(ai, bi) * M(ak, bk) + S(ak, bk) * M(ai, bi) * M(aj, bj)))
+// lambda g_ai g_bj + mu g_aj g_bi is +-(lambda + mu) or +-(lambda - mu)
+#define MIXED(ai, bi, aj, bj, ak, bk)                                                                          \
+    ((G(ai) * G(bj) * M(ak, bk)) * (G(ai) * G(bj) == G(aj) * G(bi) ? both : difference))
+#define TERM(ax, ay, az, bx, by, bz)                                                                           \
+    {                                                                                                          \
+        const vec3 w = near[(bz - az + 1) * 9 + (by - ay + 1) * 3 + (bx - ax + 1)];                            \
+        float xy = MIXED(ax, bx, ay, by, az, bz), xz = MIXED(ax, bx, az, bz, ay, by);                          \
+        float yx = MIXED(ay, by, ax, bx, az, bz), yz = MIXED(ay, by, az, bz, ax, bx);                          \
+        float zx = MIXED(az, bz, ax, bx, ay, by), zy = MIXED(az, bz, ay, by, ax, bx);                          \
+        f.x += DIAGONAL(ax, bx, ay, by, az, bz) * w.x + xy * w.y + xz * w.z;                                   \
+        f.y += DIAGONAL(ay, by, ax, bx, az, bz) * w.y + yx * w.x + yz * w.z;                                   \
+        f.z += DIAGONAL(az, bz, ax, bx, ay, by) * w.z + zx * w.x + zy * w.y;                                   \
+    }
+// The cell in which the node is corner (ax, ay, az).
+#define CELL(ax, ay, az)                                                                                       \
+    {                                                                                                          \
+        vec3 f = vec3(0.0);                                                                                    \
+        TERM(ax, ay, az, 0, 0, 0) TERM(ax, ay, az, 1, 0, 0) TERM(ax, ay, az, 0, 1, 0) TERM(ax, ay, az, 1, 1, 0) \
+        TERM(ax, ay, az, 0, 0, 1) TERM(ax, ay, az, 1, 0, 1) TERM(ax, ay, az, 0, 1, 1) TERM(ax, ay, az, 1, 1, 1) \
+        float scale = stiffness(LOAD_F(fill, cell_index(a - ivec3(ax, ay, az))));                              \
+        sum += scale * f;                                                                                      \
+        scales += scale;                                                                                       \
+    }
+
+// xyz: K u (N, for u in m); w: the sum of the cells' stiffness shares.
+vec4 apply_stiffness(ivec3 a)
+{
+    float stiff = (k.lambda + 2.0 * k.mu) * k.dx, shear = k.mu * k.dx;
+    float both = (k.lambda + k.mu) * k.dx / 4.0, difference = (k.lambda - k.mu) * k.dx / 4.0;
+    vec3 near[27];
+    for (int z = 0; z < 3; z++)
+        for (int y = 0; y < 3; y++) {
+            int row = int(node_index(a + ivec3(-1, y - 1, z - 1)));
+            for (int x = 0; x < 3; x++)
+                near[z * 9 + y * 3 + x] = LOAD_V(u, row + x).xyz;
+        }
+    vec3 sum = vec3(0.0);
+    float scales = 0.0;
+    CELL(0, 0, 0) CELL(1, 0, 0) CELL(0, 1, 0) CELL(1, 1, 0) CELL(0, 0, 1) CELL(1, 0, 1) CELL(0, 1, 1) CELL(1, 1, 1)
+    return vec4(sum, scales);
+}
+
+// The diagonal of K at a node is the same on all axes: this times the sum of its cells' stiffness shares.
+float diagonal_unit()
+{
+    return (k.lambda + 4.0 * k.mu) * k.dx / 9.0;
+}

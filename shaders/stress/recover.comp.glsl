@@ -1,0 +1,43 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Stress at each cell's centre, Pa, tension positive: (xx, yy, zz, T = -trace) and (xy, yz, xz, von Mises).
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_V(0, u)
+READ_F(1, fill)
+WRITE_V(2, normal_stress)
+WRITE_V(3, shear_stress)
+PARAMS(stress_params)
+#include "stress/grid.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    vec4 normal = vec4(0.0), shear = vec4(0.0);
+    if (LOAD_F(fill, i) > 0.0) {
+        ivec3 c = ivec3(i % k.cx, (i / k.cx) % k.cy, i / (k.cx * k.cy));
+        vec3 dx = vec3(0.0), dy = vec3(0.0), dz = vec3(0.0);
+        for (int b = 0; b < 8; b++) {
+            ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2);
+            vec3 at = LOAD_V(u, node_index(c + corner)).xyz;
+            dx += corner.x == 1 ? at : -at;
+            dy += corner.y == 1 ? at : -at;
+            dz += corner.z == 1 ? at : -at;
+        }
+        float scale = 0.25 / k.dx;
+        dx *= scale;
+        dy *= scale;
+        dz *= scale;
+        float trace = dx.x + dy.y + dz.z;
+        vec3 s = k.lambda * trace + 2.0 * k.mu * vec3(dx.x, dy.y, dz.z);
+        vec3 t = k.mu * vec3(dx.y + dy.x, dy.z + dz.y, dx.z + dz.x);
+        vec3 d = s - s.yzx;
+        normal = vec4(s, -(s.x + s.y + s.z));
+        shear = vec4(t, sqrt(0.5 * dot(d, d) + 3.0 * dot(t, t)));
+    }
+    AT(normal_stress, i) = normal;
+    AT(shear_stress, i) = shear;
+}

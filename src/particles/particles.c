@@ -1,0 +1,118 @@
+#include "particles/particles.h"
+
+static size_t voxel_count(const int voxels[3])
+{
+    return (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2];
+}
+
+uint64_t particles_bytes(size_t n, const int voxels[3])
+{
+    uint64_t item = 4 * 4 + 16; /* surface, flags, place, spares */
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        item += rock_field_size((enum rock_field)f);
+    return (uint64_t)n * item + (uint64_t)voxel_count(voxels) * 8;
+}
+
+struct voxel_params particles_params(const struct particles *p, size_t n)
+{
+    return (struct voxel_params){
+        .n = (uint)n, .nx = (uint)p->voxels[0], .ny = (uint)p->voxels[1], .nz = (uint)p->voxels[2], .h = (float)p->h};
+}
+
+status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, const int voxels[3], double h,
+                        struct particles *p)
+{
+    status st = OK;
+    *p = (struct particles){
+        .n = rock->n, .n_max = rock->n, .voxels = {voxels[0], voxels[1], voxels[2]}, .h = h};
+    for (int f = 0; f < ROCK_FIELDS; f++) {
+        TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f), &p->field[f]));
+        if (rock_field_table[f].keep == STATE)
+            TRY(gpu_upload(gpu, p->field[f], 0, rock->field[f], rock->n));
+    }
+    TRY(gpu_buffer_create(gpu, "voxel start", voxel_count(voxels) + 2, 4, &p->start));
+    TRY(gpu_buffer_create(gpu, "voxel scratch", voxel_count(voxels) + 1, 4, &p->taken));
+    TRY(gpu_buffer_create(gpu, "surface list", p->n_max, 4, &p->surface));
+    TRY(gpu_buffer_create(gpu, "particle flags", p->n_max, 4, &p->flags));
+    TRY(gpu_buffer_create(gpu, "particle places", p->n_max, 4, &p->place));
+    TRY(gpu_buffer_create(gpu, "spare words", p->n_max, 4, &p->spare_word));
+    TRY(gpu_buffer_create(gpu, "spare vectors", p->n_max, 16, &p->spare_vector));
+    TRY(particles_index(gpu, work, p));
+done:
+    if (st != OK)
+        particles_destroy(gpu, p);
+    return st;
+}
+
+void particles_destroy(struct gpu *gpu, struct particles *p)
+{
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        gpu_buffer_destroy(gpu, &p->field[f]);
+    gpu_buffer_destroy(gpu, &p->start);
+    gpu_buffer_destroy(gpu, &p->taken);
+    gpu_buffer_destroy(gpu, &p->surface);
+    gpu_buffer_destroy(gpu, &p->flags);
+    gpu_buffer_destroy(gpu, &p->place);
+    gpu_buffer_destroy(gpu, &p->spare_word);
+    gpu_buffer_destroy(gpu, &p->spare_vector);
+    *p = (struct particles){0};
+}
+
+status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p)
+{
+    status st = OK;
+    size_t n_voxels = voxel_count(p->voxels);
+    struct voxel_params k = particles_params(p, p->n);
+    uint32_t alive;
+    struct gpu_sort sort = {.keys = p->flags,
+                            .ids = p->field[ROCK_id],
+                            .start = p->start,
+                            .order = p->surface, /* found anew after this */
+                            .taken = p->taken,
+                            .unordered = p->place,
+                            .n = p->n,
+                            .n_keys = n_voxels + 1,
+                            .n_ordered = n_voxels};
+    GPU_RUN(gpu, particles_key, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->flags);
+    gpu_sort(gpu, work, &sort);
+    TRY(gpu_download(gpu, p->start, n_voxels, &alive, 1));
+    for (int f = 0; f < ROCK_FIELDS; f++) {
+        if (rock_field_table[f].keep != STATE)
+            continue;
+        struct gpu_buffer **spare = rock_field_size((enum rock_field)f) == 16 ? &p->spare_vector : &p->spare_word;
+        struct gpu_buffer *old = p->field[f];
+        gpu_gather(gpu, p->surface, old, *spare, alive);
+        p->field[f] = *spare;
+        *spare = old;
+    }
+    p->n = alive;
+    p->n_surface = 0;
+done:
+    return st;
+}
+
+status particles_surface(struct gpu *gpu, struct gpu_work *work, struct particles *p)
+{
+    status st = OK;
+    struct voxel_params k = particles_params(p, p->n);
+    GPU_RUN(gpu, particles_exposed, p->n, k, p->field[ROCK_P], p->start, p->flags);
+    TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, &p->n_surface));
+    gpu_fill(gpu, p->field[ROCK_N], 0);
+    k.n = (uint)p->n_surface;
+    GPU_RUN(gpu, particles_normal, p->n_surface, k, p->surface, p->field[ROCK_P], p->start, p->field[ROCK_N]);
+done:
+    return st;
+}
+
+status particles_download(struct gpu *gpu, const struct particles *p, int keep, struct rock *out)
+{
+    status st = OK;
+    TRY(rock_alloc(out, p->n, keep));
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (out->field[f])
+            TRY(gpu_download(gpu, p->field[f], 0, out->field[f], p->n));
+done:
+    if (st != OK)
+        rock_free(out);
+    return st;
+}
