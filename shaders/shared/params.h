@@ -135,9 +135,19 @@ struct march_params {
     float down_x, down_y, down_z;    /* half its height */
     float ahead_x, ahead_y, ahead_z;
     float sun_x, sun_y, sun_z; /* unit vector towards the sun */
-    float far;                 /* m */
 };
-SHARED_SIZE(march_params, 104)
+SHARED_SIZE(march_params, 100)
+
+struct shade_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;
+    uint fx, fy, fz;
+    float voxel;
+    float origin_x, origin_y, origin_z;
+    float sun_x, sun_y, sun_z;
+};
+SHARED_SIZE(shade_params, 60)
 
 #undef SHARED_SIZE
 #endif

@@ -1,0 +1,78 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What lies under each pixel: the fields there, and the stone's colour under sun and sky.
+// fields = (stress, von Mises, viability, erodibility); color = linear RGB and alpha; ids = layer, phase of the nearest particle.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_V(0, hit)
+READ_V(1, facing)
+READ_V(2, means)
+READ_V(3, position)
+READ_U(4, start)
+READ_U(5, layer)
+READ_U(6, phase)
+READ_F(7, erodibility)
+READ_V(8, palette)
+WRITE_V(9, color)
+WRITE_V(10, fields)
+WRITE_U(11, ids)
+PARAMS(shade_params)
+#include "field/lattice.glsl"
+#include "particles/voxel.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    vec4 where = LOAD_V(hit, i);
+    if (where.w < 0.0) {
+        AT(color, i) = vec4(0.0);
+        AT(fields, i) = vec4(0.0);
+        AT(ids, 2u * i) = 0u;
+        AT(ids, 2u * i + 1u) = 0u;
+        return;
+    }
+    vec3 x = where.xyz;
+    ivec3 v = voxel_of(x), low = max(v - 2, ivec3(0)), high = min(v + 2, ivec3(k.nx, k.ny, k.nz) - 1);
+    float nearest = 1e30;
+    uint found = 0u;
+    for (int z = low.z; z <= high.z; z++)
+        for (int y = low.y; y <= high.y; y++) {
+            uint row = voxel_index(ivec3(0, y, z));
+            uint end = LOAD_U(start, row + uint(high.x) + 1u);
+            for (uint j = LOAD_U(start, row + uint(low.x)); j < end; j++) {
+                vec3 d = LOAD_V(position, j).xyz - x;
+                float d2 = dot(d, d);
+                if (d2 < nearest) {
+                    nearest = d2;
+                    found = j;
+                }
+            }
+        }
+    vec3 at = clamp((x - vec3(k.origin_x, k.origin_y, k.origin_z)) / k.voxel, vec3(0.0), vec3(k.fx, k.fy, k.fz) - 1.001);
+    ivec3 c = ivec3(at);
+    vec3 f = at - vec3(c);
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int b = 0; b < 8; b++) {
+        ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2);
+        vec3 near = mix(1.0 - f, f, vec3(corner));
+        vec4 mean = LOAD_V(means, lattice_index(c + corner));
+        float weight = mean.z > 0.0 ? near.x * near.y * near.z : 0.0; // no particle near: nothing to say
+        weights += weight;
+        sum += weight * mean;
+    }
+    if (weights > 0.0)
+        sum /= weights;
+    vec4 normal = LOAD_V(facing, i);
+    float sun = normal.w * max(dot(normal.xyz, vec3(k.sun_x, k.sun_y, k.sun_z)), 0.0);
+    float sky = 0.5 + 0.5 * normal.z;
+    vec3 light = sun * vec3(2.6, 2.3, 1.9) + mix(vec3(0.22, 0.17, 0.13), vec3(0.32, 0.40, 0.55), sky);
+    uint strata = LOAD_U(layer, found);
+    AT(color, i) = vec4(LOAD_V(palette, strata).rgb * light, 1.0);
+    AT(fields, i) = vec4(sum.xyz, LOAD_F(erodibility, found));
+    AT(ids, 2u * i) = strata;
+    AT(ids, 2u * i + 1u) = LOAD_U(phase, found);
+}

@@ -1,0 +1,64 @@
+// The distance field between its samples. Needs READ_F(distance_field) and k.voxel, k.origin_*, k.fx...
+#include "field/lattice.glsl"
+
+// x in samples from the first.
+vec3 lattice_position(vec3 x)
+{
+    return (x - vec3(k.origin_x, k.origin_y, k.origin_z)) / k.voxel;
+}
+
+float distance_at(vec3 x)
+{
+    vec3 at = clamp(lattice_position(x), vec3(0.0), vec3(k.fx, k.fy, k.fz) - 1.001);
+    ivec3 c = ivec3(at);
+    vec3 f = at - vec3(c);
+    uint i = lattice_index(c), dy = k.fx, dz = k.fx * k.fy;
+    vec4 low = vec4(LOAD_F(distance_field, i), LOAD_F(distance_field, i + dy), LOAD_F(distance_field, i + dz),
+                    LOAD_F(distance_field, i + dy + dz));
+    vec4 high = vec4(LOAD_F(distance_field, i + 1u), LOAD_F(distance_field, i + dy + 1u),
+                     LOAD_F(distance_field, i + dz + 1u), LOAD_F(distance_field, i + dy + dz + 1u));
+    vec4 along_x = mix(low, high, f.x);
+    vec2 along_y = mix(along_x.xz, along_x.yw, f.y);
+    return mix(along_y.x, along_y.y, f.z);
+}
+
+vec3 gradient_at(vec3 x)
+{
+    float e = k.voxel;
+    return vec3(distance_at(x + vec3(e, 0, 0)) - distance_at(x - vec3(e, 0, 0)),
+                distance_at(x + vec3(0, e, 0)) - distance_at(x - vec3(0, e, 0)),
+                distance_at(x + vec3(0, 0, e)) - distance_at(x - vec3(0, 0, e)));
+}
+
+// Where the ray enters and leaves the field's box; enter > leave if it misses.
+vec2 box_span(vec3 from, vec3 along)
+{
+    vec3 low = vec3(k.origin_x, k.origin_y, k.origin_z), high = low + (vec3(k.fx, k.fy, k.fz) - 1.0) * k.voxel;
+    vec3 inverse = 1.0 / mix(along, vec3(1e-20), lessThan(abs(along), vec3(1e-20)));
+    vec3 a = (low - from) * inverse, b = (high - from) * inverse;
+    vec3 first = min(a, b), second = max(a, b);
+    return vec2(max(max(first.x, first.y), max(first.z, 0.0)), min(second.x, min(second.y, second.z)));
+}
+
+// The distance along the ray to the surface, or -1.
+float march(vec3 from, vec3 along, vec2 span)
+{
+    float t = span.x, before = span.x;
+    for (int step = 0; step < 1024 && t <= span.y; step++) {
+        float d = distance_at(from + t * along);
+        if (d <= 0.0) {
+            float outside = before, inside = t;
+            for (int halving = 0; halving < 8; halving++) {
+                float middle = 0.5 * (outside + inside);
+                if (distance_at(from + middle * along) <= 0.0)
+                    inside = middle;
+                else
+                    outside = middle;
+            }
+            return 0.5 * (outside + inside);
+        }
+        before = t;
+        t += max(0.85 * d, 0.2 * k.voxel);
+    }
+    return -1.0;
+}

@@ -1,0 +1,53 @@
+#include "blocks/blocks.h"
+
+static size_t voxel_count(const int voxels[3])
+{
+    return (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2];
+}
+
+uint64_t blocks_bytes(const int voxels[3])
+{
+    return (uint64_t)voxel_count(voxels) * 8;
+}
+
+status blocks_create(struct gpu *gpu, const int voxels[3], struct blocks *b)
+{
+    status st = OK;
+    *b = (struct blocks){0};
+    TRY(gpu_buffer_create(gpu, "block pointers", voxel_count(voxels), 4, &b->pointer));
+    TRY(gpu_buffer_create(gpu, "block pointers (other)", voxel_count(voxels), 4, &b->other));
+done:
+    if (st != OK)
+        blocks_destroy(gpu, b);
+    return st;
+}
+
+void blocks_destroy(struct gpu *gpu, struct blocks *b)
+{
+    gpu_buffer_destroy(gpu, &b->pointer);
+    gpu_buffer_destroy(gpu, &b->other);
+}
+
+status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p, uint32_t *n_fallen)
+{
+    status st = OK;
+    size_t n = voxel_count(p->voxels);
+    struct voxel_params k = particles_params(p, n);
+    struct gpu_buffer *counts = gpu_work_words(work);
+    uint32_t changed = 1;
+    GPU_RUN(gpu, blocks_column, n, k, p->start, b->pointer);
+    TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
+    while (changed) {
+        gpu_fill(gpu, counts, 0);
+        GPU_RUN(gpu, blocks_join, n, k, p->start, b->pointer, b->other, counts);
+        GPU_RUN(gpu, blocks_join, n, k, p->start, b->other, b->pointer, counts);
+        TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
+        if (changed)
+            TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
+    }
+    k.n = (uint)p->n;
+    GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->pointer, p->field[ROCK_viability], counts);
+    TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_fallen, 1));
+done:
+    return st;
+}

@@ -1,0 +1,123 @@
+#include "erosion/erosion.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+uint64_t erosion_bytes(size_t n)
+{
+    return (uint64_t)n * 4;
+}
+
+/* A job without strata has one layer of defaults. */
+static size_t layer_count(const struct job *job)
+{
+    return job->n_strata ? job->n_strata : 1;
+}
+
+status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, struct erosion *e)
+{
+    status st = OK;
+    *e = (struct erosion){.n_layers = layer_count(job)};
+    TRY(gpu_buffer_create(gpu, "layers", e->n_layers, 16, &e->layers));
+    TRY(gpu_buffer_create(gpu, "unspent steps", n_max, 4, &e->unspent));
+done:
+    if (st != OK)
+        erosion_destroy(gpu, e);
+    return st;
+}
+
+void erosion_destroy(struct gpu *gpu, struct erosion *e)
+{
+    gpu_buffer_destroy(gpu, &e->layers);
+    gpu_buffer_destroy(gpu, &e->unspent);
+}
+
+static double abrasion(const struct job *job, int frame)
+{
+    double ratio = curve_at(&job->wind.speed_m_s, frame) / job->wind.reference_m_s;
+    return curve_at(&job->wind.abrasion, frame) * ratio * ratio;
+}
+
+/* No face retreats faster than in the weakest rock, in full tension, across the wind, at the steepest slant (|n_i| >= 0.577). Noise and
+ * paint may make single spots faster; there, max_step is exceeded and the carry makes up for it. */
+int erosion_steps(const struct job *job, int frame)
+{
+    double weakest = 0;
+    const struct job_deflation *d = &job->wind.deflation;
+    for (size_t i = 0; i < job->n_strata; i++)
+        weakest = fmax(weakest, curve_at(&job->strata[i].weak_m_per_kyr, frame));
+    if (!job->n_strata)
+        weakest = 0.2;
+    double kyr = job->clock.years_per_frame / 1000;
+    double share = weakest * (curve_at(&d->intensity, frame) + abrasion(job, frame)) * kyr / job->domain.spacing_m;
+    double steps = ceil(share / job->erosion.max_step);
+    return steps < 1 ? 1 : steps > 1000 ? 1000 : (int)steps;
+}
+
+static status upload_layers(struct gpu *gpu, struct erosion *e, const struct job *job, int frame)
+{
+    status st = OK;
+    float *layer = NULL;
+    TRY(memory_alloc(e->n_layers, 16, "layers", &layer));
+    for (size_t i = 0; i < e->n_layers; i++) {
+        bool given = job->n_strata > 0;
+        const struct job_layer *l = given ? &job->strata[i] : NULL;
+        layer[4 * i + 0] = given ? (float)curve_at(&l->weak_m_per_kyr, frame) : 0.2f;
+        layer[4 * i + 1] = given ? (float)curve_at(&l->strong_m_per_kyr, frame) : 0.002f;
+        layer[4 * i + 2] = given ? (float)(1e6 * curve_at(&l->interlock_MPa, frame)) : 1.5e6f;
+    }
+    TRY(gpu_upload(gpu, e->layers, 0, layer, e->n_layers));
+done:
+    free(layer);
+    return st;
+}
+
+status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame, struct particles *p)
+{
+    struct interlock_params k = {(uint)p->n, (float)job->rock.interlock_band};
+    status st = OK;
+    TRY(upload_layers(gpu, e, job, frame));
+    GPU_RUN(gpu, erosion_interlock, p->n, k, e->layers, p->field[ROCK_layer], p->field[ROCK_rate_factor],
+            p->field[ROCK_interlock_factor], p->field[ROCK_stress], p->field[ROCK_erodibility]);
+done:
+    return st;
+}
+
+status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, const struct job *job, int frame,
+                       double kyr, struct particles *p, uint32_t *n_eroded)
+{
+    status st = OK;
+    const struct job_deflation *d = &job->wind.deflation;
+    const double *wind = job->wind.direction;
+    double length = sqrt(wind[0] * wind[0] + wind[1] * wind[1] + wind[2] * wind[2]);
+    struct erosion_params k = {
+        .n = (uint)p->n_surface,
+        .nx = (uint)p->voxels[0],
+        .ny = (uint)p->voxels[1],
+        .nz = (uint)p->voxels[2],
+        .h = (float)p->h,
+        .dt = (float)kyr,
+        .deflation = (float)curve_at(&d->intensity, frame),
+        .cohesion = (float)(1e6 * d->cohesion_MPa),
+        .friction = (float)d->friction,
+        .strength = (float)(1e6 * d->strength_MPa),
+        .abrasion = (float)abrasion(job, frame),
+        .wind_x = (float)(wind[0] / length),
+        .wind_y = (float)(wind[1] / length),
+        .wind_z = (float)(wind[2] / length),
+        .shelter = (float)job->wind.shelter_m,
+    };
+    struct voxel_params carry = particles_params(p, p->n);
+    struct gpu_buffer *counts = gpu_work_words(work);
+    gpu_fill(gpu, counts, 0);
+    gpu_fill(gpu, e->unspent, 0);
+    GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], p->field[ROCK_stress],
+            p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent, counts);
+    GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->start, p->field[ROCK_erodibility], p->flags, e->unspent,
+            p->field[ROCK_viability]);
+    TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
+done:
+    return st;
+}

@@ -1,0 +1,31 @@
+/* Pictures of the fields: one ray a pixel into the surface field, and what lies where it lands. */
+#ifndef HOODOO_AOV_H
+#define HOODOO_AOV_H
+
+#include "field/camera.h"
+#include "field/field.h"
+#include "gpu/gpu.h"
+#include "job/job.h"
+#include "output/frame.h"
+#include "particles/particles.h"
+
+/* Buffers for pictures of up to n_pixels, and the strata's colours. */
+struct aov {
+    size_t n_pixels;
+    struct gpu_buffer *hit, *facing, *color, *fields; /* vec4 [n_pixels] */
+    struct gpu_buffer *ids;                           /* uint [n_pixels][2] */
+    struct gpu_buffer *palette;                       /* vec4 [layers] */
+};
+
+/* The largest picture among the job's AOV cameras; 0 if it asks for none. */
+size_t aov_pixels(const struct job *job);
+uint64_t aov_bytes(size_t n_pixels);
+MUST_USE status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struct aov *out);
+void aov_destroy(struct gpu *gpu, struct aov *a);
+
+/* The picture of one camera; out->memory and out->channel are freed with aov_image_free(). Waits. */
+MUST_USE status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const struct job_camera *camera,
+                           const struct field *f, const struct particles *p, struct aov_image *out);
+void aov_image_free(struct aov_image *image);
+
+#endif

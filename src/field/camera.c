@@ -1,0 +1,80 @@
+#include "field/camera.h"
+
+#include <math.h>
+#include <string.h>
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static void normalize(double v[3])
+{
+    double length = sqrt(dot(v, v));
+    for (int i = 0; i < 3; i++)
+        v[i] /= length > 0 ? length : 1;
+}
+
+struct camera camera_of(const struct job_camera *camera)
+{
+    static const double up[3] = {0, 0, 1}, north[3] = {0, 1, 0};
+    const double degree = 3.14159265358979323846 / 180;
+    const struct job_orbit *o = &camera->orbit;
+    struct camera c = {.width = (int)camera->resolution[0], .height = (int)camera->resolution[1]};
+    const double *target = o->distance_m > 0 ? o->target_m : camera->target_m;
+    if (o->distance_m > 0) {
+        double level = cos(o->elevation_deg * degree);
+        c.eye[0] = target[0] + o->distance_m * level * cos(o->azimuth_deg * degree);
+        c.eye[1] = target[1] + o->distance_m * level * sin(o->azimuth_deg * degree);
+        c.eye[2] = target[2] + o->distance_m * sin(o->elevation_deg * degree);
+    } else {
+        memcpy(c.eye, camera->position_m, sizeof c.eye);
+    }
+    for (int i = 0; i < 3; i++)
+        c.ahead[i] = target[i] - c.eye[i];
+    normalize(c.ahead);
+    /* Straight up or down, the picture's top is north. */
+    cross(c.ahead, fabs(c.ahead[2]) > 1 - 1e-9 ? north : up, c.right);
+    normalize(c.right);
+    cross(c.ahead, c.right, c.down);
+    double half = 0.5 * camera->aperture_mm / camera->focal_mm;
+    for (int i = 0; i < 3; i++) {
+        c.right[i] *= half;
+        c.down[i] *= half * c.height / c.width;
+    }
+    return c;
+}
+
+void camera_matrices(const struct camera *c, int up, double world_to_camera[16], double world_to_ndc[16])
+{
+    double half_width = sqrt(dot(c->right, c->right)), half_height = sqrt(dot(c->down, c->down));
+    const double *axis[3] = {c->right, c->down, c->ahead};
+    const double scale[3] = {1 / half_width, -1 / half_height, 1}; /* y is up in camera space */
+    double m[16] = {0};
+    for (int column = 0; column < 3; column++) {
+        double a[3];
+        for (int i = 0; i < 3; i++)
+            a[i] = axis[column][i] * scale[column];
+        /* Simulator (x, y, z) stands at (x, z, -y) in y-up files. */
+        double rows[3] = {a[0], up == OUTPUT_UP_Y ? a[2] : a[1], up == OUTPUT_UP_Y ? -a[1] : a[2]};
+        for (int row = 0; row < 3; row++)
+            m[4 * row + column] = rows[row];
+        m[12 + column] = -dot(c->eye, a);
+    }
+    m[15] = 1;
+    memcpy(world_to_camera, m, sizeof m);
+    for (int row = 0; row < 4; row++) {
+        double x = m[4 * row], y = m[4 * row + 1], z = m[4 * row + 2];
+        world_to_ndc[4 * row] = 0.5 * (x / half_width + z);
+        world_to_ndc[4 * row + 1] = 0.5 * (z - y / half_height);
+        world_to_ndc[4 * row + 2] = z;
+        world_to_ndc[4 * row + 3] = z;
+    }
+}

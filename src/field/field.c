@@ -1,0 +1,123 @@
+#include "field/field.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static struct field geometry(const int voxels[3], double h, double voxel)
+{
+    struct field f = {.voxel = voxel > 0 ? voxel : h};
+    for (int a = 0; a < 3; a++) {
+        f.n[a] = (int)ceil(voxels[a] * h / f.voxel - 1e-9) + 2 * FIELD_MARGIN;
+        f.origin[a] = (0.5 - FIELD_MARGIN) * f.voxel;
+    }
+    return f;
+}
+
+static size_t sample_count(const struct field *f)
+{
+    return (size_t)f->n[0] * (size_t)f->n[1] * (size_t)f->n[2];
+}
+
+uint64_t field_bytes(const int voxels[3], double h, double voxel)
+{
+    struct field f = geometry(voxels, h, voxel);
+    return (uint64_t)sample_count(&f) * (16 + 3 * 4);
+}
+
+status field_create(struct gpu *gpu, const int voxels[3], double h, double voxel, struct field *f)
+{
+    status st = OK;
+    *f = geometry(voxels, h, voxel);
+    size_t n = sample_count(f);
+    TRY(gpu_buffer_create(gpu, "rock share", n, 4, &f->share));
+    TRY(gpu_buffer_create(gpu, "field means", n, 16, &f->means));
+    TRY(gpu_buffer_create(gpu, "distance", n, 4, &f->distance));
+    TRY(gpu_buffer_create(gpu, "distance (other)", n, 4, &f->other));
+done:
+    if (st != OK)
+        field_destroy(gpu, f);
+    return st;
+}
+
+void field_destroy(struct gpu *gpu, struct field *f)
+{
+    gpu_buffer_destroy(gpu, &f->share);
+    gpu_buffer_destroy(gpu, &f->means);
+    gpu_buffer_destroy(gpu, &f->distance);
+    gpu_buffer_destroy(gpu, &f->other);
+}
+
+void field_build(struct gpu *gpu, struct field *f, const struct particles *p)
+{
+    struct field_params k = {
+        .n = (uint)sample_count(f),
+        .nx = (uint)p->voxels[0],
+        .ny = (uint)p->voxels[1],
+        .nz = (uint)p->voxels[2],
+        .h = (float)p->h,
+        .fx = (uint)f->n[0],
+        .fy = (uint)f->n[1],
+        .fz = (uint)f->n[2],
+        .voxel = (float)f->voxel,
+        .origin_x = (float)f->origin[0],
+        .origin_y = (float)f->origin[1],
+        .origin_z = (float)f->origin[2],
+        .radius = (float)(2 * f->voxel),
+    };
+    GPU_RUN(gpu, field_splat, k.n, k, p->field[ROCK_P], p->field[ROCK_viability], p->field[ROCK_stress],
+            p->field[ROCK_von_mises], p->start, f->share, f->means);
+    GPU_RUN(gpu, field_front, k.n, k, f->share, f->distance);
+    /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
+    for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
+        GPU_RUN(gpu, field_distance, k.n, k, f->distance, f->other);
+        GPU_RUN(gpu, field_distance, k.n, k, f->other, f->distance);
+    }
+}
+
+status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out)
+{
+    static const struct frame_grid kinds[] = {
+        {.name = "surface", .unit = "m", .class = GRID_LEVEL_SET}, {.name = "density", .unit = "", .class = GRID_FOG},
+        {.name = "stress", .unit = "Pa", .class = GRID_PLAIN},     {.name = "von_mises", .unit = "Pa", .class = GRID_PLAIN},
+        {.name = "viability", .unit = "", .class = GRID_PLAIN},
+    };
+    status st = OK;
+    size_t n = sample_count(f);
+    float *means = NULL;
+    *out = (struct frame_grids){.voxel = f->voxel, .n_grids = sizeof kinds / sizeof *kinds};
+    for (int a = 0; a < 3; a++) {
+        out->n[a] = f->n[a];
+        out->origin[a] = f->origin[a];
+    }
+    for (size_t g = 0; g < out->n_grids; g++) {
+        out->grid[g] = kinds[g];
+        TRY(memory_alloc(n, sizeof(float), kinds[g].name, &out->grid[g].value));
+    }
+    TRY(memory_alloc(4 * n, sizeof(float), "field means", &means));
+    TRY(gpu_download(gpu, f->distance, 0, out->grid[0].value, n));
+    TRY(gpu_download(gpu, f->share, 0, out->grid[1].value, n));
+    TRY(gpu_download(gpu, f->means, 0, means, n));
+    float *density = out->grid[1].value, *stress = out->grid[2].value, *mises = out->grid[3].value,
+          *viability = out->grid[4].value;
+    for (size_t i = 0; i < n; i++) {
+        density[i] = fminf(density[i], 1);
+        stress[i] = means[4 * i];
+        mises[i] = means[4 * i + 1];
+        viability[i] = means[4 * i + 2];
+    }
+done:
+    free(means);
+    if (st != OK)
+        field_grids_free(out);
+    return st;
+}
+
+void field_grids_free(struct frame_grids *grids)
+{
+    for (size_t g = 0; g < grids->n_grids; g++)
+        free(grids->grid[g].value);
+    memset(grids, 0, sizeof *grids);
+}

@@ -1,0 +1,10 @@
+/* Colours of strata: the job's, or a sandstone's own by index. */
+#ifndef HOODOO_PALETTE_H
+#define HOODOO_PALETTE_H
+
+#include "job/job.h"
+
+/* Linear Rec. 709, 0..1. */
+void palette_color(const struct job *job, size_t layer, float rgb[3]);
+
+#endif
