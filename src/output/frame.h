@@ -64,4 +64,6 @@ struct frame {
     int stress_iterations;
 };
 
+void frame_free(struct frame *frame);
+
 #endif

@@ -1,0 +1,346 @@
+/* Arenite: sandstone as particles that weather where wind finds them and stress does not hold them (Yang et al. 2025, algorithm 1).
+ *
+ * One frame, as DESIGN 3 lists it:
+ *
+ *   wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
+ *
+ * once or more, until the frame's years have passed; output() then adds the surface field and the pictures. The state between frames is the
+ * particles, the grid's displacement and the ledger; the rest is found anew from them, so that a resumed run has the same bits.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "blocks/blocks.h"
+#include "erosion/erosion.h"
+#include "field/aov.h"
+#include "field/field.h"
+#include "model/model.h"
+#include "particles/particles.h"
+#include "scene/scene.h"
+#include "stress/elastic.h"
+
+struct model {
+    struct gpu *gpu;
+    const struct job *job;
+    int frame;
+    double start_volume; /* m3 */
+    struct ledger ledger;
+    struct gpu_work *work;
+    struct particles particles;
+    struct elastic elastic;
+    struct erosion erosion;
+    struct blocks blocks;
+    struct field field;
+    struct aov aov;
+};
+
+static size_t voxel_count(const int voxels[3])
+{
+    return (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2];
+}
+
+/* ---- a frame */
+
+static status remove_eroded(struct model *m, uint32_t n_eroded)
+{
+    m->ledger.rock -= n_eroded;
+    m->ledger.left += n_eroded; /* carried away: nothing deposits them yet */
+    return n_eroded ? particles_index(m->gpu, m->work, &m->particles) : OK;
+}
+
+static status remove_unsupported(struct model *m)
+{
+    status st = OK;
+    uint32_t n_fallen = 0;
+    gpu_stage(m->gpu, "blocks");
+    TRY(blocks_fall(m->gpu, m->work, &m->blocks, &m->particles, &n_fallen));
+    m->ledger.rock -= n_fallen;
+    m->ledger.fallen += n_fallen;
+    if (n_fallen)
+        TRY(particles_index(m->gpu, m->work, &m->particles));
+done:
+    return st;
+}
+
+/* What follows from the shape: surface, normals, stress, erodibility. A resumed run has the displacement already: `solved`. */
+static status settle(struct model *m, bool solved)
+{
+    status st = OK;
+    gpu_stage(m->gpu, "surface");
+    TRY(particles_surface(m->gpu, m->work, &m->particles));
+    gpu_stage(m->gpu, "stress");
+    TRY(elastic_assemble(m->gpu, m->work, &m->elastic, &m->particles));
+    if (!solved)
+        TRY(elastic_solve(m->gpu, m->work, &m->elastic));
+    if (m->elastic.iterations >= m->elastic.options.max_iterations)
+        log_warn("frame %d: stress stopped after %d iterations with an error of %.2g (stress.max_iterations, "
+                 "stress.tolerance %.2g)",
+                 m->frame, m->elastic.iterations, m->elastic.error, m->elastic.options.tolerance);
+    elastic_recover(m->gpu, &m->elastic, &m->particles);
+    gpu_stage(m->gpu, "erodibility");
+    TRY(erosion_interlock(m->gpu, &m->erosion, m->job, m->frame, &m->particles));
+done:
+    return st;
+}
+
+static status step(struct model *m)
+{
+    status st = OK;
+    int steps = erosion_steps(m->job, ++m->frame);
+    double kyr = m->job->clock.years_per_frame / 1000 / steps;
+    for (int i = 0; i < steps && m->particles.n > 0; i++) {
+        uint32_t n_eroded;
+        gpu_stage(m->gpu, "wind");
+        TRY(erosion_weather(m->gpu, m->work, &m->erosion, m->job, m->frame, kyr, &m->particles, &n_eroded));
+        gpu_stage(m->gpu, "particles");
+        TRY(remove_eroded(m, n_eroded));
+        if (n_eroded)
+            TRY(remove_unsupported(m));
+        TRY(settle(m, false));
+    }
+done:
+    return st;
+}
+
+/* ---- what a frame shows */
+
+static status measure(const struct model *m, struct frame *out)
+{
+    const struct rock *rock = &out->rock;
+    double volume = 0, most = 0;
+    for (size_t i = 0; i < rock->n; i++) {
+        double stress = fabs((double)rock->stress[i]), viability = (double)rock->viability[i];
+        if (!isfinite(stress) || !isfinite(viability))
+            return fail(E_NUMERIC, "frame %d: particle %u has stress %g Pa and viability %g; stopped before writing it",
+                        m->frame, (unsigned)rock->id[i], (double)rock->stress[i], viability);
+        volume += viability;
+        most = fmax(most, stress);
+    }
+    out->volume_m3 = volume * pow(m->job->domain.spacing_m, 3);
+    out->start_volume_m3 = m->start_volume > 0 ? m->start_volume : out->volume_m3;
+    out->max_stress_Pa = most;
+    return OK;
+}
+
+static status output(struct model *m, struct frame *out)
+{
+    status st = OK;
+    const struct job *job = m->job;
+    *out = (struct frame){.number = m->frame,
+                          .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
+                          .ledger = m->ledger,
+                          .stress_iterations = m->elastic.iterations};
+    gpu_stage(m->gpu, "field");
+    field_build(m->gpu, &m->field, &m->particles);
+    TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
+    TRY(measure(m, out));
+    m->start_volume = out->start_volume_m3;
+    TRY(field_download(m->gpu, &m->field, &out->grids));
+    gpu_stage(m->gpu, "pictures");
+    TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
+    for (size_t c = 0; c < job->output.aov.n_cameras; c++)
+        for (size_t i = 0; i < job->n_cameras; i++)
+            if (strcmp(job->cameras[i].name, job->output.aov.cameras[c]) == 0)
+                TRY(aov_render(m->gpu, &m->aov, job, &job->cameras[i], &m->field, &m->particles,
+                               &out->image[out->n_images++]));
+done:
+    if (st != OK)
+        frame_free(out);
+    return st;
+}
+
+/* ---- the state */
+
+static status add_section(struct checkpoint *c, const char *name, size_t item, size_t n, void **data)
+{
+    struct checkpoint_section *s = &c->section[c->n_sections];
+    size_t length = strlen(name);
+    memcpy(s->name, name, length < sizeof s->name ? length + 1 : sizeof s->name - 1);
+    s->item = item;
+    s->n = n;
+    status st = memory_alloc(n, item, name, &s->data);
+    if (st == OK)
+        c->n_sections++;
+    *data = s->data;
+    return st;
+}
+
+static status save(struct model *m, struct checkpoint *out)
+{
+    status st = OK;
+    void *data;
+    size_t n = m->particles.n, nodes = elastic_nodes(&m->elastic);
+    *out = (struct checkpoint){.frame = m->frame,
+                               .years = (m->frame - m->job->frames.first) * m->job->clock.years_per_frame};
+    for (int f = 0; f < ROCK_FIELDS; f++) {
+        if (rock_field_table[f].keep != STATE)
+            continue;
+        /* Shuffled by float, whatever the field's width. */
+        TRY(add_section(out, rock_field_table[f].name, 4, n * (size_t)rock_field_table[f].components, &data));
+        TRY(gpu_download(m->gpu, m->particles.field[f], 0, data, n));
+    }
+    TRY(add_section(out, "displacement", 4, 4 * nodes, &data));
+    TRY(gpu_download(m->gpu, m->elastic.u, 0, data, nodes));
+    TRY(add_section(out, "ledger", 8, sizeof m->ledger / 8, &data));
+    memcpy(data, &m->ledger, sizeof m->ledger);
+    TRY(add_section(out, "start volume", 8, 1, &data));
+    memcpy(data, &m->start_volume, sizeof m->start_volume);
+    TRY(add_section(out, "iterations", 4, 1, &data));
+    memcpy(data, &m->elastic.iterations, 4);
+done:
+    if (st != OK)
+        checkpoint_free(out);
+    return st;
+}
+
+static status section(const struct checkpoint *c, const char *name, size_t item, size_t n,
+                      const struct checkpoint_section **out)
+{
+    *out = checkpoint_find(c, name, item);
+    if (!*out || (n && (*out)->n != n))
+        return fail(E_CHECKPOINT, "the checkpoint of frame %d has no usable section '%s'", c->frame, name);
+    return OK;
+}
+
+static status restore(struct model *m, const struct checkpoint *c, const int voxels[3])
+{
+    status st = OK;
+    struct rock rock = {0};
+    const struct checkpoint_section *s;
+    TRY(section(c, "id", 4, 0, &s));
+    rock.n = s->n;
+    for (int f = 0; f < ROCK_FIELDS; f++) {
+        const struct rock_field_info *info = &rock_field_table[f];
+        if (info->keep != STATE)
+            continue;
+        TRY(section(c, info->name, 4, rock.n * (size_t)info->components, &s));
+        rock.field[f] = s->data; /* borrowed: not freed here */
+    }
+    TRY(section(c, "ledger", 8, sizeof m->ledger / 8, &s));
+    memcpy(&m->ledger, s->data, sizeof m->ledger);
+    TRY(section(c, "start volume", 8, 1, &s));
+    memcpy(&m->start_volume, s->data, sizeof m->start_volume);
+    TRY(section(c, "iterations", 4, 1, &s));
+    memcpy(&m->elastic.iterations, s->data, 4);
+    TRY(section(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
+    TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
+    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    m->frame = c->frame;
+done:
+    return st;
+}
+
+static status begin(struct model *m, const int voxels[3])
+{
+    status st = OK;
+    struct rock rock = {0};
+    TRY(scene_sample(m->job, &rock));
+    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    m->frame = m->job->frames.first;
+    m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
+    TRY(remove_unsupported(m));
+    if (m->ledger.fallen)
+        log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out", m->frame,
+                 (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start);
+done:
+    rock_free(&rock);
+    return st;
+}
+
+static void destroy(struct model **handle)
+{
+    struct model *m = *handle;
+    if (!m)
+        return;
+    aov_destroy(m->gpu, &m->aov);
+    field_destroy(m->gpu, &m->field);
+    blocks_destroy(m->gpu, &m->blocks);
+    erosion_destroy(m->gpu, &m->erosion);
+    elastic_destroy(m->gpu, &m->elastic);
+    particles_destroy(m->gpu, &m->particles);
+    gpu_work_destroy(m->gpu, &m->work);
+    free(m);
+    *handle = NULL;
+}
+
+static status create(struct gpu *gpu, const struct job *job, const struct checkpoint *from, struct model **out)
+{
+    status st = OK;
+    struct model *m = NULL;
+    int voxels[3];
+    double h = job->domain.spacing_m;
+    struct elastic_options options = {
+        .lambda = 1e9 * job->rock.lame_GPa,
+        .mu = 1e9 * job->rock.shear_GPa,
+        .density = job->rock.density_kg_m3,
+        .gravity = job->rock.gravity_m_s2,
+        .tolerance = job->stress.tolerance,
+        .max_iterations = (int)job->stress.max_iterations,
+    };
+    TRY(memory_alloc(1, sizeof *m, "the model", &m));
+    m->gpu = gpu;
+    m->job = job;
+    gpu_stage(gpu, "start");
+    TRY(scene_voxels(job, voxels));
+    TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
+    TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
+    TRY(blocks_create(gpu, voxels, &m->blocks));
+    TRY(field_create(gpu, voxels, h, job->output.voxel_m, &m->field));
+    if (aov_pixels(job))
+        TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
+    TRY(from ? restore(m, from, voxels) : begin(m, voxels));
+    TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
+    TRY(settle(m, from != NULL));
+    *out = m;
+    m = NULL;
+done:
+    destroy(&m);
+    return st;
+}
+
+static status estimate(const struct job *job, struct model_estimate *out)
+{
+    status st = OK;
+    double h = job->domain.spacing_m;
+    size_t pixels = aov_pixels(job), n;
+    *out = (struct model_estimate){0};
+    TRY(scene_voxels(job, out->voxels));
+    TRY(scene_estimate(job, &out->n_particles));
+    n = out->n_particles;
+    size_t voxels = voxel_count(out->voxels);
+    uint64_t rock = 0, field = field_bytes(out->voxels, h, job->output.voxel_m);
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        rock += n * rock_field_size((enum rock_field)f);
+    out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) + elastic_bytes(out->voxels) +
+                        erosion_bytes(n) + blocks_bytes(out->voxels) + field + aov_bytes(pixels);
+    /* Two frames wait at most; files are made in memory. */
+    uint64_t picture = pixels * 17 * 4;
+    out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
+    /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints 0.6. */
+    out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.2 * (double)field) +
+                       (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
+    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels));
+    for (int f = job->frames.first + 1; f <= job->frames.last; f++)
+        out->steps += erosion_steps(job, f);
+done:
+    return st;
+}
+
+static int frame(const struct model *m)
+{
+    return m->frame;
+}
+
+const struct model_type arenite = {
+    .name = "arenite",
+    .estimate = estimate,
+    .create = create,
+    .destroy = destroy,
+    .step = step,
+    .frame = frame,
+    .output = output,
+    .save = save,
+};

@@ -1,0 +1,10 @@
+#include "model/model.h"
+
+extern const struct model_type arenite;
+
+const struct model_type *model_of(const struct job *job)
+{
+    /* In the order of the key `model`. */
+    static const struct model_type *const types[] = {&arenite};
+    return types[job->model];
+}

@@ -1,0 +1,267 @@
+#include "output/writer.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "base/hash.h"
+#include "base/memory.h"
+#include "field/palette.h"
+#include "output/exr.h"
+#include "output/folder.h"
+#include "output/vdb.h"
+
+/* ---- one frame's files */
+
+static uint64_t identity(uint64_t job_hash, int frame, enum folder_file kind)
+{
+    uint64_t words[3] = {job_hash, (uint64_t)(int64_t)frame, (uint64_t)kind};
+    return hash_bytes(words, sizeof words);
+}
+
+/* Writes the bytes, frees them, and has the manifest vouch for them. */
+static status put(const char *root, const char *path, struct vdb_bytes *file, struct manifest *manifest)
+{
+    status st = OK;
+    size_t capacity = manifest->n_files;
+    struct manifest_file *entry;
+    TRY(memory_grow(&manifest->file, &capacity, manifest->n_files + 1, sizeof *manifest->file, "the manifest"));
+    entry = &manifest->file[manifest->n_files];
+    snprintf(entry->path, sizeof entry->path, "%s", path + strlen(root) + 1);
+    entry->size = file->size;
+    entry->hash = hash_bytes(file->bytes, file->size);
+    manifest->n_files++;
+    TRY(atomic_file_write(path, file->bytes, file->size));
+done:
+    free(file->bytes);
+    *file = (struct vdb_bytes){0};
+    return st;
+}
+
+static status put_vdbs(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame,
+                       struct manifest *manifest)
+{
+    status st = OK;
+    char path[4096];
+    struct vdb_bytes file = {0};
+    size_t n_layers = job->n_strata ? job->n_strata : 1;
+    float(*color)[3] = NULL;
+    struct vdb_options options = {
+        .up = job->output.up,
+        .codec = job->output.vdb.codec,
+        .half = job->output.vdb.half,
+        .points = job->output.vdb.points,
+        .frame = frame->number,
+        .spacing = job->domain.spacing_m,
+        .n_colors = n_layers,
+    };
+    TRY(memory_alloc(n_layers, sizeof *color, "colours", &color));
+    for (size_t i = 0; i < n_layers; i++)
+        palette_color(job, i, color[i]);
+    options.color = (const float(*)[3])color;
+    if (options.points != VDB_POINTS_NONE) {
+        options.identity = identity(job_hash, frame->number, FILE_POINTS);
+        TRY(vdb_points(&frame->rock, &options, &file));
+        TRY(folder_path(path, root, job->name, FILE_POINTS, frame->number, NULL));
+        TRY(put(root, path, &file, manifest));
+    }
+    options.identity = identity(job_hash, frame->number, FILE_VOLUMES);
+    TRY(vdb_volumes(&frame->grids, &options, &file));
+    TRY(folder_path(path, root, job->name, FILE_VOLUMES, frame->number, NULL));
+    TRY(put(root, path, &file, manifest));
+done:
+    free(file.bytes);
+    free(color);
+    return st;
+}
+
+static status put_images(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame,
+                         struct manifest *manifest)
+{
+    status st = OK;
+    char path[4096];
+    struct vdb_bytes file = {0};
+    struct exr_options options = {.layout = job->output.aov.layout,
+                                  .fps = job->fps,
+                                  .frame = frame->number,
+                                  .years = frame->years,
+                                  .job_hash = job_hash,
+                                  .owner = job->output.owner,
+                                  .comments = job->output.comments};
+    for (size_t i = 0; i < frame->n_images; i++) {
+        TRY(exr_encode(&frame->image[i], &options, &file.bytes, &file.size));
+        TRY(folder_path(path, root, job->name, FILE_AOV, frame->number,
+                        frame->n_images > 1 ? frame->image[i].camera : NULL));
+        TRY(put(root, path, &file, manifest));
+    }
+done:
+    free(file.bytes);
+    return st;
+}
+
+status frame_write(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame)
+{
+    status st = OK;
+    struct manifest manifest = {
+        .frame = frame->number,
+        .job_hash = job_hash,
+        .years = frame->years,
+        .volume_m3 = frame->volume_m3,
+        .start_volume_m3 = frame->start_volume_m3,
+        .max_stress_Pa = frame->max_stress_Pa,
+        .stress_iterations = frame->stress_iterations,
+        .ledger = frame->ledger,
+    };
+    bool vdbs = (frame->number - job->frames.first) % job->output.vdb.every == 0 || frame->number == job->frames.last;
+    if (vdbs)
+        TRY(put_vdbs(job, job_hash, root, frame, &manifest));
+    TRY(put_images(job, job_hash, root, frame, &manifest));
+    TRY(manifest_write(root, job->name, &manifest));
+done:
+    manifest_free(&manifest);
+    return st;
+}
+
+/* ---- the thread */
+
+enum { QUEUE = 2 };
+
+struct item {
+    bool is_checkpoint;
+    struct frame frame;
+    struct checkpoint checkpoint;
+};
+
+struct writer {
+    const struct job *job;
+    uint64_t job_hash;
+    const char *root;
+    pthread_t thread;
+    pthread_mutex_t lock;
+    pthread_cond_t changed;
+    struct item *queue[QUEUE];
+    int n;
+    bool ending;
+    status st;
+    char message[2048];
+};
+
+static void item_free(struct item *item)
+{
+    frame_free(&item->frame);
+    checkpoint_free(&item->checkpoint);
+    free(item);
+}
+
+static void *work(void *argument)
+{
+    struct writer *w = argument;
+    pthread_mutex_lock(&w->lock);
+    while (w->n > 0 || !w->ending) {
+        if (w->n == 0) {
+            pthread_cond_wait(&w->changed, &w->lock);
+            continue;
+        }
+        struct item *item = w->queue[0];
+        status st = w->st;
+        pthread_mutex_unlock(&w->lock);
+        if (st == OK)
+            st = item->is_checkpoint
+                     ? checkpoint_save(w->root, w->job->name, &item->checkpoint, (int)w->job->checkpoint.keep)
+                     : frame_write(w->job, w->job_hash, w->root, &item->frame);
+        pthread_mutex_lock(&w->lock);
+        if (st != OK && w->st == OK) {
+            w->st = st;
+            snprintf(w->message, sizeof w->message, "%s", status_message());
+        }
+        item_free(item);
+        w->n--;
+        memmove(w->queue, w->queue + 1, (size_t)w->n * sizeof *w->queue);
+        pthread_cond_broadcast(&w->changed);
+    }
+    pthread_mutex_unlock(&w->lock);
+    return NULL;
+}
+
+status writer_create(const struct job *job, uint64_t job_hash, const char *root, struct writer **out)
+{
+    struct writer *w = NULL;
+    status st = memory_alloc(1, sizeof *w, "the writer", &w);
+    if (st != OK)
+        return st;
+    w->job = job;
+    w->job_hash = job_hash;
+    w->root = root;
+    pthread_mutex_init(&w->lock, NULL);
+    pthread_cond_init(&w->changed, NULL);
+    if (pthread_create(&w->thread, NULL, work, w) != 0) {
+        free(w);
+        return fail(E_MEMORY, "no thread for the writer");
+    }
+    *out = w;
+    return OK;
+}
+
+static status push(struct writer *w, struct item *item)
+{
+    pthread_mutex_lock(&w->lock);
+    while (w->n == QUEUE && w->st == OK)
+        pthread_cond_wait(&w->changed, &w->lock);
+    status st = w->st;
+    if (st == OK)
+        w->queue[w->n++] = item;
+    pthread_cond_broadcast(&w->changed);
+    pthread_mutex_unlock(&w->lock);
+    if (st != OK) {
+        item_free(item);
+        fail(st, "%s", w->message);
+    }
+    return st;
+}
+
+status writer_frame(struct writer *w, struct frame *frame)
+{
+    struct item *item = NULL;
+    status st = memory_alloc(1, sizeof *item, "a frame to write", &item);
+    if (st != OK) {
+        frame_free(frame);
+        return st;
+    }
+    item->frame = *frame;
+    *frame = (struct frame){0};
+    return push(w, item);
+}
+
+status writer_checkpoint(struct writer *w, struct checkpoint *checkpoint)
+{
+    struct item *item = NULL;
+    status st = memory_alloc(1, sizeof *item, "a checkpoint to write", &item);
+    if (st != OK) {
+        checkpoint_free(checkpoint);
+        return st;
+    }
+    item->is_checkpoint = true;
+    item->checkpoint = *checkpoint;
+    *checkpoint = (struct checkpoint){0};
+    return push(w, item);
+}
+
+status writer_finish(struct writer **handle)
+{
+    struct writer *w = *handle;
+    if (!w)
+        return OK;
+    pthread_mutex_lock(&w->lock);
+    w->ending = true;
+    pthread_cond_broadcast(&w->changed);
+    pthread_mutex_unlock(&w->lock);
+    pthread_join(w->thread, NULL);
+    status st = w->st == OK ? OK : fail(w->st, "%s", w->message);
+    pthread_mutex_destroy(&w->lock);
+    pthread_cond_destroy(&w->changed);
+    free(w);
+    *handle = NULL;
+    return st;
+}
