@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "field/palette.h"
+#include "job/palette.h"
 
 /* Towards the sun: late morning, from the left behind the usual camera. */
 static const double SUN[3] = {-0.48, -0.62, 0.62};

@@ -8,7 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "field/palette.h"
+#include "job/palette.h"
 #include "output/exr.h"
 #include "output/folder.h"
 #include "output/vdb.h"

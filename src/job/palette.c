@@ -1,4 +1,4 @@
-#include "field/palette.h"
+#include "job/palette.h"
 
 void palette_color(const struct job *job, size_t layer, float rgb[3])
 {
