@@ -198,6 +198,8 @@ static status take(struct reading *r, struct fy_event *e)
     default:
         break;
     }
+    if (e->type == FYET_ALIAS)
+        column--; /* its mark is behind the asterisk */
     if (e->type == FYET_ALIAS || anchor)
         return fail_at(r->source, line, column,
                        "anchors (&) and aliases (*) are not allowed: write the value out");
