@@ -1,7 +1,7 @@
 /* A job: what the user asked for, with every default filled in.
  *
- * The structs below are generated from keys.def; a member has the key's own name and unit (size_m, interlock_MPa).
- * Convert units where a value enters a computation, not here.
+ * The structs below are generated from keys.def; a member has the key's own name and unit (size_m,
+ * interlock_MPa). Convert units where a value enters a computation, not here.
  */
 #ifndef HOODOO_JOB_H
 #define HOODOO_JOB_H
@@ -33,10 +33,12 @@ enum job_shape { SHAPE_BOX, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_PLANE, SHAPE_MES
 #define job_job job
 
 #define SECTION(section, meaning) struct job_##section {
-#define END(section)                                                                                           \
-    }                                                                                                          \
+#define END(section)                                                                                         \
+    }                                                                                                        \
     ;
 #define TEXT(section, key, use, preset, meaning, source) char *key;
+#define NAME(section, key, use, preset, meaning, source) char *key;
+#define INPUT(section, key, use, preset, meaning, source) char *key;
 #define NUM(section, key, use, unit, preset, min, max, meaning, source) double key;
 #define CURVE(section, key, use, unit, preset, min, max, meaning, source) struct curve key;
 #define INT(section, key, use, unit, preset, min, max, meaning, source) int64_t key;
@@ -45,19 +47,20 @@ enum job_shape { SHAPE_BOX, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_PLANE, SHAPE_MES
 #define VEC(section, key, use, unit, n, preset, min, max, meaning, source) double key[n];
 #define RANGE(section, key, use, preset, meaning, source) struct frame_range key;
 #define SUB(section, key, child, meaning) struct job_##child key;
-#define LIST(section, key, child, meaning)                                                                     \
-    struct job_##child *key;                                                                                   \
+#define LIST(section, key, child, meaning)                                                                   \
+    struct job_##child *key;                                                                                 \
     size_t n_##key;
 #define MAP(section, key, child, meaning) LIST(section, key, child, meaning)
 #define NODE(section, key, meaning) struct job_node *key;
-#define NAMES(section, key, use, meaning)                                                                      \
-    char **key;                                                                                                \
+#define NAMES(section, key, use, meaning)                                                                    \
+    char **key;                                                                                              \
     size_t n_##key;
 #include "job/keys.def"
 
 struct job_node {
     enum job_node_kind kind;
-    struct job_node **child; /* operators: n_child >= 1. A difference takes all later children from the first. */
+    struct job_node *
+        *child; /* operators: n_child >= 1. A difference takes all later children from the first. */
     size_t n_child;
     enum job_shape shape; /* NODE_SHAPE only */
     union {
@@ -76,18 +79,19 @@ enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
 enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
 
-/* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside are made
- * absolute against the job file's folder.
- * E_INPUT: the file cannot be read. E_USAGE: it is wrong; the message has file:line:column (or --set), the key path, and the
- * nearest known key or the allowed range. *out is freed with job_destroy(). */
+/* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside
+ * are made absolute against the job file's folder. E_INPUT: the file cannot be read. E_USAGE: it is wrong;
+ * the message has file:line:column (or --set), the key path, and the nearest known key or the allowed range.
+ * *out is freed with job_destroy(). */
 MUST_USE status job_load(const char *path, const char *const *sets, size_t n_sets, struct job **out);
 void job_destroy(struct job **job);
 
-/* The job as run: YAML with every key, its value and, as a comment, its unit and meaning. Loading it again gives an
- * equal job. */
+/* The job as run: YAML with every key, its value and, as a comment, its unit and meaning. Loading it again
+ * gives an equal job. */
 MUST_USE status job_resolved(const struct job *job, struct text *out);
 
-/* XXH3-64 of everything that changes the simulation (keys.def's SIM), in canonical form, input files' contents included. */
+/* XXH3-64 of everything that changes the simulation (keys.def's SIM), in canonical form, input files'
+ * contents included. */
 MUST_USE status job_hash(const struct job *job, uint64_t *hash);
 
 /* A file the job reads (mesh, heightfield), with its content hash. */

@@ -1,0 +1,124 @@
+/* What the table's ranges cannot say: values that must fit each other. */
+#include <math.h>
+#include <string.h>
+
+#include "job/parse.h"
+
+/* The place of `key` where it is given, else of the mapping that lacks it. */
+static const struct yaml *place(const struct yaml *map, const char *key)
+{
+    const struct yaml *v = yaml_get(map, key);
+    return v ? v : map;
+}
+
+static double length(const double a[3])
+{
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
+static double distance(const double a[3], const double b[3])
+{
+    const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return length(d);
+}
+
+static status check_corners(const struct yaml *map, const double min[3], const double max[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (!(max[i] > min[i]))
+            return yaml_fail(place(map, "max_m"), NULL, "not above min_m on the %c axis (%g, %g)", "xyz"[i],
+                             max[i], min[i]);
+    return OK;
+}
+
+static status check_direction(const struct yaml *map, const char *key, const double v[3])
+{
+    return length(v) < 1e-6 ? yaml_fail(place(map, key), NULL, "has no length, so no direction") : OK;
+}
+
+static status check_cylinder(const struct yaml *map, const struct job_cylinder *c)
+{
+    if (distance(c->from_m, c->to_m) < 1e-6)
+        return yaml_fail(place(map, "to_m"), NULL, "the same point as from_m");
+    if (c->top_radius_m < 0 && c->top_radius_m != -1)
+        return yaml_fail(place(map, "top_radius_m"), NULL,
+                         "negative (0 or more, or -1 for the same as radius_m)");
+    return OK;
+}
+
+static status check_camera(const struct yaml *map, const struct job_camera *c)
+{
+    if (c->orbit.distance_m == 0 && distance(c->position_m, c->target_m) < 1e-6)
+        return yaml_fail(place(map, "target_m"), NULL, "the same point as position_m");
+    return OK;
+}
+
+status check_section(enum job_section_id section, const struct yaml *map, const void *base)
+{
+    switch (section) {
+    case SECTION_box:
+        return check_corners(map, ((const struct job_box *)base)->min_m,
+                             ((const struct job_box *)base)->max_m);
+    case SECTION_heightfield:
+        return check_corners(map, ((const struct job_heightfield *)base)->min_m,
+                             ((const struct job_heightfield *)base)->max_m);
+    case SECTION_cylinder:
+        return check_cylinder(map, base);
+    case SECTION_plane:
+        return check_direction(map, "normal", ((const struct job_plane *)base)->normal);
+    case SECTION_wind:
+        return check_direction(map, "direction", ((const struct job_wind *)base)->direction);
+    case SECTION_camera:
+        return check_camera(map, base);
+    default:
+        return OK;
+    }
+}
+
+static status check_strata(const struct yaml *root, const struct job *job)
+{
+    const struct yaml *list = yaml_get(root, "strata");
+    for (size_t i = 1; i < job->n_strata; i++)
+        if (!(job->strata[i].to_m > job->strata[i - 1].to_m))
+            return yaml_fail(
+                place(yaml_item(list, i), "to_m"), NULL,
+                "%g m is not above the layer below, which reaches to %g m (strata are listed bottom up)",
+                job->strata[i].to_m, job->strata[i - 1].to_m);
+    return OK;
+}
+
+static status check_aov_cameras(const struct yaml *root, const struct job *job)
+{
+    const struct job_aov *aov = &job->output.aov;
+    if (aov->n_cameras == 0)
+        return OK;
+    const struct yaml *list = yaml_get(yaml_get(yaml_get(root, "output"), "aov"), "cameras");
+    for (size_t i = 0; i < aov->n_cameras; i++) {
+        bool found = false, again = false;
+        for (size_t k = 0; k < job->n_cameras; k++)
+            found |= strcmp(aov->cameras[i], job->cameras[k].name) == 0;
+        for (size_t k = 0; k < i; k++)
+            again |= strcmp(aov->cameras[i], aov->cameras[k]) == 0;
+        if (!found && job->n_cameras == 0)
+            return yaml_fail(yaml_item(list, i), NULL, "no camera '%s': cameras has none", aov->cameras[i]);
+        if (!found)
+            return yaml_fail(yaml_item(list, i), NULL, "no camera '%s' in cameras (the first there is '%s')",
+                             aov->cameras[i], job->cameras[0].name);
+        if (again)
+            return yaml_fail(yaml_item(list, i), NULL, "camera '%s' is listed twice", aov->cameras[i]);
+    }
+    return OK;
+}
+
+status check_job(const struct yaml *root, const struct job *job)
+{
+    status st = OK;
+    TRY(check_strata(root, job));
+    TRY(check_aov_cameras(root, job));
+    if (job->output.voxel_m != 0 && job->output.voxel_m < job->domain.spacing_m)
+        st = yaml_fail(place(yaml_get(root, "output"), "voxel_m"), NULL,
+                       "%g m is finer than the particles (0, or at least domain.spacing_m, %g m)",
+                       job->output.voxel_m, job->domain.spacing_m);
+done:
+    return st;
+}

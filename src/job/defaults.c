@@ -1,0 +1,89 @@
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "job/parse.h"
+
+static status default_section(enum job_section_id section, const struct yaml *map, const char *below,
+                              void *base)
+{
+    const struct job_section *s = &job_sections[section];
+    status st = OK;
+    for (size_t i = 0; i < s->n && st == OK; i++) {
+        char path[200];
+        snprintf(path, sizeof path, "%s.%s", below, s->key[i].name);
+        st = read_default(&s->key[i], map, path, base);
+    }
+    return st;
+}
+
+/* The table's own text, "[1, 0, 0]". */
+static void default_vec(const struct job_key *key, double *out)
+{
+    const char *s = key->preset + 1;
+    for (size_t i = 0; i < key->n; i++) {
+        char *end;
+        out[i] = strtod(s, &end);
+        s = end + strspn(end, ", ");
+    }
+}
+
+static int default_choice(const struct job_key *key)
+{
+    const char *item;
+    size_t n;
+    for (int i = 0; (item = choice_item(key->choices, i, &n)) != NULL; i++)
+        if (strlen(key->preset) == n && memcmp(key->preset, item, n) == 0)
+            return i;
+    return 0;
+}
+
+status read_default(const struct job_key *key, const struct yaml *map, const char *below, void *base)
+{
+    void *member = key_member(key, base);
+    struct curve *curve;
+    status st;
+    if (key_required(key))
+        return yaml_fail(map, below, "missing (%s%s%s)", key->unit, key->unit[0] ? "; " : "", key->meaning);
+    switch (key->type) {
+    case KEY_TEXT:
+    case KEY_NAME:
+    case KEY_INPUT:
+        return memory_strdup(key->preset, member);
+    case KEY_NUM:
+        *(double *)member = key->number;
+        return OK;
+    case KEY_INT:
+        *(int64_t *)member = (int64_t)key->number;
+        return OK;
+    case KEY_BOOL:
+        *(bool *)member = key->number != 0;
+        return OK;
+    case KEY_CURVE:
+        curve = member;
+        st = memory_alloc(2, sizeof *curve->frame, "a curve", &curve->frame);
+        if (st != OK)
+            return st;
+        curve->value = curve->frame + 1;
+        curve->value[0] = key->number;
+        curve->n = 1;
+        return OK;
+    case KEY_CHOICE:
+        *(int *)member = default_choice(key);
+        return OK;
+    case KEY_VEC:
+        default_vec(key, member);
+        return OK;
+    case KEY_RANGE:
+        return range_parse(key->preset, member);
+    case KEY_SUB:
+        return default_section((enum job_section_id)key->child, map, below, member);
+    case KEY_LIST:
+    case KEY_MAP:
+    case KEY_NAMES:
+    case KEY_NODE:
+        break; /* zeroed: none */
+    }
+    return OK;
+}

@@ -1,0 +1,255 @@
+/* The job hash: SIM keys in the table's order, names and values in a form that does not depend on how they
+ * were written. Numbers are their eight bytes (little endian, as on every machine this runs on), texts end in
+ * NUL, lists and mappings begin with their length, and a file is its content. */
+#include "base/hash.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/memory.h"
+#include "job/table.h"
+
+/* Walks the job once for both uses: its canonical form, or the files it reads. */
+struct walk {
+    struct text canonical;
+    struct job_input *inputs;
+    size_t n_inputs, capacity;
+    bool only_inputs;
+    char path[256]; /* key path of what is being walked */
+};
+
+static void put_number(struct walk *w, double v)
+{
+    v += 0.0; /* -0 is 0 */
+    text_add_bytes(&w->canonical, &v, sizeof v);
+}
+
+static void put_count(struct walk *w, size_t n)
+{
+    uint64_t count = n;
+    text_add_bytes(&w->canonical, &count, sizeof count);
+}
+
+static void put_text(struct walk *w, const char *s)
+{
+    text_add_bytes(&w->canonical, s, strlen(s) + 1);
+}
+
+/* A curve that never changes is a number, however it is written. */
+static void put_curve(struct walk *w, const struct curve *c)
+{
+    put_count(w, c->n);
+    for (size_t i = 0; i < c->n; i++) {
+        if (c->n > 1)
+            put_number(w, c->frame[i]);
+        put_number(w, c->value[i]);
+    }
+    if (c->n > 1)
+        put_count(w, (size_t)c->ease);
+}
+
+/* Only regular files: a job may name a pipe, or /dev/zero, which would be read for ever. */
+static status walk_input(struct walk *w, const char *path)
+{
+    struct job_input input = {.path = path};
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return fail(E_INPUT, "%s: %s: %s", w->path, path, strerror(errno));
+    if (!S_ISREG(info.st_mode))
+        return fail(E_INPUT, "%s: %s: not a regular file", w->path, path);
+    status st = hash_file(path, &input.hash, &input.size);
+    if (st != OK) {
+        char why[1200];
+        snprintf(why, sizeof why, "%.1190s", status_message());
+        return fail(st, "%s: %s", w->path, why);
+    }
+    put_count(w, input.hash);
+    put_count(w, input.size);
+    if (!w->only_inputs)
+        return OK;
+    for (size_t i = 0; i < w->n_inputs; i++)
+        if (strcmp(w->inputs[i].path, path) == 0)
+            return OK;
+    st = memory_grow(&w->inputs, &w->capacity, w->n_inputs + 1, sizeof *w->inputs, "the job's input files");
+    if (st == OK)
+        w->inputs[w->n_inputs++] = input;
+    return st;
+}
+
+static status walk_section(struct walk *w, enum job_section_id section, const void *base);
+
+/* Adds ".name" to the path; returns its length before, for path_back(). */
+static size_t path_add(struct walk *w, const char *name)
+{
+    size_t n = strlen(w->path);
+    snprintf(w->path + n, sizeof w->path - n, "%s%s", n ? "." : "", name);
+    return n;
+}
+
+static size_t path_add_index(struct walk *w, size_t i)
+{
+    char number[24];
+    snprintf(number, sizeof number, "%zu", i);
+    return path_add(w, number);
+}
+
+static void path_back(struct walk *w, size_t n)
+{
+    w->path[n] = '\0';
+}
+
+static status walk_node(struct walk *w, const struct job_node *node)
+{
+    bool shape = node->kind == NODE_SHAPE;
+    enum job_section_id section = node_section(node);
+    const char *name = shape ? job_sections[section].name : node_operators[node->kind];
+    status st = OK;
+    put_text(w, name);
+    put_count(w, node->n_child);
+    size_t back = path_add(w, name);
+    TRY(walk_section(w, section, &node->u));
+    for (size_t i = 0; i < node->n_child; i++) {
+        size_t item = path_add_index(w, i);
+        TRY(walk_node(w, node->child[i]));
+        path_back(w, item);
+    }
+    path_back(w, back);
+done:
+    return st;
+}
+
+static status walk_items(struct walk *w, const struct job_key *key, const void *base)
+{
+    const struct job_section *child = &job_sections[key->child];
+    size_t n;
+    const char *items = key_items(key, base, &n);
+    status st = OK;
+    put_count(w, n);
+    for (size_t i = 0; i < n; i++) {
+        size_t back = path_add_index(w, i);
+        TRY(walk_section(w, (enum job_section_id)key->child, items + i * child->size));
+        path_back(w, back);
+    }
+done:
+    return st;
+}
+
+static status walk_key(struct walk *w, const struct job_key *key, const void *base)
+{
+    const void *member = key_member(key, base);
+    struct frame_range range;
+    const char *item;
+    char **names;
+    size_t n;
+    switch (key->type) {
+    case KEY_TEXT:
+    case KEY_NAME:
+        put_text(w, *(char *const *)member);
+        break;
+    case KEY_INPUT:
+        return walk_input(w, *(char *const *)member);
+    case KEY_NUM:
+        put_number(w, *(const double *)member);
+        break;
+    case KEY_INT:
+        put_number(w, (double)*(const int64_t *)member);
+        break;
+    case KEY_BOOL:
+        put_count(w, *(const bool *)member);
+        break;
+    case KEY_CHOICE:
+        item = choice_item(key->choices, *(const int *)member, &n);
+        text_add_bytes(&w->canonical, item, n);
+        put_text(w, "");
+        break;
+    case KEY_CURVE:
+        put_curve(w, member);
+        break;
+    case KEY_VEC:
+        for (size_t i = 0; i < key->n; i++)
+            put_number(w, ((const double *)member)[i]);
+        break;
+    case KEY_RANGE:
+        range = *(const struct frame_range *)member;
+        put_number(w, range.first);
+        put_number(w, range.last);
+        put_number(w, range.step);
+        break;
+    case KEY_NAMES:
+        names = key_items(key, base, &n);
+        put_count(w, n);
+        for (size_t i = 0; i < n; i++)
+            put_text(w, names[i]);
+        break;
+    case KEY_SUB:
+        return walk_section(w, (enum job_section_id)key->child, member);
+    case KEY_LIST:
+    case KEY_MAP:
+        return walk_items(w, key, base);
+    case KEY_NODE:
+        return walk_node(w, *(struct job_node *const *)member);
+    }
+    return OK;
+}
+
+/* Whether anything under the key changes the simulation: cameras, say, do not. */
+static bool matters(const struct job_key *key)
+{
+    if (key->type != KEY_SUB && key->type != KEY_LIST && key->type != KEY_MAP)
+        return key->use == SIM;
+    const struct job_section *child = &job_sections[key->child];
+    for (size_t i = 0; i < child->n; i++)
+        if (matters(&child->key[i]))
+            return true;
+    return false;
+}
+
+static status walk_section(struct walk *w, enum job_section_id section, const void *base)
+{
+    const struct job_section *s = &job_sections[section];
+    status st = OK;
+    for (size_t i = 0; i < s->n; i++) {
+        const struct job_key *key = &s->key[i];
+        if (!matters(key) && !w->only_inputs)
+            continue;
+        size_t back = path_add(w, key->name);
+        put_text(w, key->name);
+        TRY(walk_key(w, key, base));
+        path_back(w, back);
+    }
+done:
+    return st;
+}
+
+status job_hash(const struct job *job, uint64_t *hash)
+{
+    struct walk w = {0};
+    status st = OK;
+    TRY(walk_section(&w, SECTION_job, job));
+    TRY(text_status(&w.canonical));
+    *hash = hash_bytes(w.canonical.data, w.canonical.size);
+done:
+    text_free(&w.canonical);
+    return st;
+}
+
+status job_inputs(const struct job *job, struct job_input **out, size_t *n)
+{
+    struct walk w = {.only_inputs = true};
+    status st = OK;
+    *out = NULL;
+    *n = 0;
+    TRY(walk_section(&w, SECTION_job, job));
+    if (!w.inputs)
+        TRY(memory_alloc(0, sizeof *w.inputs, "the job's input files", &w.inputs));
+    *out = w.inputs;
+    *n = w.n_inputs;
+    w.inputs = NULL;
+done:
+    free(w.inputs);
+    text_free(&w.canonical);
+    return st;
+}

@@ -1,0 +1,127 @@
+#include "job/job.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "base/memory.h"
+#include "job/parse.h"
+
+static void free_node(struct job_node *node)
+{
+    if (!node)
+        return;
+    for (size_t i = 0; i < node->n_child; i++)
+        free_node(node->child[i]);
+    free(node->child);
+    free_section(node_section(node), &node->u);
+    free(node);
+}
+
+void free_section(enum job_section_id section, void *base)
+{
+    const struct job_section *s = &job_sections[section];
+    for (size_t i = 0; i < s->n; i++) {
+        const struct job_key *key = &s->key[i];
+        void *member = key_member(key, base);
+        size_t n = 0;
+        char *items;
+        switch (key->type) {
+        case KEY_TEXT:
+        case KEY_NAME:
+        case KEY_INPUT:
+            free(*(char **)member);
+            break;
+        case KEY_CURVE:
+            free(((struct curve *)member)->frame); /* value is its second half */
+            break;
+        case KEY_SUB:
+            free_section((enum job_section_id)key->child, member);
+            break;
+        case KEY_LIST:
+        case KEY_MAP:
+            items = key_items(key, base, &n);
+            for (size_t k = 0; k < n; k++)
+                free_section((enum job_section_id)key->child, items + k * job_sections[key->child].size);
+            free(items);
+            break;
+        case KEY_NODE:
+            free_node(*(struct job_node **)member);
+            break;
+        case KEY_NAMES:
+            items = key_items(key, base, &n);
+            for (size_t k = 0; k < n; k++)
+                free(((char **)(void *)items)[k]);
+            free(items);
+            break;
+        case KEY_NUM:
+        case KEY_INT:
+        case KEY_BOOL:
+        case KEY_CHOICE:
+        case KEY_VEC:
+        case KEY_RANGE:
+            break;
+        }
+    }
+}
+
+void job_destroy(struct job **job)
+{
+    if (!*job)
+        return;
+    free_section(SECTION_job, *job);
+    free(*job);
+    *job = NULL;
+}
+
+/* The absolute folder of `path`, freed with free(). */
+static status folder_of(const char *path, char **out)
+{
+    char *copy = NULL;
+    status st = memory_strdup(path, &copy);
+    if (st != OK)
+        return st;
+    char *slash = strrchr(copy, '/');
+    if (slash)
+        slash[slash == copy] = '\0';
+    *out = realpath(slash ? copy : ".", NULL);
+    if (!*out)
+        st = fail(E_INPUT, "%s: %s", path, strerror(errno));
+    free(copy);
+    return st;
+}
+
+status job_load(const char *path, const char *const *sets, size_t n_sets, struct job **out)
+{
+    const struct yaml_source source = {.file = path};
+    struct yaml_tree tree = {0};
+    struct yaml *root = NULL;
+    struct job *job = NULL;
+    char *bytes = NULL, *folder = NULL;
+    size_t n = 0;
+    status st = OK;
+    *out = NULL;
+    TRY(file_read(path, YAML_BYTES, &bytes, &n));
+    TRY(folder_of(path, &folder));
+    TRY(yaml_parse(&tree, bytes, n, &source, &root));
+    if (root->kind != YAML_MAP) {
+        st = yaml_fail(root, NULL,
+                       "%s, but a job is a mapping of keys (hoodoo: 1, name: ...; see jobs/README.md)",
+                       yaml_what(root));
+        goto done;
+    }
+    for (size_t i = 0; i < n_sets; i++)
+        TRY(job_set(&tree, root, sets[i]));
+    TRY(memory_alloc(1, sizeof *job, "the job", &job));
+    TRY(read_section(SECTION_job, root, NULL, folder, job));
+    TRY(check_job(root, job));
+    *out = job;
+    job = NULL;
+done:
+    job_destroy(&job);
+    yaml_free(&tree);
+    free(folder);
+    free(bytes);
+    return st;
+}

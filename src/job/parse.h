@@ -1,0 +1,38 @@
+/* The steps of job_load(): bytes -> tree (yaml.h) -> --set -> struct job -> cross-checks. */
+#ifndef HOODOO_JOB_PARSE_H
+#define HOODOO_JOB_PARSE_H
+
+#include "job/job.h"
+#include "job/table.h"
+#include "job/yaml.h"
+
+/* Applies "key.path=value" to the document. List items go by index (strata.0.to_m or strata[0].to_m; the
+ * index after the last one appends), and mappings that are not there yet are made. Keys are checked later,
+ * with the rest. */
+MUST_USE status job_set(struct yaml_tree *tree, struct yaml *root, const char *set);
+
+/* Fills the struct of `section` from a mapping, defaults included. `name` is the mapping's own key where it
+ * names the struct (MAP), else NULL. `folder` is where relative INPUT files are. */
+MUST_USE status read_section(enum job_section_id section, const struct yaml *map, const char *name,
+                             const char *folder, void *out);
+
+/* One value of a simple type into the struct at `base`. */
+MUST_USE status read_value(const struct job_key *key, const struct yaml *value, const char *folder,
+                           void *base);
+
+/* What an absent key is. `map` is the mapping that lacks it, `below` the path from there: for E_USAGE if
+ * required. */
+MUST_USE status read_default(const struct job_key *key, const struct yaml *map, const char *below,
+                             void *base);
+
+/* A job, section or node that was filled only partly is fine. */
+void free_section(enum job_section_id section, void *base);
+
+/* What one key's range cannot say. check_section() looks at one mapping, check_job() at all. */
+MUST_USE status check_section(enum job_section_id section, const struct yaml *map, const void *base);
+MUST_USE status check_job(const struct yaml *root, const struct job *job);
+
+/* "did you mean X?" or "known here: A, B, C", for a word that is none of the n names; returns out. */
+const char *nearest(const char *word, const char *const *names, size_t n, char out[600]);
+
+#endif

@@ -1,0 +1,206 @@
+#include <stdio.h>
+#include <string.h>
+
+#include "job/table.h"
+
+static const char intro[] =
+    "# Job files\n"
+    "\n"
+    "This page is made from the table in `src/job/keys.def`; do not edit it.\n"
+    "\n"
+    "A job file is YAML 1.2 (JSON is YAML too). The unit of a number is the end of its key. Unknown and "
+    "duplicate keys,\n"
+    "anchors, tags, wrong types and numbers out of range are refused, with file, line, column and key path. "
+    "Any key can\n"
+    "be given or replaced on the command line: `--set wind.speed_m_s=12`, `--set strata.0.to_m=20`,\n"
+    "`--set 'cameras.main.resolution=[480, 270]'`.\n"
+    "\n"
+    "A **curve** is a number, or a number that changes with the frame: `{1001: 8, 1060: 14, ease: smooth}`. "
+    "The ease is\n"
+    "`linear` (if left out), `smooth` (slow at each key) or `step` (holds until the next key). Before the "
+    "first and after\n"
+    "the last frame a curve is constant.\n"
+    "\n"
+    "A **shape** is a mapping with exactly one of the shapes below, or with one operator: `union`, "
+    "`intersection` or\n"
+    "`difference` (all later ones are taken from the first), which holds a list of shapes.\n"
+    "\n"
+    "Keys marked \u2020 change only what is written or shown: a run continues when they are edited. All "
+    "others are part\n"
+    "of the job's hash.\n"
+    "\n"
+    "## An example\n"
+    "\n"
+    "```yaml\n"
+    "hoodoo: 1                     # the format of this file\n"
+    "name: block                   # files go to out/block\n"
+    "frames: 1001-1020             # 1001 is the rock as it stands, uneroded\n"
+    "clock: {years_per_frame: 500}\n"
+    "domain:\n"
+    "  size_m: [24, 16, 20]        # z is up; the ground is z = 0\n"
+    "  spacing_m: 0.5              # half of it: eight times the particles, the same rock\n"
+    "scene:\n"
+    "  difference:                 # a block with a hole through it\n"
+    "    - box: {min_m: [4, 4, 0], max_m: [20, 12, 16]}\n"
+    "    - cylinder: {from_m: [12, 0, 5], to_m: [12, 16, 5], radius_m: 3}\n"
+    "strata:                       # bottom up\n"
+    "  - {to_m: 8, weak_m_per_kyr: 0.2, interlock_MPa: 0.3}\n"
+    "  - {weak_m_per_kyr: 0.05, interlock_MPa: 0.3}\n"
+    "wind:\n"
+    "  direction: [1, 0.3, 0]\n"
+    "  speed_m_s: {1001: 8, 1020: 14, ease: smooth}\n"
+    "cameras:\n"
+    "  main: {orbit: {target_m: [12, 8, 8], distance_m: 45}}\n"
+    "output: {aov: {cameras: [main]}}\n"
+    "```\n";
+
+/* Text in a table's cell. */
+static void put_cell(struct text *t, const char *s)
+{
+    for (; *s; s++)
+        text_add(t, *s == '|' || *s == '<' || *s == '*' ? "\\%c" : "%c", *s);
+}
+
+static const char *type_name(const struct job_key *key)
+{
+    switch (key->type) {
+    case KEY_TEXT:
+        return "text";
+    case KEY_NAME:
+        return "name";
+    case KEY_INPUT:
+        return "file name";
+    case KEY_NUM:
+        return "number";
+    case KEY_CURVE:
+        return "curve";
+    case KEY_INT:
+        return "whole number";
+    case KEY_BOOL:
+        return "true or false";
+    case KEY_CHOICE:
+        return "word";
+    case KEY_VEC:
+        return "numbers";
+    case KEY_RANGE:
+        return "frame range";
+    case KEY_SUB:
+        return "mapping";
+    case KEY_LIST:
+        return "list of mappings";
+    case KEY_MAP:
+        return "mapping of names";
+    case KEY_NODE:
+        return "shape";
+    case KEY_NAMES:
+        return "list of names";
+    }
+    return "";
+}
+
+static void put_default(struct text *t, const struct job_key *key)
+{
+    char number[32];
+    if (key_required(key)) {
+        text_add(t, "**required**");
+        return;
+    }
+    switch (key->type) {
+    case KEY_NUM:
+    case KEY_CURVE:
+    case KEY_INT:
+        text_add(t, "`%s`", key_number(key->number, number));
+        break;
+    case KEY_BOOL:
+        text_add(t, key->number != 0 ? "`true`" : "`false`");
+        break;
+    case KEY_TEXT:
+    case KEY_NAME:
+    case KEY_INPUT:
+        text_add(t, "`\"%s\"`", key->preset);
+        break;
+    case KEY_CHOICE:
+    case KEY_VEC:
+    case KEY_RANGE:
+        text_add(t, "`%s`", key->preset);
+        break;
+    case KEY_LIST:
+    case KEY_NAMES:
+        text_add(t, "`[]`");
+        break;
+    case KEY_MAP:
+        text_add(t, "`{}`");
+        break;
+    case KEY_SUB:
+    case KEY_NODE:
+        break;
+    }
+}
+
+static void put_row(struct text *t, const struct job_key *key)
+{
+    char range[256] = "", low[32], high[32];
+    text_add(t, "| `%s`%s | ", key->name, key->use == OUT ? " \u2020" : "");
+    if (key->type == KEY_VEC)
+        text_add(t, "%zu ", key->n);
+    text_add(t, "%s%s", type_name(key), key->unit[0] ? ", " : "");
+    put_cell(t, key->unit);
+    text_add(t, " | ");
+    put_default(t, key);
+    text_add(t, " | ");
+    if (key->type == KEY_CHOICE)
+        key_allowed(key, range);
+    else if (key->type == KEY_NUM || key->type == KEY_CURVE || key->type == KEY_INT || key->type == KEY_VEC)
+        snprintf(range, sizeof range, "%s .. %s", key_number(key->min, low), key_number(key->max, high));
+    text_add(t, "%s | ", range);
+    put_cell(t, key->meaning);
+    text_add(t, " | ");
+    put_cell(t, key->source);
+    text_add(t, " |\n");
+}
+
+/* Shapes share the keys of `group`; those have a table of their own. */
+static void put_table(struct text *t, enum job_section_id section, const char *title, bool shared)
+{
+    const struct job_section *s = &job_sections[section];
+    text_add(t, "\n## %s\n\n", title);
+    put_cell(t, s->meaning);
+    text_add(t, "\n\n| key | type, unit | default | range | meaning | source |\n|---|---|---|---|---|---|\n");
+    for (size_t i = 0; i < s->n; i++)
+        if (shared || !key_places(s->key[i].name))
+            put_row(t, &s->key[i]);
+}
+
+/* The section's table, then those inside it. `path` is where it stands in a job: "wind.deflation". */
+static void put_tables(struct text *t, enum job_section_id section, const char *path)
+{
+    const struct job_section *s = &job_sections[section];
+    char title[300];
+    snprintf(title, sizeof title, path[0] ? "`%s`" : "The job", path);
+    put_table(t, section, title, true);
+    for (size_t i = 0; i < s->n; i++) {
+        const struct job_key *key = &s->key[i];
+        if (key->type != KEY_SUB && key->type != KEY_LIST && key->type != KEY_MAP)
+            continue;
+        char inner[256];
+        snprintf(inner, sizeof inner, "%s%s%s%s", path, path[0] ? "." : "", key->name,
+                 key->type == KEY_LIST  ? ".N"
+                 : key->type == KEY_MAP ? ".NAME"
+                                        : "");
+        put_tables(t, (enum job_section_id)key->child, inner);
+    }
+}
+
+status job_reference(struct text *out)
+{
+    char title[100];
+    text_add(out, "%s", intro);
+    put_tables(out, SECTION_job, "");
+    for (int i = 0; i < SHAPES; i++) {
+        snprintf(title, sizeof title, "Shape `%s`", job_sections[i].name);
+        put_table(out, (enum job_section_id)i, title, false);
+    }
+    put_table(out, SECTION_group, "Every shape and operator", true);
+    text_add(out, "\nThese stand inside a shape's mapping, or beside an operator's list.\n");
+    return text_status(out);
+}

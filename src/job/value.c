@@ -1,0 +1,290 @@
+/* Single values: from YAML, and from the table's defaults. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "job/parse.h"
+
+enum { FRAME_LIMIT = 9999999, NAMES = 4096 };
+
+/* The short sentence of the last fail(), put behind a place. */
+static status at_place(const struct yaml *value, status st)
+{
+    char why[200];
+    snprintf(why, sizeof why, "%.190s", status_message());
+    return st == E_USAGE ? yaml_fail(value, NULL, "%s", why) : st;
+}
+
+static status read_number(const struct job_key *key, const struct yaml *v, double *out)
+{
+    char allowed[256];
+    key_allowed(key, allowed);
+    if (v->kind != YAML_SCALAR || yaml_is_null(v))
+        return yaml_fail(v, NULL, "%s, but a number is wanted (%s)", yaml_what(v), allowed);
+    double number;
+    bool decimal = yaml_decimal(v->text, &number);
+    if (v->quoted)
+        return yaml_fail(v, NULL, "text, but a number is wanted (%s)%s", allowed,
+                         decimal ? "; leave out the quotes" : "");
+    if (!decimal)
+        return yaml_fail(v, NULL, "'%.40s' is not a finite decimal number (%s)", v->text, allowed);
+    if (number < key->min || number > key->max)
+        return yaml_fail(v, NULL, "%.40s is out of range (%s)", v->text, allowed);
+    bool whole = key->type == KEY_INT || (key->type == KEY_VEC && strcmp(key->unit, "px") == 0);
+    if (whole && number != floor(number))
+        return yaml_fail(v, NULL, "%.40s is not a whole number (%s)", v->text, allowed);
+    *out = number + 0.0; /* -0 becomes 0 */
+    return OK;
+}
+
+static status curve_alloc(struct curve *c, size_t n)
+{
+    status st = memory_alloc(2 * n, sizeof *c->frame, "a curve", &c->frame);
+    if (st != OK)
+        return st;
+    c->value = c->frame + n;
+    c->n = n;
+    return OK;
+}
+
+struct curve_key {
+    double frame, value;
+    const struct yaml *at;
+};
+
+static int by_frame(const void *a, const void *b)
+{
+    const struct curve_key *x = a, *y = b;
+    return (x->frame > y->frame) - (x->frame < y->frame);
+}
+
+static status read_ease(const struct yaml *v, enum curve_ease *out)
+{
+    static const char *const names[] = {"linear", "smooth", "step"};
+    for (int i = 0; v->kind == YAML_SCALAR && i < 3; i++)
+        if (strcmp(v->text, names[i]) == 0) {
+            *out = (enum curve_ease)i;
+            return OK;
+        }
+    return yaml_fail(v, NULL, "not an ease (linear, smooth, step)");
+}
+
+static status read_keyed_curve(const struct job_key *key, const struct yaml *map, struct curve *out)
+{
+    status st = OK;
+    struct curve_key *keys = NULL;
+    size_t n = 0;
+    TRY(memory_alloc(map->n, sizeof *keys, "a curve", &keys));
+    for (const struct yaml *v = map->first; v; v = v->next) {
+        struct curve_key *k = &keys[n];
+        if (strcmp(v->key, "ease") == 0) {
+            TRY(read_ease(v, &out->ease));
+            continue;
+        }
+        if (!yaml_decimal(v->key, &k->frame) || k->frame != floor(k->frame) || fabs(k->frame) > FRAME_LIMIT) {
+            st = yaml_fail_key(
+                v, "not a frame; a curve is a number, or {frame: value, ease: linear|smooth|step}");
+            goto done;
+        }
+        k->frame += 0.0;
+        k->at = v;
+        TRY(read_number(key, v, &k->value));
+        n++;
+    }
+    if (n == 0) {
+        st = yaml_fail(map, NULL, "a curve without a frame; write {frame: value, ...}");
+        goto done;
+    }
+    qsort(keys, n, sizeof *keys, by_frame);
+    TRY(curve_alloc(out, n));
+    for (size_t i = 0; i < n; i++) {
+        if (i && keys[i].frame == keys[i - 1].frame) {
+            st = yaml_fail_key(keys[i].at, "frame %.0f is given twice", keys[i].frame);
+            goto done;
+        }
+        out->frame[i] = keys[i].frame;
+        out->value[i] = keys[i].value;
+    }
+done:
+    free(keys);
+    return st;
+}
+
+static status read_curve(const struct job_key *key, const struct yaml *v, struct curve *out)
+{
+    if (v->kind == YAML_MAP)
+        return read_keyed_curve(key, v, out);
+    double number;
+    status st = read_number(key, v, &number);
+    if (st != OK || (st = curve_alloc(out, 1)) != OK)
+        return st;
+    out->value[0] = number;
+    return OK;
+}
+
+static status read_vec(const struct job_key *key, const struct yaml *v, double *out)
+{
+    char allowed[256];
+    if (v->kind != YAML_LIST || v->n != key->n)
+        return yaml_fail(v, NULL, "%s%s, but a list of %zu numbers is wanted (each %s)", yaml_what(v),
+                         v->kind == YAML_LIST ? " of another length" : "", key->n, key_allowed(key, allowed));
+    for (const struct yaml *item = v->first; item; item = item->next) {
+        status st = read_number(key, item, out++);
+        if (st != OK)
+            return st;
+    }
+    return OK;
+}
+
+static status read_choice(const struct job_key *key, const struct yaml *v, int *out)
+{
+    char allowed[256];
+    const char *item;
+    size_t n;
+    key_allowed(key, allowed);
+    if (v->kind != YAML_SCALAR)
+        return yaml_fail(v, NULL, "%s, but a word is wanted (%s)", yaml_what(v), allowed);
+    for (int i = 0; (item = choice_item(key->choices, i, &n)) != NULL; i++)
+        if (strlen(v->text) == n && memcmp(v->text, item, n) == 0) {
+            *out = i;
+            return OK;
+        }
+    return yaml_fail(v, NULL, "'%.40s' is not one of %s", v->text, allowed);
+}
+
+static status read_bool(const struct yaml *v, bool *out)
+{
+    static const char *const words[] = {"false", "False", "FALSE", "true", "True", "TRUE"};
+    for (int i = 0; v->kind == YAML_SCALAR && !v->quoted && i < 6; i++)
+        if (strcmp(v->text, words[i]) == 0) {
+            *out = i >= 3;
+            return OK;
+        }
+    if (v->kind == YAML_SCALAR && !yaml_is_null(v))
+        return yaml_fail(v, NULL, "'%.40s' is not true or false", v->text);
+    return yaml_fail(v, NULL, "%s, but true or false is wanted", yaml_what(v));
+}
+
+static status read_range(const struct yaml *v, struct frame_range *out)
+{
+    if (v->kind != YAML_SCALAR || yaml_is_null(v))
+        return yaml_fail(v, NULL, "%s, but a frame range is wanted (such as 1001-1110 or 1001-1110x2)",
+                         yaml_what(v));
+    status st = range_parse(v->text, out);
+    return st == OK ? OK : at_place(v, st);
+}
+
+/* Control characters have no place in a name, a path or a file's metadata; a line break or tab may be in a
+ * comment. */
+static bool printable(const char *text)
+{
+    for (const unsigned char *s = (const unsigned char *)text; *s; s++) {
+        if ((*s < 0x20 && *s != '\n' && *s != '\t') || *s == 0x7f)
+            return false;
+        bool c1 = s[0] == 0xc2 && s[1] < 0xa0;
+        bool line_break = s[0] == 0xe2 && s[1] == 0x80 && (s[2] == 0xa8 || s[2] == 0xa9);
+        bool mark = s[0] == 0xef && ((s[1] == 0xbb && s[2] == 0xbf) || (s[1] == 0xbf && s[2] >= 0xbe));
+        if (c1 || line_break || mark)
+            return false;
+    }
+    return true;
+}
+
+static status check_text(const struct yaml *v)
+{
+    if (v->kind != YAML_SCALAR || yaml_is_null(v))
+        return yaml_fail(v, NULL, "%s, but text is wanted (\"\" for none)", yaml_what(v));
+    if (!v->quoted && strcmp(yaml_what(v), "text") != 0)
+        return yaml_fail(v, NULL, "%s, but text is wanted; put it in quotes: \"%.40s\"", yaml_what(v),
+                         v->text);
+    if (!printable(v->text))
+        return yaml_fail(v, NULL, "holds a control character");
+    return OK;
+}
+
+static status read_name(const struct yaml *v, char **out)
+{
+    status st = check_text(v);
+    size_t n = st == OK ? strlen(v->text) : 0;
+    if (st != OK)
+        return st;
+    if (n == 0 || n > 64 ||
+        strspn(v->text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != n)
+        return yaml_fail(v, NULL, "'%.70s' is not a name (1 to 64 letters, digits, _ and -)", v->text);
+    return memory_strdup(v->text, out);
+}
+
+static status read_input(const struct yaml *v, const char *folder, char **out)
+{
+    status st = check_text(v);
+    if (st != OK)
+        return st;
+    if (!*v->text || strchr(v->text, '\n'))
+        return yaml_fail(v, NULL, "a file name is wanted");
+    if (*v->text == '/')
+        return memory_strdup(v->text, out);
+    size_t n = strlen(folder) + strlen(v->text) + 2;
+    st = memory_alloc(n, 1, "a file name", out);
+    if (st == OK)
+        snprintf(*out, n, "%s%s%s", folder, folder[strlen(folder) - 1] == '/' ? "" : "/", v->text);
+    return st;
+}
+
+static status read_names(const struct job_key *key, const struct yaml *v, void *base)
+{
+    char **names = NULL;
+    if (v->kind != YAML_LIST)
+        return yaml_fail(v, NULL, "%s, but a list of names is wanted ([] for none)", yaml_what(v));
+    if (v->n > NAMES)
+        return yaml_fail(v, NULL, "%zu names (at most %d)", v->n, NAMES);
+    status st = memory_alloc(v->n, sizeof *names, key->name, &names);
+    if (st != OK)
+        return st;
+    key_set_items(key, base, names, v->n);
+    for (const struct yaml *item = v->first; item && st == OK; item = item->next)
+        st = read_name(item, names++);
+    return st;
+}
+
+status read_value(const struct job_key *key, const struct yaml *v, const char *folder, void *base)
+{
+    void *member = key_member(key, base);
+    double number;
+    status st;
+    switch (key->type) {
+    case KEY_TEXT:
+        st = check_text(v);
+        return st == OK ? memory_strdup(v->text, member) : st;
+    case KEY_NAME:
+        return read_name(v, member);
+    case KEY_INPUT:
+        return read_input(v, folder, member);
+    case KEY_NUM:
+        return read_number(key, v, member);
+    case KEY_INT:
+        st = read_number(key, v, &number);
+        if (st == OK)
+            *(int64_t *)member = (int64_t)number;
+        return st;
+    case KEY_CURVE:
+        return read_curve(key, v, member);
+    case KEY_BOOL:
+        return read_bool(v, member);
+    case KEY_CHOICE:
+        return read_choice(key, v, member);
+    case KEY_VEC:
+        return read_vec(key, v, member);
+    case KEY_RANGE:
+        return read_range(v, member);
+    case KEY_NAMES:
+        return read_names(key, v, base);
+    case KEY_SUB:
+    case KEY_LIST:
+    case KEY_MAP:
+    case KEY_NODE:
+        break;
+    }
+    return fail(E_USAGE, "%s holds keys of its own", key->name);
+}
