@@ -63,14 +63,6 @@ MUST_USE status vdb_mesh_read(const char *path, double adaptivity, const char *c
                               struct vdb_mesh *out);
 void vdb_mesh_free(struct vdb_mesh *mesh);
 
-/* A triangle mesh as a solid: signed distance (m, negative inside), exact in sign everywhere and in size within `band`
- * metres of the surface. Holes smaller than `voxel` are closed by the sampling. */
-struct vdb_sdf;
-MUST_USE status vdb_sdf_from_mesh(const float (*vertex)[3], size_t n_vertices, const uint32_t (*triangle)[3],
-                                  size_t n_triangles, double voxel, double band, struct vdb_sdf **out);
-double vdb_sdf_at(const struct vdb_sdf *sdf, const double x[3]);
-void vdb_sdf_destroy(struct vdb_sdf **sdf);
-
 #ifdef __cplusplus
 }
 #endif

@@ -1,9 +1,10 @@
 /* From a job's scene to the first particles.
  *
- * The domain is cut into voxels of the particle spacing h, eight to a cell of the stress grid; voxel (i, j, k) covers
- * [i h, (i+1) h] and so on, numbered (k ny + j) nx + i. Each voxel that holds rock gets one particle: jittered inside its
- * voxel by a hash of (seed, voxel), with the share of the voxel inside the shape as its viability, so that slanted and
- * shifted faces start where the job puts them, whatever the spacing.
+ * The domain is cut into voxels of the particle spacing h, eight to a cell of the stress grid; voxel (i, j,
+ * k) covers [i h, (i+1) h] and so on, numbered (k ny + j) nx + i. Each voxel that holds rock gets one
+ * particle: jittered inside its voxel by a hash of (seed, voxel), with the share of the voxel inside the
+ * shape as its viability, so that slanted and shifted faces start where the job puts them, whatever the
+ * spacing.
  */
 #ifndef HOODOO_SCENE_H
 #define HOODOO_SCENE_H
@@ -17,23 +18,39 @@
 /* Voxels of the domain on each axis: even, at least 2. E_USAGE if they would be more than 2^31 in all. */
 MUST_USE status scene_voxels(const struct job *job, int n[3]);
 
-/* A solid: the job's CSG tree with its files read. */
+/* A solid: the job's CSG tree with its files read. Meshes are sampled every `detail` metres (half a particle
+ * spacing is right). Distances up to `reach` metres from the surface are wanted; farther out they may stop
+ * growing. E_USAGE: a shape without an inside. E_INPUT: a file is missing, damaged or hostile. */
 struct solid;
-MUST_USE status solid_create(const struct job_node *node, struct solid **out);
+MUST_USE status solid_create(const struct job_node *node, double detail, double reach, struct solid **out);
 void solid_destroy(struct solid **solid);
 
+/* A box around it, m; infinite where a plane leaves it open, min > max where nothing is left. */
+void solid_bounds(const struct solid *solid, double min[3], double max[3]);
+
+/* Overlapping parts of a union: inert if any part that holds the point is; outside, as the nearest part. */
 struct solid_point {
-    double distance; /* m, negative inside: exact or a lower bound in size near the surface, exact in sign */
-    int inert;       /* inside a part marked inert */
+    double distance; /* m, negative inside: exact in sign (0: inside), in size exact or a lower bound */
+    int inert;
 };
 struct solid_point solid_at(const struct solid *solid, const double x[3]);
 
-/* Samples the scene: STATE fields only, particles in voxel order, ids in that order, layers by height, noise and paint
- * applied. *rock is the caller's to rock_free().
- * E_USAGE: no rock in the domain, or none that touches the ground. E_INPUT: a file is missing, damaged or hostile. */
+/* Samples the scene: STATE fields only, particles in voxel order, ids in that order, layers by height, noise
+ * and paint applied. A voxel of which less than 1/64 is rock gets nothing. Equal jobs give equal bits,
+ * whatever the threads.
+ *
+ * Noise   times exp(amplitude * n(P)), n of zero mean and unit variance (noise.h).
+ * Paint   entries are laid over each other in order: where one covers fully its factor replaces what was
+ * painted before, at its falloff the two are mixed; a factor of 1 paints nothing. Inert: where the shape
+ * holds P.
+ *
+ * *rock is the caller's to rock_free().
+ * E_USAGE: no rock in the domain, or none that touches the ground. E_INPUT: a file is missing, damaged or
+ * hostile. E_MEMORY: says how many particles it would be. */
 MUST_USE status scene_sample(const struct job *job, struct rock *rock);
 
-/* Bytes scene_sample() will need for the particles, and how many there will be, by sampling a coarse grid. */
+/* About how many particles scene_sample() will make, from a quarter of a million voxels of it. Files and shapes fail as
+ * there; an empty scene is 0 particles. */
 MUST_USE status scene_estimate(const struct job *job, size_t *n_particles);
 
 #endif

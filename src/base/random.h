@@ -1,0 +1,43 @@
+/* Randomness without a generator: a hash of what the number is for.
+ *
+ * Equal arguments give equal bits on every machine and in every thread order; there is no state to save.
+ * Kernels can have the same numbers: the lines below are GLSL too if uint32_t reads uint (integers wrap in
+ * both languages). Source   pcg4d, Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020.
+ */
+#ifndef HOODOO_RANDOM_H
+#define HOODOO_RANDOM_H
+
+#include <stdint.h>
+
+/* What a number is for, so that two uses never share one. Never renumber: frames would change. */
+enum random_purpose { RANDOM_JITTER = 1, RANDOM_NOISE = 2, RANDOM_ESTIMATE = 3 };
+
+/* 32 random bits; every argument moves all of them. Nest calls for more than four arguments. */
+static inline uint32_t random_hash(uint32_t a, uint32_t b, uint32_t c, uint32_t d)
+{
+    a = a * 1664525u + 1013904223u;
+    b = b * 1664525u + 1013904223u;
+    c = c * 1664525u + 1013904223u;
+    d = d * 1664525u + 1013904223u;
+    a += b * d;
+    b += c * a;
+    c += a * b;
+    d += b * c;
+    a ^= a >> 16;
+    b ^= b >> 16;
+    c ^= c >> 16;
+    d ^= d >> 16;
+    a += b * d;
+    b += c * a;
+    c += a * b;
+    d += b * c;
+    return d;
+}
+
+/* Uniform in [0, 1): the top 24 bits, which a float holds exactly. */
+static inline float random_float(uint32_t hash)
+{
+    return (float)(hash >> 8) * (1.0f / 16777216.0f);
+}
+
+#endif

@@ -1,0 +1,13 @@
+/* A mesh file as a solid standing in the world. */
+#ifndef HOODOO_MESHSOLID_H
+#define HOODOO_MESHSOLID_H
+
+#include "scene/mesh_shim.h"
+#include "scene/placement.h"
+
+/* `detail`, `reach`: as for solid_create(). min and max come back as the box around it. E_INPUT: the file is
+ * missing, damaged or hostile, or its surface is open. */
+MUST_USE status mesh_solid(const struct job_mesh *job, const struct placement *place, double detail,
+                           double reach, struct vdb_sdf **out, double min[3], double max[3]);
+
+#endif

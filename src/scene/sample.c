@@ -1,0 +1,229 @@
+/* The first particles: counted slab by slab, then filled in voxel order, so that neither the number of
+ * threads nor their order shows in the result.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "scene/coverage.h"
+#include "scene/noise.h"
+#include "scene/paint.h"
+#include "scene/scene.h"
+
+#define MAX_VOXELS 2147483648.0
+#define JITTER 0.4f /* of h, to either side of the voxel's middle */
+
+status scene_voxels(const struct job *job, int n[3])
+{
+    double h = job->domain.spacing_m, total = 1, count[3];
+    for (int a = 0; a < 3; a++) {
+        /* Pairs of voxels: a size within a millionth of a whole number of them is meant to be that. */
+        double pairs = job->domain.size_m[a] / (2 * h), whole = fmax(1, round(pairs));
+        count[a] = 2 * (fabs(pairs - whole) <= 1e-6 * whole ? whole : fmax(1, ceil(pairs)));
+        total *= count[a];
+    }
+    if (!(total <= MAX_VOXELS))
+        return fail(E_USAGE,
+                    "domain: %.0f x %.0f x %.0f voxels are more than 2^31: raise domain.spacing_m above %.3g "
+                    "m, or make "
+                    "domain.size_m smaller",
+                    count[0], count[1], count[2], h * cbrt(total / MAX_VOXELS));
+    for (int a = 0; a < 3; a++)
+        n[a] = (int)count[a];
+    return OK;
+}
+
+struct sampler {
+    const struct job *job;
+    int n[3];
+    double h;
+    struct solid *solid;
+    struct coverage *coverage;
+    struct paint_set *paint;
+    struct noise noise;
+    uint32_t jitter[3]; /* what each axis hashes with */
+};
+
+static uint32_t layer_at(const struct job *job, double z)
+{
+    size_t layer = 0;
+    while (layer + 1 < job->n_strata && z >= job->strata[layer].to_m)
+        layer++;
+    return (uint32_t)layer;
+}
+
+/* Where a voxel's particle sits: its middle and a jitter that depends on the seed and the voxel alone. */
+static void place(const struct sampler *s, const int voxel[3], float P[4])
+{
+    for (int a = 0; a < 3; a++) {
+        float share = random_float(
+            random_hash(s->jitter[a], (uint32_t)voxel[0], (uint32_t)voxel[1], (uint32_t)voxel[2]));
+        P[a] = (float)((voxel[a] + 0.5 + (double)(JITTER * (2 * share - 1))) * s->h);
+    }
+    P[3] = 0;
+}
+
+static void fill_particle(const struct sampler *s, const int voxel[3], unsigned share, struct rock *rock,
+                          size_t p)
+{
+    place(s, voxel, rock->P + 4 * p);
+    const double x[3] = {(double)rock->P[4 * p], (double)rock->P[4 * p + 1], (double)rock->P[4 * p + 2]};
+    struct paint_values paint = paint_at(s->paint, x);
+    double rate = paint.erodibility;
+    if (s->job->noise.amplitude > 0)
+        rate *= exp(s->job->noise.amplitude * noise_at(&s->noise, x));
+    if (paint.inert || solid_at(s->solid, x).inert)
+        rate = 0;
+    rock->id[p] = (uint32_t)p;
+    rock->viability[p] = (float)(paint.viability * share / COVERAGE_FULL);
+    rock->layer[p] = layer_at(s->job, x[2]);
+    rock->rate_factor[p] = (float)rate;
+    rock->interlock_factor[p] = (float)paint.interlock;
+}
+
+static size_t count_slab(const struct sampler *s, int k)
+{
+    size_t count = 0;
+    for (int j = 0; j < s->n[1]; j++)
+        for (int i = 0; i < s->n[0]; i++)
+            count += coverage_at(s->coverage, i, j, k) > 0;
+    return count;
+}
+
+static void fill_slab(const struct sampler *s, int k, size_t p, struct rock *rock)
+{
+    for (int j = 0; j < s->n[1]; j++)
+        for (int i = 0; i < s->n[0]; i++) {
+            unsigned share = coverage_at(s->coverage, i, j, k);
+            if (share > 0)
+                fill_particle(s, (const int[]){i, j, k}, share, rock, p++);
+        }
+}
+
+static status no_rock(const struct sampler *s)
+{
+    double min[3], max[3];
+    const double *size = s->job->domain.size_m;
+    solid_bounds(s->solid, min, max);
+    return fail(
+        E_USAGE,
+        "scene: no rock in the domain: the scene spans x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g m, the "
+        "domain "
+        "x 0 to %.4g, y 0 to %.4g, z 0 to %.4g m: move the shapes into it, or check what a difference or "
+        "intersection leaves",
+        min[0], max[0], min[1], max[1], min[2], max[2], size[0], size[1], size[2]);
+}
+
+/* first[k]: particles below slab k. */
+static status count_particles(const struct sampler *s, size_t **first)
+{
+    status st = OK;
+    const int nz = s->n[2];
+    size_t *count;
+    TRY(memory_alloc((size_t)nz + 1, sizeof *count, "the scene's slabs", &count));
+    *first = count;
+#pragma omp parallel for schedule(dynamic)
+    for (int k = 0; k < nz; k++)
+        count[k + 1] = count_slab(s, k);
+    for (int k = 0; k < nz; k++)
+        count[k + 1] += count[k];
+    if (count[nz] == 0)
+        return no_rock(s);
+    if (count[1] == 0) {
+        int lowest = 1;
+        while (count[lowest + 1] == 0)
+            lowest++;
+        return fail(E_USAGE,
+                    "scene: the rock floats in the air: lowest rock is at z = %.4g m, and the ground is z = "
+                    "0: lower it, "
+                    "or add what it stands on",
+                    lowest * s->h);
+    }
+    size_t bytes = 0;
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (rock_field_table[f].keep == STATE)
+            bytes += rock_field_size((enum rock_field)f);
+    if (count[nz] > memory_available() / bytes)
+        return fail(E_MEMORY,
+                    "the scene has %zu particles, which need %.3g GB, and %.3g GB are free: raise "
+                    "domain.spacing_m",
+                    count[nz], 1e-9 * (double)(count[nz] * bytes), 1e-9 * (double)memory_available());
+done:
+    return st;
+}
+
+static status sampler_init(struct sampler *s, const struct job *job)
+{
+    status st = OK;
+    double h = job->domain.spacing_m;
+    *s = (struct sampler){.job = job, .h = h};
+    TRY(scene_voxels(job, s->n));
+    TRY(solid_create(job->scene, h / 2, COVERAGE_REACH(h), &s->solid));
+done:
+    return st;
+}
+
+static void sampler_deinit(struct sampler *s)
+{
+    solid_destroy(&s->solid);
+    coverage_destroy(&s->coverage);
+    paint_destroy(&s->paint);
+}
+
+status scene_sample(const struct job *job, struct rock *rock)
+{
+    status st = OK;
+    struct sampler s;
+    size_t *first = NULL;
+    uint32_t seed = (uint32_t)job->seed;
+    *rock = (struct rock){0};
+    TRY(sampler_init(&s, job));
+    TRY(paint_create(job, &s.paint));
+    s.noise = noise_init(&job->noise, seed);
+    for (uint32_t a = 0; a < 3; a++)
+        s.jitter[a] = random_hash(seed, a, 0, RANDOM_JITTER);
+    TRY(coverage_create(s.solid, s.n, s.h, &s.coverage));
+    TRY(count_particles(&s, &first));
+    TRY(rock_alloc(rock, first[s.n[2]], STATE));
+#pragma omp parallel for schedule(dynamic)
+    for (int k = 0; k < s.n[2]; k++)
+        fill_slab(&s, k, first[k], rock);
+done:
+    free(first);
+    sampler_deinit(&s);
+    return st;
+}
+
+status scene_estimate(const struct job *job, size_t *n_particles)
+{
+    status st = OK;
+    struct sampler s;
+    size_t total = 1, probes = 1, found = 0, blocks[3];
+    TRY(sampler_init(&s, job));
+    for (int a = 0; a < 3; a++)
+        total *= (size_t)s.n[a];
+    /* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels.
+     */
+    int side = (int)ceil(cbrt((double)total / 262144) - 1e-9);
+    for (int a = 0; a < 3; a++) {
+        blocks[a] = ((size_t)s.n[a] + (size_t)side - 1) / (size_t)side;
+        probes *= blocks[a];
+    }
+#pragma omp parallel for reduction(+ : found)
+    for (size_t b = 0; b < probes; b++) {
+        const size_t at[3] = {b % blocks[0], b / blocks[0] % blocks[1], b / blocks[0] / blocks[1]};
+        int voxel[3], inside = 1;
+        for (uint32_t a = 0; a < 3; a++) {
+            uint32_t offset =
+                random_hash((uint32_t)job->seed, (uint32_t)b, a, RANDOM_ESTIMATE) % (uint32_t)side;
+            voxel[a] = (int)at[a] * side + (int)offset;
+            inside &= voxel[a] < s.n[a];
+        }
+        found += inside && coverage_of_voxel(s.solid, s.h, voxel[0], voxel[1], voxel[2]) > 0;
+    }
+    *n_particles = found * (size_t)side * (size_t)side * (size_t)side;
+done:
+    sampler_deinit(&s);
+    return st;
+}

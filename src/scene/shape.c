@@ -1,0 +1,198 @@
+#include "scene/shape.h"
+
+#include <math.h>
+
+#include "scene/meshsolid.h"
+
+/* ---- distances, in the shape's own space */
+
+static double box_distance(const double lo[3], const double hi[3], const double x[3])
+{
+    double outside = 0, inside = -INFINITY;
+    for (int a = 0; a < 3; a++) {
+        double d = fmax(lo[a] - x[a], x[a] - hi[a]);
+        inside = fmax(inside, d);
+        outside += d > 0 ? d * d : 0;
+    }
+    return inside > 0 ? sqrt(outside) : inside;
+}
+
+/* A capped cone is a trapezoid turned about its axis: distance in the plane of the axis and the point. */
+static double cylinder_distance(const double from[3], const double axis[3], double length,
+                                const double radius[2], const double x[3])
+{
+    double along = 0, square = 0;
+    for (int a = 0; a < 3; a++)
+        along += (x[a] - from[a]) * axis[a];
+    for (int a = 0; a < 3; a++) {
+        double side = x[a] - from[a] - along * axis[a];
+        square += side * side;
+    }
+    double r = sqrt(square);
+    double past = fabs(along - length / 2) - length / 2; /* beyond the caps */
+    double cap = fmax(0, r - radius[along < length / 2 ? 0 : 1]);
+    double slope = radius[1] - radius[0];
+    double t = ((r - radius[0]) * slope + along * length) / (slope * slope + length * length);
+    t = fmin(fmax(t, 0), 1);
+    double wall_r = r - radius[0] - t * slope, wall_z = along - t * length;
+    double d = sqrt(fmin(cap * cap + past * past, wall_r * wall_r + wall_z * wall_z));
+    return past <= 0 && r <= radius[0] + slope * along / length ? -d : d;
+}
+
+static double sphere_distance(const double center[3], double radius, const double x[3])
+{
+    double d[3] = {x[0] - center[0], x[1] - center[1], x[2] - center[2]};
+    return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) - radius;
+}
+
+double shape_distance(const struct shape *shape, const double x[3])
+{
+    if (shape->kind == SHAPE_MESH)
+        return vdb_sdf_at(shape->u.mesh, x);
+    double p[3], d = INFINITY;
+    placement_apply(shape->place.local_from_world, x, p);
+    switch (shape->kind) {
+    case SHAPE_BOX:
+        d = box_distance(shape->u.box.min_m, shape->u.box.max_m, p);
+        break;
+    case SHAPE_SPHERE:
+        d = sphere_distance(shape->u.sphere.center_m, shape->u.sphere.radius_m, p);
+        break;
+    case SHAPE_CYLINDER:
+        d = cylinder_distance(shape->u.cylinder.from, shape->u.cylinder.axis, shape->u.cylinder.length,
+                              shape->u.cylinder.radius, p);
+        break;
+    case SHAPE_PLANE: {
+        const double *n = shape->u.plane.normal;
+        d = p[0] * n[0] + p[1] * n[1] + p[2] * n[2] - shape->u.plane.offset;
+        break;
+    }
+    case SHAPE_HEIGHTFIELD:
+        d = heightfield_distance(shape->u.heightfield, p);
+        break;
+    case SHAPE_MESH:
+        break;
+    }
+    return d * shape->place.shrink;
+}
+
+/* ---- shapes from the job */
+
+/* Turns v into a unit vector and gives its length, in two steps so that tiny and huge vectors keep their
+ * digits. */
+static double normalize(double v[3])
+{
+    double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2]))), length = 0;
+    if (!(largest > 0))
+        return 0;
+    for (int a = 0; a < 3; a++) {
+        v[a] /= largest;
+        length += v[a] * v[a];
+    }
+    length = sqrt(length);
+    for (int a = 0; a < 3; a++)
+        v[a] /= length;
+    return length * largest;
+}
+
+static status cylinder_init(struct shape *s, const struct job_cylinder *c)
+{
+    double lo[3], hi[3], top = c->top_radius_m < 0 ? c->radius_m : c->top_radius_m;
+    double widest = fmax(c->radius_m, top);
+    for (int a = 0; a < 3; a++) {
+        s->u.cylinder.from[a] = c->from_m[a];
+        s->u.cylinder.axis[a] = c->to_m[a] - c->from_m[a];
+        lo[a] = fmin(c->from_m[a], c->to_m[a]) - widest;
+        hi[a] = fmax(c->from_m[a], c->to_m[a]) + widest;
+    }
+    s->u.cylinder.radius[0] = c->radius_m;
+    s->u.cylinder.radius[1] = top;
+    s->u.cylinder.length = normalize(s->u.cylinder.axis);
+    if (!(s->u.cylinder.length > 0))
+        return fail(E_USAGE, "scene: a cylinder's from_m and to_m are the same point: give it a length");
+    placement_box(&s->place, lo, hi, s->min, s->max);
+    return OK;
+}
+
+static status plane_init(struct shape *s, const struct job_plane *p)
+{
+    double *n = s->u.plane.normal;
+    for (int a = 0; a < 3; a++)
+        n[a] = p->normal[a];
+    if (!(normalize(n) > 0))
+        return fail(E_USAGE, "scene: a plane's normal is 0: give it a direction, out of the rock");
+    s->u.plane.offset = p->point_m[0] * n[0] + p->point_m[1] * n[1] + p->point_m[2] * n[2];
+    for (int a = 0; a < 3; a++) {
+        s->min[a] = -INFINITY;
+        s->max[a] = INFINITY;
+    }
+    return OK;
+}
+
+/* The rule min_m < max_m, for boxes and heightfields. */
+static status check_corners(const char *what, const double min[3], const double max[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (!(min[a] < max[a]))
+            return fail(E_USAGE, "scene: a %s has min_m %g and max_m %g on %c: max_m must be larger", what,
+                        min[a], max[a], "xyz"[a]);
+    return OK;
+}
+
+status shape_init(struct shape *s, const struct job_node *node, const struct placement *place, double detail,
+                  double reach)
+{
+    status st = OK;
+    *s = (struct shape){
+        .kind = node->shape,
+        .place = *place,
+        .min = {INFINITY, INFINITY, INFINITY},
+        .max = {-INFINITY, -INFINITY, -INFINITY},
+    };
+    switch (node->shape) {
+    case SHAPE_BOX:
+        s->u.box = node->u.box;
+        TRY(check_corners("box", s->u.box.min_m, s->u.box.max_m));
+        placement_box(place, s->u.box.min_m, s->u.box.max_m, s->min, s->max);
+        break;
+    case SHAPE_SPHERE: {
+        const struct job_sphere *sphere = &node->u.sphere;
+        double lo[3], hi[3];
+        s->u.sphere = *sphere;
+        for (int a = 0; a < 3; a++) {
+            lo[a] = sphere->center_m[a] - sphere->radius_m;
+            hi[a] = sphere->center_m[a] + sphere->radius_m;
+        }
+        placement_box(place, lo, hi, s->min, s->max);
+        break;
+    }
+    case SHAPE_CYLINDER:
+        TRY(cylinder_init(s, &node->u.cylinder));
+        break;
+    case SHAPE_PLANE:
+        TRY(plane_init(s, &node->u.plane));
+        break;
+    case SHAPE_MESH:
+        TRY(mesh_solid(&node->u.mesh, place, detail, reach, &s->u.mesh, s->min, s->max));
+        break;
+    case SHAPE_HEIGHTFIELD: {
+        const struct job_heightfield *h = &node->u.heightfield;
+        double top[3] = {h->max_m[0], h->max_m[1], 0};
+        TRY(check_corners("heightfield", h->min_m, h->max_m));
+        TRY(heightfield_create(h, reach / place->shrink, &s->u.heightfield));
+        top[2] = heightfield_top(s->u.heightfield);
+        placement_box(place, h->min_m, top, s->min, s->max);
+        break;
+    }
+    }
+done:
+    return st;
+}
+
+void shape_deinit(struct shape *shape)
+{
+    if (shape->kind == SHAPE_MESH)
+        vdb_sdf_destroy(&shape->u.mesh);
+    if (shape->kind == SHAPE_HEIGHTFIELD)
+        heightfield_destroy(&shape->u.heightfield);
+}

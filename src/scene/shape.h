@@ -1,0 +1,35 @@
+/* One shape of the scene, placed: its signed distance in the world. */
+#ifndef HOODOO_SHAPE_H
+#define HOODOO_SHAPE_H
+
+#include "scene/heightfield.h"
+#include "scene/mesh_shim.h"
+#include "scene/placement.h"
+
+struct shape {
+    enum job_shape kind;
+    struct placement place;
+    double min[3], max[3]; /* m, in the world; infinite for a plane */
+    union {
+        struct job_box box;
+        struct job_sphere sphere;
+        struct {
+            double from[3], axis[3], length, radius[2]; /* axis: unit */
+        } cylinder;
+        struct {
+            double normal[3], offset; /* unit; inside where x . normal <= offset */
+        } plane;
+        struct vdb_sdf *mesh; /* already in the world: its vertices were placed */
+        struct heightfield *heightfield;
+    } u;
+};
+
+/* `detail`, `reach`: as for solid_create(). E_USAGE: a degenerate shape. E_INPUT: its file. */
+MUST_USE status shape_init(struct shape *shape, const struct job_node *node, const struct placement *place,
+                           double detail, double reach);
+void shape_deinit(struct shape *shape);
+
+/* m, negative inside; the sign is exact, the size exact or less. */
+double shape_distance(const struct shape *shape, const double x[3]);
+
+#endif

@@ -1,0 +1,142 @@
+/* CSG: shapes joined by union, intersection and difference. Placements are carried down to the shapes when
+ * the tree is made, so that a point is asked about in the world and operators only compare numbers.
+ */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "scene/scene.h"
+#include "scene/shape.h"
+
+struct solid {
+    enum job_node_kind kind;
+    double min[3], max[3]; /* m, a box around it */
+    size_t n_child;
+    struct solid **child;
+    struct shape shape; /* NODE_SHAPE only */
+};
+
+static void bound(struct solid *s)
+{
+    for (int a = 0; a < 3; a++) {
+        const struct solid *first = s->n_child ? s->child[0] : NULL;
+        s->min[a] = first ? first->min[a] : s->shape.min[a];
+        s->max[a] = first ? first->max[a] : s->shape.max[a];
+        for (size_t i = 1; i < s->n_child; i++) {
+            const struct solid *c = s->child[i];
+            if (s->kind == NODE_UNION) {
+                s->min[a] = fmin(s->min[a], c->min[a]);
+                s->max[a] = fmax(s->max[a], c->max[a]);
+            } else if (s->kind == NODE_INTERSECTION) {
+                s->min[a] = fmax(s->min[a], c->min[a]);
+                s->max[a] = fmin(s->max[a], c->max[a]);
+            }
+        }
+    }
+}
+
+static status create(const struct job_node *node, const struct placement *parent, double detail, double reach,
+                     struct solid **out)
+{
+    status st = OK;
+    struct solid *s = NULL;
+    struct placement place = placement_below(parent, node);
+    TRY(memory_alloc(1, sizeof *s, "a solid", &s));
+    s->kind = node->kind;
+    if (node->kind == NODE_SHAPE) {
+        TRY(shape_init(&s->shape, node, &place, detail, reach));
+    } else {
+        if (node->n_child == 0) {
+            st = fail(E_USAGE, "scene: an operator without shapes: list at least one below it");
+            goto done;
+        }
+        TRY(memory_alloc(node->n_child, sizeof *s->child, "a solid", &s->child));
+        for (; s->n_child < node->n_child; s->n_child++)
+            TRY(create(node->child[s->n_child], &place, detail, reach, &s->child[s->n_child]));
+    }
+    bound(s);
+    *out = s;
+    s = NULL;
+done:
+    solid_destroy(&s);
+    return st;
+}
+
+status solid_create(const struct job_node *node, double detail, double reach, struct solid **out)
+{
+    struct placement world = placement_identity();
+    if (!node)
+        return fail(E_USAGE, "scene: no shape: give a box, sphere, cylinder, plane, mesh or heightfield");
+    return create(node, &world, detail, reach, out);
+}
+
+void solid_destroy(struct solid **solid)
+{
+    struct solid *s = *solid;
+    if (!s)
+        return;
+    for (size_t i = 0; i < s->n_child; i++)
+        solid_destroy(&s->child[i]);
+    free(s->child);
+    if (s->kind == NODE_SHAPE)
+        shape_deinit(&s->shape);
+    free(s);
+    *solid = NULL;
+}
+
+void solid_bounds(const struct solid *solid, double min[3], double max[3])
+{
+    for (int a = 0; a < 3; a++) {
+        min[a] = solid->min[a];
+        max[a] = solid->max[a];
+    }
+}
+
+/* Is x at least `distance` away from the box around s? */
+static int beyond(const struct solid *s, const double x[3], double distance)
+{
+    double square = 0;
+    for (int a = 0; a < 3; a++) {
+        double d = fmax(s->min[a] - x[a], x[a] - s->max[a]);
+        square += d > 0 ? d * d : 0;
+    }
+    return square > distance * distance;
+}
+
+static struct solid_point at_union(const struct solid *s, const double x[3])
+{
+    struct solid_point p = solid_at(s->child[0], x);
+    for (size_t i = 1; i < s->n_child; i++) {
+        /* Inside already, only parts that hold x matter; outside, only nearer ones. */
+        if (beyond(s->child[i], x, fmax(p.distance, 0)))
+            continue;
+        struct solid_point c = solid_at(s->child[i], x);
+        if (c.distance <= 0 && p.distance <= 0)
+            p.inert |= c.inert;
+        else if (c.distance < p.distance)
+            p.inert = c.inert;
+        p.distance = fmin(p.distance, c.distance);
+    }
+    return p;
+}
+
+struct solid_point solid_at(const struct solid *s, const double x[3])
+{
+    if (s->kind == NODE_SHAPE)
+        return (struct solid_point){shape_distance(&s->shape, x), s->shape.place.inert};
+    if (s->kind == NODE_UNION)
+        return at_union(s, x);
+    struct solid_point p = solid_at(s->child[0], x);
+    for (size_t i = 1; i < s->n_child; i++) {
+        struct solid_point c = solid_at(s->child[i], x);
+        if (s->kind == NODE_INTERSECTION) {
+            p.distance = fmax(p.distance, c.distance);
+            p.inert |= c.inert;
+        } else {
+            /* The face of what is taken away belongs to it: 0 counts as inside there too. */
+            p.distance = fmax(p.distance, c.distance == 0 ? DBL_MIN : -c.distance);
+        }
+    }
+    return p;
+}
