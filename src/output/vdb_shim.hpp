@@ -44,6 +44,35 @@ template <class V> V sim_from_file(const V &f, bool y_up)
     return y_up ? V(f[0], -f[2], f[1]) : f;
 }
 
+/* File metadata: how many voxels the frame's grids had, in the simulator's axes. */
+constexpr char LATTICE[] = "lattice_voxels";
+
+/* The frame's voxels in the file's index space: which box they fill, and where each is in the dense arrays.
+ */
+struct lattice {
+    Coord lo, hi;        /* inclusive */
+    ptrdiff_t stride[3]; /* voxels */
+    bool y_up;
+
+    lattice(const int n[3], bool y) : y_up(y)
+    {
+        const ptrdiff_t nx = n[0], layer = nx * n[1];
+        if (y_up) {
+            lo = Coord(0, 0, 1 - n[1]);
+            hi = Coord(n[0] - 1, n[2] - 1, 0);
+            stride[0] = 1, stride[1] = layer, stride[2] = -nx;
+        } else {
+            lo = Coord(0);
+            hi = Coord(n[0] - 1, n[1] - 1, n[2] - 1);
+            stride[0] = 1, stride[1] = nx, stride[2] = layer;
+        }
+    }
+    ptrdiff_t at(int x, int y, int z) const
+    {
+        return x * stride[0] + y * stride[1] + z * stride[2];
+    }
+};
+
 /* Registers OpenVDB's types once. */
 void start();
 

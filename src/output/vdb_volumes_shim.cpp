@@ -13,32 +13,7 @@ namespace
 {
 using openvdb::Coord;
 using openvdb::Vec3f;
-
-/* The frame's voxels in the file's index space: which box they fill, and where each is in the dense arrays.
- */
-struct lattice {
-    Coord lo, hi;        /* inclusive */
-    ptrdiff_t stride[3]; /* voxels */
-    bool y_up;
-
-    lattice(const int n[3], bool y) : y_up(y)
-    {
-        const ptrdiff_t nx = n[0], layer = nx * n[1];
-        if (y_up) {
-            lo = Coord(0, 0, 1 - n[1]);
-            hi = Coord(n[0] - 1, n[2] - 1, 0);
-            stride[0] = 1, stride[1] = layer, stride[2] = -nx;
-        } else {
-            lo = Coord(0);
-            hi = Coord(n[0] - 1, n[1] - 1, n[2] - 1);
-            stride[0] = 1, stride[1] = nx, stride[2] = layer;
-        }
-    }
-    ptrdiff_t at(int x, int y, int z) const
-    {
-        return x * stride[0] + y * stride[1] + z * stride[2];
-    }
-};
+using vdb::lattice;
 
 /* What a kind of grid means by active, and what its inactive voxels hold. */
 struct level_set {
@@ -178,7 +153,8 @@ try {
         if (std::strcmp(grids->grid[i].name, "density") == 0)
             density = grids->grid[i].value;
 
-    const openvdb::MetaMap metadata = vdb::file_metadata(*options, grids->voxel);
+    openvdb::MetaMap metadata = vdb::file_metadata(*options, grids->voxel);
+    metadata.insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(grids->n)));
     auto transform = openvdb::math::Transform::createLinearTransform(grids->voxel);
     transform->postTranslate(
         vdb::file_from_sim(openvdb::Vec3d(grids->origin[0], grids->origin[1], grids->origin[2]), y_up));
