@@ -1,4 +1,5 @@
-/* OpenEXR files from C: one frame's AOVs. Written into memory, so that a full disk is the caller's to notice. */
+/* OpenEXR files from C: one frame's AOVs. Written into memory, so that a full disk is the caller's to notice.
+ */
 #ifndef HOODOO_EXR_H
 #define HOODOO_EXR_H
 
@@ -15,9 +16,10 @@ struct exr_options {
     const char *owner, *comments;
 };
 
-/* ZIP; float but for channels marked half; uint for ids. Standard attributes as DESIGN 2 lists them, and hoodoo:*.
- * *bytes is freed with free(). */
-MUST_USE status exr_encode(const struct aov_image *image, const struct exr_options *options, void *bytes, size_t *size);
+/* ZIP; float but for channels marked half; uint for ids. Standard attributes as DESIGN 2 lists them, and
+ * hoodoo:*. *bytes is freed with free(). */
+MUST_USE status exr_encode(const struct aov_image *image, const struct exr_options *options, void *bytes,
+                           size_t *size);
 
 /* Reads every pixel. E_INPUT if anything is missing or damaged. */
 MUST_USE status exr_check(const char *path);

@@ -12,11 +12,11 @@
 
 enum folder_file { FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST, FILE_CHECKPOINT, FILE_MESH };
 
-/* out/NAME/points/NAME.1001.vdb and so on: `root` is the output folder, `name` the job's. Frames are written with at least four
- * digits. `camera`: FILE_AOV only, put in the name (NAME.CAMERA.1001.exr) when the job has more than one AOV camera, else NULL.
- * E_OUTPUT if the path is too long. */
-MUST_USE status folder_path(char out[4096], const char *root, const char *name, enum folder_file kind, int frame,
-                            const char *camera);
+/* root/points/NAME.1001.vdb and so on: `root` is the output folder, `name` the job's. Frames are written with
+ * at least four digits. `camera`: FILE_AOV only, put in the name (NAME.CAMERA.1001.exr) when the job has more
+ * than one AOV camera, else NULL. FILE_MESH is the PLY. E_OUTPUT if the path is too long. */
+MUST_USE status folder_path(char out[4096], const char *root, const char *name, enum folder_file kind,
+                            int frame, const char *camera);
 
 /* Makes root and its subfolders, and sweeps temporary files out of them. */
 MUST_USE status folder_prepare(const char *root);
@@ -39,19 +39,22 @@ struct manifest {
 
 /* frames/NAME.1001.json. Written last. */
 MUST_USE status manifest_write(const char *root, const char *name, const struct manifest *manifest);
-/* E_INPUT: missing, not JSON, or not a manifest. */
+/* E_INPUT: missing, damaged (it holds its own hash), or not the manifest of this frame. */
 MUST_USE status manifest_read(const char *root, const char *name, int frame, struct manifest *out);
 void manifest_free(struct manifest *manifest);
 
-/* Does every file the manifest lists stand there with its size (and, if `deep`, its hash)? *bad names the first that does not
- * (a text in the manifest or "" if all are well). */
-MUST_USE status manifest_check(const char *root, const struct manifest *manifest, bool deep, const char **bad);
+/* Does every file the manifest lists stand there with its size (and, if `deep`, its hash)? *bad names the
+ * first that does not (a text in the manifest, or "" if all are well); status_message() then says what is
+ * wrong with it. OK either way. */
+MUST_USE status manifest_check(const char *root, const struct manifest *manifest, bool deep,
+                               const char **bad);
 
-/* The frames of `name` that have a manifest, ascending; *frames freed with free(). */
+/* The frames of `name` that have a manifest, ascending; *frames freed with free(). A folder that is not there
+ * has none. */
 MUST_USE status folder_frames(const char *root, const char *name, int **frames, size_t *n);
 
-/* The job's name and resolved job path of an output folder: reads root/job.yaml's presence and root/run.json. E_INPUT if `root` is
- * not a hoodoo output folder. `name` holds at least 256 bytes. */
+/* The job's name of an output folder, from root/run.json. E_INPUT if `root` is not a hoodoo output folder: no
+ * run.json with a name, or no job.yaml. */
 MUST_USE status folder_open(const char *root, char name[256]);
 
 #endif

@@ -1,4 +1,5 @@
-/* A finished frame in host memory: what the writer turns into files. Everything is in the simulator's axes (z up, m). */
+/* A finished frame in host memory: what the writer turns into files. Everything is in the simulator's axes (z
+ * up, m). */
 #ifndef HOODOO_FRAME_H
 #define HOODOO_FRAME_H
 
@@ -14,8 +15,9 @@ enum grid_class { GRID_LEVEL_SET, GRID_FOG, GRID_PLAIN };
 struct frame_grid {
     const char *name; /* surface, density, stress, ... */
     const char *unit;
-    enum grid_class class;
-    float *value; /* owned by the frame */
+    enum grid_class kind;
+    int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
+    float *value;   /* owned by the frame */
 };
 
 struct frame_grids {
@@ -24,16 +26,17 @@ struct frame_grids {
     size_t n_grids;
     struct frame_grid grid[8];
 };
-/* In every grid, voxels where `density` is 0 are inactive, except in `surface`, whose active voxels are those with
- * |value| < 3 voxels (its background). */
+/* In scalar grids, voxels where `density` is 0 are inactive, except in level sets, whose active voxels are
+ * those with |value| < 3 voxels (the background). In vector grids (the wind is outside the rock) those with a
+ * zero vector are. */
 
 /* One camera's picture: planes of width * height values, top row first. */
 struct aov_channel {
-    const char *part;    /* layer of a multi-part file: rgba, depth, N, P, stress, ... */
-    const char *name;    /* full channel name: "R", "Z", "N.X", "stress.trace" */
-    const float *value;  /* or NULL */
-    const uint32_t *id;  /* where value is NULL */
-    int half;            /* write as half */
+    const char *part;   /* layer of a multi-part file: rgba, depth, N, P, stress, ... */
+    const char *name;   /* full channel name: "R", "Z", "N.X", "stress.trace" */
+    const float *value; /* or NULL */
+    const uint32_t *id; /* where value is NULL */
+    int half;           /* write as half */
 };
 
 struct aov_image {
@@ -58,7 +61,7 @@ struct frame {
     size_t n_images;
     struct aov_image *image;
     struct ledger ledger;
-    double volume_m3;       /* sum of viability times h^3 */
+    double volume_m3; /* sum of viability times h^3 */
     double start_volume_m3;
     double max_stress_Pa;
     int stress_iterations;

@@ -1,9 +1,10 @@
 /* OpenVDB files: volumes and points to bytes, and back. The only door to OpenVDB (vdb_shim.cpp).
  *
- * Axes      In memory everything is in the simulator's axes (z up). Files are in the job's output.up: for y, index and
- *           world (x, y, z) become (x, z, -y). Readers here turn it back, going by the file's up_axis metadata.
- * Bytes     Files are made in memory, their random archive UUID is replaced by one derived from `identity`, and they hold
- *           no dates: equal input gives equal bytes. The caller writes them (atomic_file.h), so a full disk is noticed.
+ * Axes      In memory everything is in the simulator's axes (z up). Files are in the job's output.up: for y,
+ * index and world (x, y, z) become (x, z, -y). Readers here turn it back, going by the file's up_axis
+ * metadata. Bytes     Files are made in memory, their random archive UUID is replaced by one derived from
+ * `identity`, and they hold no dates: equal input gives equal bytes. The caller writes them (atomic_file.h),
+ * so a full disk is noticed.
  */
 #ifndef HOODOO_VDB_H
 #define HOODOO_VDB_H
@@ -19,13 +20,13 @@ extern "C" {
 #endif
 
 struct vdb_options {
-    int up;            /* OUTPUT_UP_* */
-    int codec;         /* VDB_CODEC_* */
-    bool half;         /* volumes only; never for points */
-    int points;        /* VDB_POINTS_* */
-    int frame;         /* metadata */
-    double spacing;    /* m: pscale is half of it; surface particles are those with a normal */
-    uint64_t identity; /* of run, frame and kind of file */
+    int up;                  /* OUTPUT_UP_* */
+    int codec;               /* VDB_CODEC_* */
+    bool half;               /* volumes only; never for points */
+    int points;              /* VDB_POINTS_* */
+    int frame;               /* metadata */
+    double spacing;          /* m: pscale is half of it; surface particles are those with a normal */
+    uint64_t identity;       /* of run, frame and kind of file */
     const float (*color)[3]; /* Cd by layer */
     size_t n_colors;
 };
@@ -36,20 +37,30 @@ struct vdb_bytes {
     size_t size;
 };
 
-MUST_USE status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options, struct vdb_bytes *out);
+MUST_USE status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options,
+                            struct vdb_bytes *out);
 MUST_USE status vdb_points(const struct rock *rock, const struct vdb_options *options, struct vdb_bytes *out);
 
-/* What a file holds: grids (name, type, class, active voxels or points, bounds in m in the file's axes, attributes) and file
- * metadata, written into `out` as a JSON object's members. E_INPUT if it is missing or damaged; never crashes on
- * hostile bytes (it reads in a child process with limits on memory and time). */
+/* What a file holds: grids (name, type, class, active voxels or points, bounds in m in the file's axes,
+ * attributes) and file metadata, written into `out` as a JSON object's members. E_INPUT if it is missing or
+ * damaged; never crashes on hostile bytes (it reads in a child process with limits on memory and time). */
 struct text;
 MUST_USE status vdb_describe(const char *path, struct text *out);
 
 /* Reads every grid of the file completely. E_INPUT if anything is missing or damaged. */
 MUST_USE status vdb_check(const char *path);
 
-/* The zero surface of `surface` as triangles with outward normals, in the simulator's axes, and the values of other grids
- * at the vertices (trilinear). */
+/* Back from files, in the simulator's axes. E_INPUT if the file is missing, damaged or holds something else.
+ * Volumes: the grids with names hoodoo writes that the file holds, on the lattice they were written from;
+ * what is inactive reads as 0, in level sets as the background with its sign. Names are static; value[] is
+ * freed by vdb_volumes_free(). Points: the fields of particles.def that the file holds, the others NULL;
+ * rock_free(). Their order is the file's. */
+MUST_USE status vdb_volumes_read(const char *path, struct frame_grids *out);
+void vdb_volumes_free(struct frame_grids *grids);
+MUST_USE status vdb_points_read(const char *path, struct rock *out);
+
+/* The zero surface of `surface` as triangles with outward normals, in the simulator's axes, and the values of
+ * other grids at the vertices (trilinear). */
 struct vdb_mesh {
     size_t n_vertices, n_triangles;
     float *vertex;      /* [n_vertices][3] m */

@@ -1,0 +1,34 @@
+#include "output/exr_hash.h"
+
+#include <string.h>
+
+#include "base/hash.h"
+
+/* How the attribute starts in the file: its name, its type and its length. */
+static const char HEAD[] = EXR_HASH_NAME "\0string\0\x10\0\0";
+enum { DIGITS = 16, SEARCHED = 1 << 16 };
+
+static char *find_digits(char *bytes, size_t size)
+{
+    char *head = memmem(bytes, size < SEARCHED ? size : SEARCHED, HEAD, sizeof HEAD);
+    if (!head || size - (size_t)(head - bytes) < sizeof HEAD + DIGITS)
+        return NULL;
+    return head + sizeof HEAD;
+}
+
+void exr_hash_set(char *bytes, size_t size)
+{
+    char text[DIGITS + 1], *digits = find_digits(bytes, size);
+    if (digits)
+        memcpy(digits, hash_text(hash_bytes(bytes, size), text), DIGITS);
+}
+
+bool exr_hash_holds(char *bytes, size_t size)
+{
+    char text[DIGITS + 1], found[DIGITS], *digits = find_digits(bytes, size);
+    if (!digits) /* by someone else, if it says nothing of hoodoo */
+        return !memmem(bytes, size < SEARCHED ? size : SEARCHED, "hoodoo:", 7);
+    memcpy(found, digits, DIGITS);
+    memcpy(digits, EXR_HASH_NONE, DIGITS);
+    return memcmp(found, hash_text(hash_bytes(bytes, size), text), DIGITS) == 0;
+}

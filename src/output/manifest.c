@@ -1,0 +1,231 @@
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/atomic_file.h"
+#include "base/hash.h"
+#include "base/memory.h"
+#include "output/folder.h"
+#include "output/json.h"
+
+/* The last member is the hash of all text before it, so that damage to the manifest itself shows. */
+static const char SELF[] = "\n  \"self_xxh3\": \"", END[] = "\"\n}\n";
+enum { HASH_DIGITS = 16, LARGEST = 16 << 20, MOST_FILES = 4096 };
+
+static void write_hash(struct text *t, const char *key, uint64_t hash)
+{
+    char text[17];
+    json_text(t, key, hash_text(hash, text));
+}
+
+status manifest_write(const char *root, const char *name, const struct manifest *m)
+{
+    status st = OK;
+    char path[4096];
+    struct text t = {0};
+    TRY(folder_path(path, root, name, FILE_MANIFEST, m->frame, NULL));
+    json_object(&t, NULL);
+    json_text(&t, "kind", "hoodoo frame");
+    json_integer(&t, "format", 1);
+    json_integer(&t, "frame", m->frame);
+    write_hash(&t, "job_xxh3", m->job_hash);
+    json_number(&t, "years", m->years);
+    json_array(&t, "files");
+    for (size_t i = 0; i < m->n_files; i++) {
+        json_object(&t, NULL);
+        json_text(&t, "path", m->file[i].path);
+        json_integer(&t, "size", (int64_t)m->file[i].size);
+        write_hash(&t, "xxh3", m->file[i].hash);
+        json_end_object(&t);
+    }
+    json_end_array(&t);
+    json_object(&t, "statistics");
+    json_number(&t, "volume_m3", m->volume_m3);
+    json_number(&t, "start_volume_m3", m->start_volume_m3);
+    json_number(&t, "max_stress_Pa", m->max_stress_Pa);
+    json_integer(&t, "stress_iterations", m->stress_iterations);
+    json_end_object(&t);
+    json_object(&t, "ledger");
+#define LEDGER(X) X(start) X(rock) X(deposit) X(fallen) X(left)
+#define WRITE(what) json_integer(&t, #what, (int64_t)m->ledger.what);
+    LEDGER(WRITE)
+#undef WRITE
+    json_end_object(&t);
+    TRY(text_status(&t));
+    write_hash(&t, "self_xxh3", hash_bytes(t.data, t.size));
+    json_end_object(&t);
+    TRY(text_status(&t));
+    TRY(atomic_file_write(path, t.data, t.size));
+done:
+    text_free(&t);
+    return st;
+}
+
+static bool to_hash(const struct json *json, uint64_t *out)
+{
+    const char *text = json_to_text(json);
+    if (!text || strlen(text) != HASH_DIGITS || strspn(text, "0123456789abcdef") != HASH_DIGITS)
+        return false;
+    *out = strtoull(text, NULL, 16);
+    return true;
+}
+
+/* null is what a number that is not finite was written as. */
+static bool to_number(const struct json *json, double *out)
+{
+    if (!json || (json->kind != JSON_NUMBER && json->kind != JSON_NULL))
+        return false;
+    *out = json->kind == JSON_NUMBER ? json->number : (double)NAN;
+    return true;
+}
+
+/* Relative, within the folder, and printable. */
+static bool is_inside(const char *path)
+{
+    if (*path == '/' || *path == '\0')
+        return false;
+    for (const char *part = path; part; part = strchr(part, '/') ? strchr(part, '/') + 1 : NULL) {
+        const size_t n = strcspn(part, "/");
+        if (n == 0 || (n == 1 && part[0] == '.') || (n == 2 && part[0] == '.' && part[1] == '.'))
+            return false;
+    }
+    for (const char *c = path; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f || *c == '\\')
+            return false;
+    return true;
+}
+
+static bool to_files(const struct json *files, struct manifest *out)
+{
+    if (!files || files->kind != JSON_ARRAY)
+        return false;
+    for (const struct json *item = files->first; item; item = item->next) {
+        struct manifest_file *f = &out->file[out->n_files];
+        const char *path = json_to_text(json_member(item, "path"));
+        if (!path || strlen(path) >= sizeof f->path || !is_inside(path) ||
+            !json_to_uint64(json_member(item, "size"), &f->size) ||
+            !to_hash(json_member(item, "xxh3"), &f->hash))
+            return false;
+        snprintf(f->path, sizeof f->path, "%s", path);
+        out->n_files++;
+    }
+    return true;
+}
+
+/* "" or what is wrong with it. `out` has room for the files. */
+static const char *to_manifest(const struct json *json, struct manifest *out)
+{
+    const char *kind = json_to_text(json_member(json, "kind"));
+    const struct json *statistics = json_member(json, "statistics"), *ledger = json_member(json, "ledger");
+    uint64_t format;
+    if (!kind || strcmp(kind, "hoodoo frame") != 0 || !json_to_uint64(json_member(json, "format"), &format))
+        return "it is not the manifest of a frame";
+    if (format != 1)
+        return "its format is a later one; use a newer hoodoo";
+    if (!json_to_int(json_member(json, "frame"), &out->frame) ||
+        !to_hash(json_member(json, "job_xxh3"), &out->job_hash) ||
+        !to_number(json_member(json, "years"), &out->years))
+        return "its frame, job_xxh3 or years is missing or wrong";
+    if (!to_files(json_member(json, "files"), out))
+        return "a file in it lacks a path inside the folder, a size or a hash";
+    if (!to_number(json_member(statistics, "volume_m3"), &out->volume_m3) ||
+        !to_number(json_member(statistics, "start_volume_m3"), &out->start_volume_m3) ||
+        !to_number(json_member(statistics, "max_stress_Pa"), &out->max_stress_Pa) ||
+        !json_to_int(json_member(statistics, "stress_iterations"), &out->stress_iterations))
+        return "a number of its statistics is missing or wrong";
+#define READ(what)                                                                                           \
+    if (!json_to_uint64(json_member(ledger, #what), &out->ledger.what))                                      \
+        return "a number of its ledger is missing or wrong";
+    LEDGER(READ)
+#undef READ
+    return "";
+}
+
+static status check_self(const char *path, const char *bytes, size_t size)
+{
+    char text[17];
+    const char *self = memmem(bytes, size, SELF, sizeof SELF - 1);
+    /* The comma before SELF was written together with it; after the digits comes END and nothing else. */
+    if (!self || self == bytes ||
+        size - (size_t)(self - bytes) != sizeof SELF - 1 + HASH_DIGITS + sizeof END - 1 ||
+        memcmp(self + sizeof SELF - 1, hash_text(hash_bytes(bytes, (size_t)(self - bytes) - 1), text),
+               HASH_DIGITS) != 0 ||
+        memcmp(bytes + size - (sizeof END - 1), END, sizeof END - 1) != 0)
+        return fail(E_INPUT, "%s: damaged, or not a frame's manifest: its own hash does not match", path);
+    return OK;
+}
+
+status manifest_read(const char *root, const char *name, int frame, struct manifest *out)
+{
+    status st = OK;
+    char path[4096], *bytes = NULL;
+    size_t size = 0;
+    struct json *json = NULL;
+    struct manifest m = {0};
+    const struct json *files;
+    const char *wrong;
+    TRY(folder_path(path, root, name, FILE_MANIFEST, frame, NULL));
+    TRY(file_read(path, LARGEST, &bytes, &size));
+    TRY(json_read(path, bytes, size, &json));
+    TRY(check_self(path, bytes, size));
+    files = json_member(json, "files");
+    if (files && files->n > MOST_FILES) {
+        st = fail(E_INPUT, "%s: it lists %zu files, more than the %d allowed", path, files->n, MOST_FILES);
+        goto done;
+    }
+    TRY(memory_alloc(files ? files->n : 0, sizeof *m.file, path, &m.file));
+    wrong = to_manifest(json, &m);
+    if (!*wrong && m.frame != frame)
+        wrong = "it is of another frame than its name says";
+    if (*wrong) {
+        st = fail(E_INPUT, "%s: %s", path, wrong);
+        goto done;
+    }
+    *out = m;
+    m = (struct manifest){0};
+done:
+    manifest_free(&m);
+    if (json)
+        json_free(&json);
+    free(bytes);
+    return st;
+}
+
+void manifest_free(struct manifest *manifest)
+{
+    free(manifest->file);
+    *manifest = (struct manifest){0};
+}
+
+/* Whether the file stands there as listed. If not, the sentence says why. */
+static bool stands(const char *root, const struct manifest_file *f, bool deep)
+{
+    char path[4096];
+    struct stat info;
+    uint64_t hash = 0, size = 0;
+    status st = OK;
+    if (snprintf(path, sizeof path, "%s/%s", root, f->path) >= (int)sizeof path)
+        st = fail(E_INPUT, "%.200s...: the path is too long", root);
+    else if (stat(path, &info) != 0)
+        st = fail(E_INPUT, "%s: %s", path, strerror(errno));
+    else if (!S_ISREG(info.st_mode))
+        st = fail(E_INPUT, "%s: not a regular file", path);
+    else if ((uint64_t)info.st_size != f->size)
+        st = fail(E_INPUT, "%s: %lld bytes, but %llu were written", path, (long long)info.st_size,
+                  (unsigned long long)f->size);
+    else if (deep && (st = hash_file(path, &hash, &size)) == OK && (hash != f->hash || size != f->size))
+        st = fail(E_INPUT, "%s: damaged: its content is not what was written", path);
+    return st == OK;
+}
+
+status manifest_check(const char *root, const struct manifest *manifest, bool deep, const char **bad)
+{
+    *bad = "";
+    for (size_t i = 0; i < manifest->n_files && !**bad; i++)
+        if (!stands(root, &manifest->file[i], deep))
+            *bad = manifest->file[i].path;
+    return OK;
+}

@@ -1,0 +1,267 @@
+/* Particles to an OpenVDB PointDataGrid: sorted into voxels in two stable passes, so that the order is always
+ * the same. */
+#include "output/vdb_shim.hpp"
+
+#include <openvdb/points/AttributeArray.h>
+#include <openvdb/points/PointDataGrid.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <unordered_map>
+#include <vector>
+
+namespace
+{
+using openvdb::Coord;
+using openvdb::Index;
+using openvdb::Vec3d;
+using openvdb::Vec3f;
+using openvdb::points::AttributeSet;
+using openvdb::points::PointDataGrid;
+using leaf_node = openvdb::points::PointDataTree::LeafNodeType;
+using descriptor = AttributeSet::Descriptor;
+
+/* Which particles go to which leaf: those of leaf l are particle[begin[l]] to particle[begin[l + 1] - 1],
+ * ascending. */
+struct leaf_lists {
+    std::vector<Coord> origin;
+    std::vector<uint32_t> begin, particle;
+};
+
+struct placement {
+    const float *P;
+    double voxel;
+    bool y_up;
+    Vec3d index(size_t i) const
+    {
+        return vdb::file_from_sim(Vec3d(P[4 * i], P[4 * i + 1], P[4 * i + 2]), y_up) / voxel;
+    }
+};
+
+struct hash_coord {
+    size_t operator()(const Coord &c) const
+    {
+        return c.hash<20>();
+    }
+};
+
+bool is_written(const rock &r, const vdb_options &options, size_t i)
+{
+    if (options.points == VDB_POINTS_ALL || !r.N)
+        return options.points != VDB_POINTS_NONE;
+    const float *n = r.N + 4 * i;
+    return options.points == VDB_POINTS_SURFACE && (n[0] != 0 || n[1] != 0 || n[2] != 0);
+}
+
+/* False if a particle is nowhere: `bad` is its number. */
+bool sort_into_leaves(const rock &r, const vdb_options &options, const placement &at, leaf_lists &lists,
+                      size_t &bad)
+{
+    constexpr uint32_t NOT_WRITTEN = UINT32_MAX;
+    constexpr double FAR = 1 << 30;
+    std::unordered_map<Coord, uint32_t, hash_coord> known;
+    std::vector<uint32_t> leaf_of(r.n), count;
+    Coord last_origin = Coord::max();
+    uint32_t last = NOT_WRITTEN;
+    for (size_t i = 0; i < r.n; i++) {
+        leaf_of[i] = NOT_WRITTEN;
+        if (!is_written(r, options, i))
+            continue;
+        const Vec3d x = at.index(i);
+        if (!(std::fabs(x[0]) < FAR && std::fabs(x[1]) < FAR && std::fabs(x[2]) < FAR)) {
+            bad = i;
+            return false;
+        }
+        const Coord origin = Coord::round(x) & ~int(leaf_node::DIM - 1);
+        if (origin != last_origin) {
+            const auto found = known.try_emplace(origin, uint32_t(lists.origin.size()));
+            if (found.second) {
+                lists.origin.push_back(origin);
+                count.push_back(0);
+            }
+            last_origin = origin;
+            last = found.first->second;
+        }
+        leaf_of[i] = last;
+        count[last]++;
+    }
+    lists.begin.assign(count.size() + 1, 0);
+    for (size_t l = 0; l < count.size(); l++)
+        lists.begin[l + 1] = lists.begin[l] + count[l];
+    lists.particle.resize(lists.begin.back());
+    std::vector<uint32_t> next(lists.begin.begin(), lists.begin.end() - 1);
+    for (size_t i = 0; i < r.n; i++)
+        if (leaf_of[i] != NOT_WRITTEN)
+            lists.particle[next[leaf_of[i]]++] = uint32_t(i);
+    return true;
+}
+
+/* An attribute of the file: how its value for particle i is made. All values equal in a leaf are stored once.
+ */
+enum attribute_kind { CONSTANT, FLOAT, INT, VECTOR, COLOR };
+struct attribute {
+    std::string name;
+    attribute_kind kind;
+    const void *from;
+};
+
+template <class T, class value_fn>
+void fill(openvdb::points::AttributeArray &array, const std::vector<uint32_t> &order, const value_fn &value)
+{
+    const T first = value(order[0]);
+    size_t k = 1;
+    while (k < order.size() && value(order[k]) == first)
+        k++;
+    using typed = openvdb::points::TypedAttributeArray<T>;
+    if (k == order.size()) {
+        typed::collapse(&array, first);
+        return;
+    }
+    openvdb::points::AttributeWriteHandle<T, openvdb::points::NullCodec> handle(array, /*expand=*/true);
+    for (k = 0; k < order.size(); k++)
+        handle.set(Index(k), value(order[k]));
+}
+
+class leaf_maker
+{
+  public:
+    leaf_maker(const rock &r, const vdb_options &options, const placement &at)
+        : at_(at), options_(options), layer_(r.layer)
+    {
+        pscale_ = float(options.spacing / 2);
+        attributes_.push_back({"pscale", CONSTANT, &pscale_});
+        attributes_.push_back({"v", CONSTANT, nullptr});
+        if (layer_ && options.color && options.n_colors)
+            attributes_.push_back({"Cd", COLOR, nullptr});
+        for (int f = 0; f < ROCK_FIELDS; f++) {
+            const rock_field_info &info = rock_field_table[f];
+            if (f != ROCK_P && *info.vdb && r.field[f])
+                attributes_.push_back({info.vdb,
+                                       info.components == 4 ? VECTOR
+                                       : info.is_float      ? FLOAT
+                                                            : INT,
+                                       r.field[f]});
+        }
+        using namespace openvdb::points;
+        using vec3 = TypedAttributeArray<Vec3f>;
+        position_ = descriptor::create(vec3::attributeType());
+        all_ = position_;
+        for (const attribute &a : attributes_)
+            all_ = all_->duplicateAppend(a.name, a.kind == INT ? TypedAttributeArray<int32_t>::attributeType()
+                                                 : a.kind == FLOAT || a.from == &pscale_
+                                                     ? TypedAttributeArray<float>::attributeType()
+                                                     : vec3::attributeType());
+    }
+
+    leaf_node *make(const Coord &origin, const uint32_t *particle, size_t n) const
+    {
+        /* by voxel; within a voxel by particle */
+        uint32_t end[leaf_node::SIZE] = {0};
+        std::vector<uint16_t> voxel(n);
+        for (size_t k = 0; k < n; k++) {
+            voxel[k] = uint16_t(leaf_node::coordToOffset(Coord::round(at_.index(particle[k]))));
+            end[voxel[k]]++;
+        }
+        std::vector<leaf_node::ValueType> offsets(leaf_node::SIZE);
+        uint32_t sum = 0;
+        for (size_t v = 0; v < leaf_node::SIZE; v++) {
+            const uint32_t start = sum;
+            sum += end[v];
+            offsets[v] = leaf_node::ValueType(sum);
+            end[v] = start;
+        }
+        std::vector<uint32_t> order(n);
+        for (size_t k = 0; k < n; k++)
+            order[end[voxel[k]]++] = particle[k];
+
+        std::unique_ptr<leaf_node> leaf(new leaf_node(origin));
+        leaf->initializeAttributes(position_, Index(n));
+        leaf->replaceAttributeSet(new AttributeSet(all_, Index(n)), /*allowMismatchingDescriptors=*/true);
+        leaf->setOffsets(offsets);
+        fill<Vec3f>(leaf->attributeArray(0), order, [this](uint32_t i) {
+            const Vec3d x = at_.index(i);
+            return Vec3f(x - Coord::round(x).asVec3d());
+        });
+        for (size_t a = 0; a < attributes_.size(); a++)
+            fill_attribute(leaf->attributeArray(a + 1), attributes_[a], order);
+        return leaf.release();
+    }
+
+  private:
+    void fill_attribute(openvdb::points::AttributeArray &array, const attribute &a,
+                        const std::vector<uint32_t> &order) const
+    {
+        const float *real = static_cast<const float *>(a.from);
+        const uint32_t *whole = static_cast<const uint32_t *>(a.from);
+        switch (a.kind) {
+        case CONSTANT:
+            if (real)
+                openvdb::points::TypedAttributeArray<float>::collapse(&array, *real);
+            break; /* else zero, as it was made */
+        case FLOAT:
+            fill<float>(array, order, [real](uint32_t i) { return real[i]; });
+            break;
+        case INT:
+            fill<int32_t>(array, order, [whole](uint32_t i) { return int32_t(whole[i]); });
+            break;
+        case VECTOR:
+            fill<Vec3f>(array, order, [real, this](uint32_t i) {
+                return vdb::file_from_sim(Vec3f(real[4 * i], real[4 * i + 1], real[4 * i + 2]), at_.y_up);
+            });
+            break;
+        case COLOR:
+            fill<Vec3f>(array, order, [this](uint32_t i) {
+                const size_t layer = layer_[i] < options_.n_colors ? layer_[i] : options_.n_colors - 1;
+                return Vec3f(options_.color[layer]);
+            });
+        }
+    }
+
+    const placement &at_;
+    const vdb_options &options_;
+    const uint32_t *layer_;
+    float pscale_;
+    std::vector<attribute> attributes_;
+    descriptor::Ptr position_, all_;
+};
+} // namespace
+
+extern "C" status vdb_points(const struct rock *rock, const struct vdb_options *options,
+                             struct vdb_bytes *out)
+try {
+    vdb::start();
+    *out = vdb_bytes{nullptr, 0};
+    if (!(options->spacing > 0) || !std::isfinite(options->spacing))
+        return fail(E_OUTPUT, "points of frame %d: a spacing of %g m", options->frame, options->spacing);
+    if (rock->n >= UINT32_MAX || (rock->n && !rock->P))
+        return fail(E_OUTPUT, "points of frame %d: %zu particles%s", options->frame, rock->n,
+                    rock->P ? ", more than a file can number" : " without positions");
+
+    /* About eight particles a voxel, as OpenVDB advises. */
+    const placement at{rock->P, 2 * options->spacing, options->up == OUTPUT_UP_Y};
+    leaf_lists lists;
+    size_t bad = 0;
+    if (!sort_into_leaves(*rock, *options, at, lists, bad))
+        return fail(E_NUMERIC, "points of frame %d: particle %zu is at (%g, %g, %g) m", options->frame, bad,
+                    double(rock->P[4 * bad]), double(rock->P[4 * bad + 1]), double(rock->P[4 * bad + 2]));
+
+    const leaf_maker maker(*rock, *options, at);
+    std::vector<std::unique_ptr<leaf_node>> leaves(lists.origin.size());
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, leaves.size()), [&](const tbb::blocked_range<size_t> &range) {
+            for (size_t l = range.begin(); l < range.end(); l++)
+                leaves[l].reset(maker.make(lists.origin[l], lists.particle.data() + lists.begin[l],
+                                           lists.begin[l + 1] - lists.begin[l]));
+        });
+    auto grid = PointDataGrid::create();
+    for (auto &leaf : leaves)
+        grid->tree().addLeaf(leaf.release());
+    const openvdb::MetaMap metadata = vdb::file_metadata(*options, at.voxel);
+    grid->setName("points");
+    grid->setCreator(metadata.metaValue<std::string>("creator"));
+    grid->setTransform(openvdb::math::Transform::createLinearTransform(at.voxel));
+    vdb::encode({grid}, *options, metadata, out);
+    return OK;
+}
+SHIM_CATCH(E_OUTPUT, "points")

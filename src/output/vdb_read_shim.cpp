@@ -1,0 +1,176 @@
+/* What an OpenVDB file holds, and whether it is all there. Runs in a child process, single-threaded: these
+ * bytes may come from anyone. */
+#include "output/vdb_shim.hpp"
+
+#include <openvdb/io/File.h>
+#include <openvdb/points/PointDataGrid.h>
+
+#include <cstdlib>
+#include <set>
+#include <typeinfo>
+
+extern "C" {
+#include "base/atomic_file.h"
+#include "output/sandbox.h"
+}
+
+namespace
+{
+using openvdb::GridBase;
+using openvdb::Index64;
+using openvdb::points::PointDataGrid;
+
+/* Every active value belongs to a leaf or is a tile; counted without threads. */
+template <class tree_type> Index64 count_active(const tree_type &tree)
+{
+    Index64 n = 0;
+    auto tile = tree.cbeginValueOn();
+    tile.setMaxDepth(tree_type::ValueOnCIter::LEAF_DEPTH - 1);
+    for (; tile; ++tile)
+        n += tile.getVoxelCount();
+    for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf)
+        n += leaf->onVoxelCount();
+    return n;
+}
+
+void describe_points(const PointDataGrid &grid, struct text *out)
+{
+    Index64 n = 0;
+    const openvdb::points::AttributeSet *set = nullptr;
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        n += leaf->getLastValue();
+        set = &leaf->attributeSet();
+    }
+    json_integer(out, "points", int64_t(n));
+    json_array(out, "attributes");
+    if (set) {
+        /* in the order of their positions, which is the order they were made in */
+        for (size_t i = 0; i < set->size(); i++)
+            for (const auto &entry : set->descriptor().map())
+                if (entry.second == i) {
+                    const auto &type = set->descriptor().type(i);
+                    json_object(out, nullptr);
+                    json_text(out, "name", entry.first.c_str());
+                    json_text(out, "type", type.first.c_str());
+                    json_text(out, "codec", type.second.c_str());
+                    json_end_object(out);
+                }
+    }
+    json_end_array(out);
+}
+
+struct count_voxels {
+    Index64 n = 0;
+    template <class grid_type> void operator()(const grid_type &grid)
+    {
+        n = count_active(grid.tree());
+    }
+};
+
+using known_grids = openvdb::TypeList<openvdb::FloatGrid, openvdb::DoubleGrid, openvdb::Int32Grid,
+                                      openvdb::Int64Grid, openvdb::BoolGrid, openvdb::MaskGrid,
+                                      openvdb::Vec3SGrid, openvdb::Vec3DGrid, openvdb::Vec3IGrid>;
+
+void json_vector(struct text *out, const char *key, const openvdb::Vec3d &v)
+{
+    json_array(out, key);
+    for (int a = 0; a < 3; a++)
+        json_number(out, nullptr, v[a]);
+    json_end_array(out);
+}
+
+void describe_metadata(const openvdb::MetaMap &metadata, const char *key, struct text *out)
+{
+    json_object(out, key);
+    for (auto m = metadata.beginMeta(); m != metadata.endMeta(); ++m) {
+        const openvdb::Metadata &value = *m->second;
+        if (const auto *d = dynamic_cast<const openvdb::DoubleMetadata *>(&value))
+            json_number(out, m->first.c_str(), d->value());
+        else if (const auto *f = dynamic_cast<const openvdb::FloatMetadata *>(&value))
+            json_number(out, m->first.c_str(), double(f->value()));
+        else if (const auto *i = dynamic_cast<const openvdb::Int32Metadata *>(&value))
+            json_integer(out, m->first.c_str(), i->value());
+        else if (const auto *l = dynamic_cast<const openvdb::Int64Metadata *>(&value))
+            json_integer(out, m->first.c_str(), l->value());
+        else if (const auto *b = dynamic_cast<const openvdb::BoolMetadata *>(&value))
+            json_bool(out, m->first.c_str(), b->value());
+        else
+            json_text(out, m->first.c_str(), value.str().c_str());
+    }
+    json_end_object(out);
+}
+
+void describe_grid(const GridBase &grid, struct text *out)
+{
+    json_object(out, nullptr);
+    json_text(out, "name", grid.getName().c_str());
+    json_text(out, "type", grid.valueType().c_str());
+    json_text(out, "class", GridBase::gridClassToString(grid.getGridClass()).c_str());
+    json_bool(out, "half", grid.saveFloatAsHalf());
+    json_vector(out, "voxel_m", grid.voxelSize());
+    if (grid.isType<PointDataGrid>())
+        describe_points(static_cast<const PointDataGrid &>(grid), out);
+    count_voxels active;
+    if (grid.apply<known_grids>(active))
+        json_integer(out, "active_voxels", int64_t(active.n));
+    openvdb::CoordBBox box;
+    if (grid.baseTree().evalLeafBoundingBox(box)) {
+        const openvdb::BBoxd bounds =
+            grid.transform().indexToWorld(openvdb::BBoxd(box.min().asVec3d(), box.max().asVec3d()));
+        json_object(out, "leaf_bounds_m");
+        json_vector(out, "min", bounds.min());
+        json_vector(out, "max", bounds.max());
+        json_end_object(out);
+    }
+    describe_metadata(grid, "metadata", out);
+    json_end_object(out);
+}
+
+/* Reads the whole file; describes it if `out` is not NULL. */
+status read_file(const char *path, struct text *out)
+try {
+    void *bytes = nullptr;
+    size_t size = 0;
+    const status st = file_read(path, SIZE_MAX / 2, &bytes, &size);
+    if (st != OK)
+        return st;
+    const bool intact = vdb::is_intact(bytes, size);
+    std::free(bytes);
+    if (!intact)
+        return fail(E_INPUT, "%s: damaged: its content is not what was written", path);
+
+    vdb::start();
+    openvdb::io::File file(path);
+    file.open(/*delayLoad=*/false);
+    if (out) {
+        json_text(out, "format", "OpenVDB");
+        json_text(out, "up_axis", vdb::is_y_up(*file.getMetadata()) ? "y" : "z");
+        describe_metadata(*file.getMetadata(), "metadata", out);
+        json_array(out, "grids");
+    }
+    for (auto name = file.beginName(); name != file.endName(); ++name) {
+        const GridBase::Ptr grid = file.readGrid(name.gridName());
+        if (out)
+            describe_grid(*grid, out);
+    }
+    if (out)
+        json_end_array(out);
+    return OK;
+}
+SHIM_CATCH(E_INPUT, path)
+
+status check_file(const char *path, struct text *)
+{
+    return read_file(path, nullptr);
+}
+} // namespace
+
+extern "C" status vdb_check(const char *path)
+{
+    return sandbox_read(path, check_file, nullptr);
+}
+
+extern "C" status vdb_describe(const char *path, struct text *out)
+{
+    return sandbox_read(path, read_file, out);
+}
