@@ -36,12 +36,9 @@ static bool is_digit(int c)
     return c >= '0' && c <= '9';
 }
 
-static int hex_digit(char c)
+static bool is_hex_digit(int c)
 {
-    return is_digit(c)            ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
+    return is_digit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
 }
 
 /* Past a text's closing quote; *at and *size are what stands between the quotes. */
