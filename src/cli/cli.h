@@ -26,4 +26,7 @@
 VERBS(VERB_DECLARE)
 #undef VERB_DECLARE
 
+/* The frames of the job in the output folder `root`, from its own copy of the job. */
+MUST_USE status job_frames(const char *root, struct frame_range *out);
+
 #endif

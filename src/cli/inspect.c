@@ -1,0 +1,110 @@
+/* hoodoo inspect FILE: what a file holds. Which kind it is, its first bytes say, not its name. */
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/atomic_file.h"
+#include "checkpoint/checkpoint.h"
+#include "cli/cli.h"
+#include "cli/words.h"
+#include "output/exr.h"
+#include "output/vdb.h"
+
+enum { JSON_FILE_MAX = 64 << 20, HEAD_SIZE = 16 };
+
+static status describe_json(const char *path, struct text *out)
+{
+    status st = OK;
+    char *bytes = NULL;
+    size_t size;
+    struct json j = {0};
+    TRY(file_read(path, JSON_FILE_MAX, &bytes, &size));
+    if (json_parse(bytes, size, &j) != OK) {
+        st = fail(E_INPUT, "%s: not JSON: %s", path, status_message());
+        goto done;
+    }
+    bool manifest = json_member(&j, j.value, "frame") && json_member(&j, j.value, "files");
+    json_text(out, "kind", manifest ? "manifest" : json_member(&j, j.value, "device") ? "run" : "JSON");
+    TRY(words_copy(&j, j.value, "content", out));
+done:
+    json_free(&j);
+    free(bytes);
+    return st;
+}
+
+static status describe_checkpoint(const char *path, struct text *out)
+{
+    json_text(out, "kind", "checkpoint");
+    return checkpoint_describe(path, out);
+}
+
+static status describe_vdb(const char *path, struct text *out)
+{
+    json_text(out, "kind", "OpenVDB");
+    return vdb_describe(path, out);
+}
+
+static status describe_exr(const char *path, struct text *out)
+{
+    json_text(out, "kind", "OpenEXR");
+    return exr_describe(path, out);
+}
+
+static const struct {
+    const char *magic;
+    size_t size;
+    status (*describe)(const char *path, struct text *out);
+} kinds[] = {
+    {"hoodoo.ckpt", 12, describe_checkpoint},
+    {" BDV", 4, describe_vdb},
+    {"\x76\x2f\x31\x01", 4, describe_exr},
+    {"{", 1, describe_json},
+};
+
+static status describe(const char *path, struct text *out)
+{
+    char head[HEAD_SIZE] = {0};
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return fail(E_INPUT, "%s: %s", path, strerror(errno));
+    if (S_ISDIR(info.st_mode))
+        return fail(E_INPUT, "%s: a folder; 'hoodoo status %s' tells about an output folder", path, path);
+    if (!S_ISREG(info.st_mode))
+        return fail(E_INPUT, "%s: not a regular file", path);
+    FILE *f = fopen(path, "rb");
+    if (!f)
+        return fail(E_INPUT, "%s: %s", path, strerror(errno));
+    size_t n = fread(head, 1, sizeof head, f);
+    fclose(f);
+    json_text(out, "file", path);
+    json_integer(out, "file_bytes", (int64_t)info.st_size);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (n >= kinds[i].size && memcmp(head, kinds[i].magic, kinds[i].size) == 0)
+            return kinds[i].describe(path, out);
+    return fail(E_INPUT,
+                "%s: neither a checkpoint, VDB, EXR, manifest nor run.json, going by its first bytes", path);
+}
+
+status cli_inspect(int argc, char **argv)
+{
+    status st = OK;
+    struct common c = {0};
+    struct words operands = {0};
+    struct text answer = {0};
+    bool help;
+    const struct option options[] = {OPTION_JSON(&c)};
+    TRY(options_parse(&usage_inspect, options, sizeof options / sizeof *options, argc, argv, &operands,
+                      &help));
+    if (help)
+        goto done;
+    json_object(&answer, NULL);
+    TRY(describe(operands.word[0], &answer));
+    json_end_object(&answer);
+    TRY(words_print(&answer, c.json));
+done:
+    text_free(&answer);
+    words_free(&operands);
+    return st;
+}
