@@ -59,13 +59,13 @@ status index_write(const struct checkpoint *c, const struct layout *layout, stru
 /* ---- reading */
 
 struct reader {
-    const struct json *json;
+    const struct json_doc *json;
     const struct json_value *object; /* where members are looked up */
 };
 
 static status get_text(const struct reader *r, const char *key, char *out, size_t size)
 {
-    if (!json_get_text(r->json, json_member(r->json, r->object, key), out, size))
+    if (!json_get_text(r->json, json_find(r->json, r->object, key), out, size))
         return fail(E_CHECKPOINT, "'%s' is missing, no text, or longer than %zu bytes", key, size - 1);
     return OK;
 }
@@ -74,7 +74,7 @@ static status get_size(const struct reader *r, const char *key, size_t min, size
 {
     int64_t n;
     int64_t limit = max > INT64_MAX ? INT64_MAX : (int64_t)max;
-    if (!json_get_integer(r->json, json_member(r->json, r->object, key), (int64_t)min, limit, &n))
+    if (!json_get_integer(r->json, json_find(r->json, r->object, key), (int64_t)min, limit, &n))
         return fail(E_CHECKPOINT, "'%s' is missing, or not a whole number between %zu and %zu", key, min,
                     max);
     *out = (size_t)n;
@@ -97,10 +97,9 @@ static status read_provenance(const struct reader *r, struct checkpoint *c)
 {
     status st = OK;
     int64_t frame;
-    if (!json_get_integer(r->json, json_member(r->json, r->object, "frame"), -FRAME_LIMIT, FRAME_LIMIT,
-                          &frame))
+    if (!json_get_integer(r->json, json_find(r->json, r->object, "frame"), -FRAME_LIMIT, FRAME_LIMIT, &frame))
         return fail(E_CHECKPOINT, "'frame' is missing or no frame number");
-    if (!json_get_number(r->json, json_member(r->json, r->object, "years"), &c->years))
+    if (!json_get_number(r->json, json_find(r->json, r->object, "years"), &c->years))
         return fail(E_CHECKPOINT, "'years' is missing or no number");
     c->frame = (int)frame;
     TRY(get_hash(r, "job_hash", &c->job_hash));
@@ -118,9 +117,9 @@ static status read_chunks(const struct reader *r, const struct checkpoint_sectio
                           size_t *capacity, uint64_t *at, uint64_t limit)
 {
     status st = OK;
-    const struct json_value *list = json_member(r->json, r->object, "chunks");
+    const struct json_value *list = json_find(r->json, r->object, "chunks");
     size_t n = section_chunks(s);
-    if (!list || list->kind != JSON_ARRAY || list->n / 2 != n || list->n % 2)
+    if (!list || list->kind != JSON_IS_ARRAY || list->n / 2 != n || list->n % 2)
         return fail(E_CHECKPOINT, "section '%s': %zu items of %zu bytes need %zu chunks, not those listed",
                     s->name, s->n, s->item, n);
     TRY(memory_grow(&layout->chunk, capacity, layout->n_chunks + n, sizeof *layout->chunk,
@@ -165,7 +164,7 @@ done:
 status index_read(const char *text, size_t size, uint64_t index_at, struct checkpoint *c,
                   struct layout *layout)
 {
-    struct json json = {0};
+    struct json_doc json = {0};
     size_t capacity = 0;
     uint64_t at = sizeof(struct file_head);
     status st = json_parse(text, size, &json);
@@ -173,8 +172,8 @@ status index_read(const char *text, size_t size, uint64_t index_at, struct check
         return st == E_INPUT ? fail(E_CHECKPOINT, "%s", status_message()) : st;
     struct reader r = {&json, json.value};
     TRY(read_provenance(&r, c));
-    const struct json_value *sections = json_member(&json, json.value, "sections");
-    if (!sections || sections->kind != JSON_ARRAY || sections->n > CHECKPOINT_SECTIONS_MAX) {
+    const struct json_value *sections = json_find(&json, json.value, "sections");
+    if (!sections || sections->kind != JSON_IS_ARRAY || sections->n > CHECKPOINT_SECTIONS_MAX) {
         st = fail(E_CHECKPOINT, "'sections' is missing, no list, or longer than %d", CHECKPOINT_SECTIONS_MAX);
         goto done;
     }
@@ -187,6 +186,6 @@ status index_read(const char *text, size_t size, uint64_t index_at, struct check
         st = fail(E_CHECKPOINT, "%llu bytes before the index belong to no section",
                   (unsigned long long)(index_at - at));
 done:
-    json_free(&json);
+    json_doc_free(&json);
     return st;
 }

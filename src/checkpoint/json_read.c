@@ -6,7 +6,7 @@
 #include "base/memory.h"
 
 struct parser {
-    struct json *j;
+    struct json_doc *j;
     size_t at, size;
 };
 
@@ -148,7 +148,7 @@ done:
 static status value(struct parser *p, struct json_value v, int depth)
 {
     status st = OK;
-    struct json *j = p->j;
+    struct json_doc *j = p->j;
     size_t i = j->n;
     if (depth > JSON_DEPTH)
         return wrong(p, "nested too deeply");
@@ -158,24 +158,24 @@ static status value(struct parser *p, struct json_value v, int depth)
     size_t begin = p->at;
     int c = peek(p);
     if (c == '{' || c == '[') {
-        v.kind = c == '{' ? JSON_OBJECT : JSON_ARRAY;
+        v.kind = c == '{' ? JSON_IS_OBJECT : JSON_IS_ARRAY;
         TRY(group(p, c == '{', &v.n, depth));
     } else if (c == '"') {
-        v.kind = JSON_TEXT;
+        v.kind = JSON_IS_TEXT;
         TRY(text(p, &v.at, &v.size));
     } else if (c == '-' || is_digit(c)) {
-        v.kind = JSON_NUMBER;
+        v.kind = JSON_IS_NUMBER;
         TRY(number(p));
     } else if (word(p, "null")) {
-        v.kind = JSON_NULL;
+        v.kind = JSON_IS_NULL;
     } else if (word(p, "true")) {
-        v.kind = JSON_TRUE;
+        v.kind = JSON_IS_TRUE;
     } else if (word(p, "false")) {
-        v.kind = JSON_FALSE;
+        v.kind = JSON_IS_FALSE;
     } else {
         return wrong(p, c < 0 ? "it ends too early" : "neither a value nor an end");
     }
-    if (v.kind != JSON_TEXT) {
+    if (v.kind != JSON_IS_TEXT) {
         v.at = (uint32_t)begin;
         v.size = (uint32_t)(p->at - begin);
     }
@@ -185,11 +185,11 @@ done:
     return st;
 }
 
-status json_parse(const char *bytes, size_t size, struct json *out)
+status json_parse(const char *bytes, size_t size, struct json_doc *out)
 {
     struct parser p = {.j = out, .size = size};
     status st = OK;
-    *out = (struct json){.text = bytes};
+    *out = (struct json_doc){.text = bytes};
     if (size >= UINT32_MAX)
         return fail(E_INPUT, "%zu bytes of JSON, more than can be true", size);
     TRY(value(&p, (struct json_value){0}, 0));
@@ -198,12 +198,12 @@ status json_parse(const char *bytes, size_t size, struct json *out)
         st = wrong(&p, "more follows after the end");
 done:
     if (st != OK)
-        json_free(out);
+        json_doc_free(out);
     return st;
 }
 
-void json_free(struct json *j)
+void json_doc_free(struct json_doc *j)
 {
     free(j->value);
-    *j = (struct json){0};
+    *j = (struct json_doc){0};
 }

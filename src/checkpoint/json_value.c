@@ -12,15 +12,15 @@ const struct json_value *json_first(const struct json_value *group)
     return group + 1;
 }
 
-const struct json_value *json_next(const struct json *j, const struct json_value *v)
+const struct json_value *json_next(const struct json_doc *j, const struct json_value *v)
 {
     return j->value + v->after;
 }
 
-const struct json_value *json_member(const struct json *j, const struct json_value *object, const char *key)
+const struct json_value *json_find(const struct json_doc *j, const struct json_value *object, const char *key)
 {
     size_t length = strlen(key);
-    if (!object || object->kind != JSON_OBJECT)
+    if (!object || object->kind != JSON_IS_OBJECT)
         return NULL;
     const struct json_value *v = json_first(object);
     for (uint32_t i = 0; i < object->n; i++, v = json_next(j, v))
@@ -92,21 +92,21 @@ static bool unescape(const char *s, size_t size, char *out, size_t room)
     return true;
 }
 
-bool json_get_text(const struct json *j, const struct json_value *v, char *out, size_t size)
+bool json_get_text(const struct json_doc *j, const struct json_value *v, char *out, size_t size)
 {
-    return v && v->kind == JSON_TEXT && unescape(j->text + v->at, v->size, out, size);
+    return v && v->kind == JSON_IS_TEXT && unescape(j->text + v->at, v->size, out, size);
 }
 
-bool json_get_key(const struct json *j, const struct json_value *v, char *out, size_t size)
+bool json_get_key(const struct json_doc *j, const struct json_value *v, char *out, size_t size)
 {
     return unescape(j->text + v->key, v->key_size, out, size);
 }
 
-bool json_get_integer(const struct json *j, const struct json_value *v, int64_t min, int64_t max,
+bool json_get_integer(const struct json_doc *j, const struct json_value *v, int64_t min, int64_t max,
                       int64_t *out)
 {
     char copy[24], *end;
-    if (!v || v->kind != JSON_NUMBER || v->size >= sizeof copy)
+    if (!v || v->kind != JSON_IS_NUMBER || v->size >= sizeof copy)
         return false;
     memcpy(copy, j->text + v->at, v->size);
     copy[v->size] = '\0';
@@ -118,10 +118,10 @@ bool json_get_integer(const struct json *j, const struct json_value *v, int64_t 
     return true;
 }
 
-bool json_get_number(const struct json *j, const struct json_value *v, double *out)
+bool json_get_number(const struct json_doc *j, const struct json_value *v, double *out)
 {
     char copy[64];
-    if (!v || v->kind != JSON_NUMBER || v->size >= sizeof copy)
+    if (!v || v->kind != JSON_IS_NUMBER || v->size >= sizeof copy)
         return false;
     memcpy(copy, j->text + v->at, v->size);
     copy[v->size] = '\0';

@@ -19,17 +19,17 @@ static status describe_json(const char *path, struct text *out)
     status st = OK;
     char *bytes = NULL;
     size_t size;
-    struct json j = {0};
+    struct json_doc j = {0};
     TRY(file_read(path, JSON_FILE_MAX, &bytes, &size));
     if (json_parse(bytes, size, &j) != OK) {
         st = fail(E_INPUT, "%s: not JSON: %s", path, status_message());
         goto done;
     }
-    bool manifest = json_member(&j, j.value, "frame") && json_member(&j, j.value, "files");
-    json_text(out, "kind", manifest ? "manifest" : json_member(&j, j.value, "device") ? "run" : "JSON");
+    bool manifest = json_find(&j, j.value, "frame") && json_find(&j, j.value, "files");
+    json_text(out, "kind", manifest ? "manifest" : json_find(&j, j.value, "device") ? "run" : "JSON");
     TRY(words_copy(&j, j.value, "content", out));
 done:
-    json_free(&j);
+    json_doc_free(&j);
     free(bytes);
     return st;
 }

@@ -18,11 +18,11 @@ static bool ends_with(const char *text, const char *end)
 
 static bool is_group(const struct json_value *v)
 {
-    return v->kind == JSON_ARRAY || v->kind == JSON_OBJECT;
+    return v->kind == JSON_IS_ARRAY || v->kind == JSON_IS_OBJECT;
 }
 
 /* "stored_bytes" -> "stored", "max_stress_Pa" -> "max stress Pa" */
-static const char *label(const struct json *j, const struct json_value *v, char out[LABEL_SIZE])
+static const char *label(const struct json_doc *j, const struct json_value *v, char out[LABEL_SIZE])
 {
     if (!json_get_key(j, v, out, LABEL_SIZE))
         return "...";
@@ -45,7 +45,7 @@ static const char *bytes_text(double n, char out[32])
 }
 
 /* A value that is no group, as people read it; *out is freed with free(). */
-static status scalar(const struct json *j, const struct json_value *v, char **out)
+static status scalar(const struct json_doc *j, const struct json_value *v, char **out)
 {
     status st = OK;
     char key[LABEL_SIZE] = "";
@@ -54,19 +54,19 @@ static status scalar(const struct json *j, const struct json_value *v, char **ou
     TRY(memory_alloc((size_t)v->size + 32, 1, "a text", out));
     if (v->key_size && !json_get_key(j, v, key, sizeof key))
         key[0] = '\0';
-    if (v->kind == JSON_TEXT) {
+    if (v->kind == JSON_IS_TEXT) {
         if (!json_get_text(j, v, *out, (size_t)v->size + 1))
             strcpy(*out, "?");
         for (char *c = *out; *c; c++)
             if ((unsigned char)*c < 0x20 || *c == 0x7f)
                 *c = ' ';
-    } else if (v->kind == JSON_NUMBER && ends_with(key, "_bytes") && json_get_number(j, v, &number)) {
+    } else if (v->kind == JSON_IS_NUMBER && ends_with(key, "_bytes") && json_get_number(j, v, &number)) {
         bytes_text(number, *out);
-    } else if (v->kind == JSON_NUMBER && ends_with(key, "_seconds") && json_get_number(j, v, &number)) {
+    } else if (v->kind == JSON_IS_NUMBER && ends_with(key, "_seconds") && json_get_number(j, v, &number)) {
         duration_text(number, *out);
-    } else if (v->kind == JSON_TRUE || v->kind == JSON_FALSE) {
-        strcpy(*out, v->kind == JSON_TRUE ? "yes" : "no");
-    } else if (v->kind == JSON_NULL) {
+    } else if (v->kind == JSON_IS_TRUE || v->kind == JSON_IS_FALSE) {
+        strcpy(*out, v->kind == JSON_IS_TRUE ? "yes" : "no");
+    } else if (v->kind == JSON_IS_NULL) {
         strcpy(*out, "-");
     } else {
         memcpy(*out, j->text + v->at, v->size);
@@ -78,12 +78,12 @@ done:
 /* ---- tables */
 
 /* Is every value of the array a flat object with as many members as the first? */
-static bool is_table(const struct json *j, const struct json_value *array)
+static bool is_table(const struct json_doc *j, const struct json_value *array)
 {
     const struct json_value *row = json_first(array);
     uint32_t columns = array->n ? row->n : 0;
     for (uint32_t i = 0; i < array->n; i++, row = json_next(j, row)) {
-        if (row->kind != JSON_OBJECT || row->n != columns || columns == 0 || columns > COLUMNS_MAX)
+        if (row->kind != JSON_IS_OBJECT || row->n != columns || columns == 0 || columns > COLUMNS_MAX)
             return false;
         const struct json_value *v = json_first(row);
         for (uint32_t k = 0; k < row->n; k++, v = json_next(j, v))
@@ -94,7 +94,7 @@ static bool is_table(const struct json *j, const struct json_value *array)
 }
 
 /* One pass over the table: measures columns, or prints. */
-static status walk_table(const struct json *j, const struct json_value *array, int indent, bool print,
+static status walk_table(const struct json_doc *j, const struct json_value *array, int indent, bool print,
                          int width[])
 {
     char name[LABEL_SIZE];
@@ -125,7 +125,7 @@ static status walk_table(const struct json *j, const struct json_value *array, i
     return OK;
 }
 
-static status print_table(const struct json *j, const struct json_value *array, int indent)
+static status print_table(const struct json_doc *j, const struct json_value *array, int indent)
 {
     int width[COLUMNS_MAX] = {0};
     status st = OK;
@@ -137,7 +137,7 @@ done:
 
 /* ---- everything else */
 
-static status print_scalars(const struct json *j, const struct json_value *array)
+static status print_scalars(const struct json_doc *j, const struct json_value *array)
 {
     const struct json_value *v = json_first(array);
     for (uint32_t i = 0; i < array->n; i++, v = json_next(j, v)) {
@@ -152,7 +152,7 @@ static status print_scalars(const struct json *j, const struct json_value *array
     return OK;
 }
 
-static bool holds_groups(const struct json *j, const struct json_value *group)
+static bool holds_groups(const struct json_doc *j, const struct json_value *group)
 {
     const struct json_value *v = json_first(group);
     for (uint32_t i = 0; i < group->n; i++, v = json_next(j, v))
@@ -161,7 +161,7 @@ static bool holds_groups(const struct json *j, const struct json_value *group)
     return false;
 }
 
-static status print_members(const struct json *j, const struct json_value *group, int indent)
+static status print_members(const struct json_doc *j, const struct json_value *group, int indent)
 {
     status st = OK;
     int widest = 0;
@@ -173,8 +173,8 @@ static status print_members(const struct json *j, const struct json_value *group
     }
     v = json_first(group);
     for (uint32_t i = 0; i < group->n; i++, v = json_next(j, v)) {
-        const char *head = group->kind == JSON_OBJECT ? label(j, v, name) : "-";
-        bool flat = v->kind == JSON_ARRAY && !holds_groups(j, v);
+        const char *head = group->kind == JSON_IS_OBJECT ? label(j, v, name) : "-";
+        bool flat = v->kind == JSON_IS_ARRAY && !holds_groups(j, v);
         if (is_group(v) && !flat) {
             printf("%*s%s\n", indent, "", head);
             TRY(is_table(j, v) ? print_table(j, v, indent + 2) : print_members(j, v, indent + 2));
@@ -196,7 +196,7 @@ done:
 
 status words_print(const struct text *answer, bool as_json)
 {
-    struct json j = {0};
+    struct json_doc j = {0};
     status st = OK;
     TRY(text_status(answer));
     if (as_json) {
@@ -206,34 +206,34 @@ status words_print(const struct text *answer, bool as_json)
     TRY(json_parse(answer->data, answer->size, &j));
     TRY(print_members(&j, j.value, 0));
 done:
-    json_free(&j);
+    json_doc_free(&j);
     return st;
 }
 
-status words_copy(const struct json *j, const struct json_value *v, const char *key, struct text *out)
+status words_copy(const struct json_doc *j, const struct json_value *v, const char *key, struct text *out)
 {
     status st = OK;
     char *text = NULL, name[256];
     int64_t whole;
     double number;
     if (is_group(v)) {
-        (v->kind == JSON_OBJECT ? json_object : json_array)(out, key);
+        (v->kind == JSON_IS_OBJECT ? json_object : json_array)(out, key);
         const struct json_value *child = json_first(v);
         for (uint32_t i = 0; i < v->n; i++, child = json_next(j, child)) {
-            if (v->kind == JSON_OBJECT && !json_get_key(j, child, name, sizeof name))
+            if (v->kind == JSON_IS_OBJECT && !json_get_key(j, child, name, sizeof name))
                 return fail(E_INPUT, "a key is longer than %zu bytes", sizeof name - 1);
-            TRY(words_copy(j, child, v->kind == JSON_OBJECT ? name : NULL, out));
+            TRY(words_copy(j, child, v->kind == JSON_IS_OBJECT ? name : NULL, out));
         }
-        (v->kind == JSON_OBJECT ? json_end_object : json_end_array)(out);
-    } else if (v->kind == JSON_TEXT) {
+        (v->kind == JSON_IS_OBJECT ? json_end_object : json_end_array)(out);
+    } else if (v->kind == JSON_IS_TEXT) {
         TRY(memory_alloc((size_t)v->size + 1, 1, "a text", &text));
         if (!json_get_text(j, v, text, (size_t)v->size + 1))
             return free(text), fail(E_INPUT, "a text holds half a surrogate pair or a NUL");
         json_text(out, key, text);
     } else if (json_get_integer(j, v, INT64_MIN, INT64_MAX, &whole)) {
         json_integer(out, key, whole);
-    } else if (v->kind == JSON_TRUE || v->kind == JSON_FALSE) {
-        json_bool(out, key, v->kind == JSON_TRUE);
+    } else if (v->kind == JSON_IS_TRUE || v->kind == JSON_IS_FALSE) {
+        json_bool(out, key, v->kind == JSON_IS_TRUE);
     } else {
         json_number(out, key, json_get_number(j, v, &number) ? number : (double)NAN);
     }

@@ -464,18 +464,18 @@ static void described_in_words(void **state)
 {
     (void)state;
     struct text t = {0};
-    struct json j;
+    struct json_doc j;
     char device[256];
     save("words", 1010, 1);
     json_object(&t, NULL);
     assert_int_equal(checkpoint_describe("words/checkpoint/arch.1010.ckpt", &t), OK);
     json_end_object(&t);
     assert_int_equal(json_parse(t.data, t.size, &j), OK);
-    const struct json_value *sections = json_member(&j, j.value, "sections");
+    const struct json_value *sections = json_find(&j, j.value, "sections");
     assert_int_equal(sections->n, 4);
-    assert_true(json_get_text(&j, json_member(&j, j.value, "device"), device, sizeof device));
+    assert_true(json_get_text(&j, json_find(&j, j.value, "device"), device, sizeof device));
     assert_string_equal(device, "a \"device\" with \\ and \t and \xc3\xa9");
-    json_free(&j);
+    json_doc_free(&j);
     text_free(&t);
 }
 
@@ -487,17 +487,17 @@ static void json_as_the_standard_has_it(void **state)
     static const char *const bad[] = {
         "",    "{",     "[1,]",     "{\"a\":}", "{a:1}", "01",          "1.",  ".5",   "+1",        "1e",
         "nul", "[1 2]", "\"\x01\"", "\"\\x\"",  "\"a",   "\"\\u12g4\"", "NaN", "[1]x", "{\"a\" 1}", "-"};
-    struct json j;
+    struct json_doc j;
     char text[32];
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
         assert_int_equal(json_parse(good[i], strlen(good[i]), &j), OK);
-        if (j.value->kind == JSON_TEXT) {
+        if (j.value->kind == JSON_IS_TEXT) {
             assert_true(json_get_text(&j, j.value, text, sizeof text));
             assert_string_equal(text, "\xc3\xa9\xf0\x9f\x98\x80\n");
             assert_true(json_get_text(&j, j.value, text, 8));
             assert_false(json_get_text(&j, j.value, text, 7));
         }
-        json_free(&j);
+        json_doc_free(&j);
     }
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         if (json_parse(bad[i], strlen(bad[i]), &j) != E_INPUT)
