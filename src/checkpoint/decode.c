@@ -50,8 +50,8 @@ static status read_ends(int fd, const char *path, uint64_t size, struct file_end
     if (end->index_at < sizeof head || end->index_at > inside || end->index_size != inside - end->index_at ||
         end->index_size > INDEX_SIZE_MAX)
         return fail(E_CHECKPOINT,
-                    "%s: damaged: the end says the index is at byte %llu, %llu bytes long, in a file of %llu",
-                    path, (unsigned long long)end->index_at, (unsigned long long)end->index_size,
+                    "%s: the end says the index is at byte %llu, %llu bytes long, in a file of %llu", path,
+                    (unsigned long long)end->index_at, (unsigned long long)end->index_size,
                     (unsigned long long)size);
 done:
     return st;
@@ -75,7 +75,7 @@ static status check_hash(int fd, const char *path, uint64_t size, uint64_t expec
         at += n;
     }
     if (XXH3_64bits_digest(hash) != expected)
-        st = fail(E_CHECKPOINT, "%s: damaged: the content's hash is not the one it was written with", path);
+        st = fail(E_CHECKPOINT, "%s: the content's hash is not the one it was written with", path);
 done:
     XXH3_freeState(hash);
     free(block);
@@ -200,43 +200,4 @@ const struct checkpoint_section *checkpoint_find(const struct checkpoint *c, con
         if (c->section[i].item == item && strcmp(c->section[i].name, name) == 0)
             return &c->section[i];
     return NULL;
-}
-
-/* ---- in words */
-
-status checkpoint_describe(const char *path, struct text *out)
-{
-    status st = OK;
-    struct layout layout;
-    struct checkpoint c;
-    char hash[17];
-    TRY(layout_open(path, &c, &layout, NULL));
-    json_integer(out, "frame", c.frame);
-    json_number(out, "years", c.years);
-    json_text(out, "job_hash", hash_text(c.job_hash, hash));
-    json_text(out, "version", c.version);
-    json_text(out, "commit", c.commit);
-    json_text(out, "device", c.device);
-    json_text(out, "driver", c.driver);
-    json_text(out, "shaders", c.shaders);
-    json_array(out, "sections");
-    for (size_t i = 0; i < c.n_sections; i++) {
-        const struct checkpoint_section *s = &c.section[i];
-        uint64_t stored = 0;
-        for (size_t k = layout.first[i]; k < layout.first[i + 1]; k++)
-            stored += layout.chunk[k].size;
-        json_object(out, NULL);
-        json_text(out, "name", s->name);
-        json_integer(out, "items", (int64_t)s->n);
-        json_integer(out, "item_bytes", (int64_t)s->item);
-        json_integer(out, "raw_bytes", (int64_t)(s->n * s->item));
-        json_integer(out, "stored_bytes", (int64_t)stored);
-        json_text(out, "hash", hash_text(layout.hash[i], hash));
-        json_end_object(out);
-    }
-    json_end_array(out);
-    free(layout.chunk);
-    TRY(text_status(out));
-done:
-    return st;
 }

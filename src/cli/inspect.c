@@ -1,18 +1,55 @@
 /* hoodoo inspect FILE: what a file holds. Which kind it is, its first bytes say, not its name. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
 #include "base/atomic_file.h"
+#include "base/memory.h"
 #include "checkpoint/checkpoint.h"
+#include "checkpoint/json_read.h"
 #include "cli/cli.h"
 #include "cli/words.h"
 #include "output/exr.h"
 #include "output/vdb.h"
 
 enum { JSON_FILE_MAX = 64 << 20, HEAD_SIZE = 16 };
+
+/* Writes `v` and all it holds into `out`, under `key` (NULL in arrays). */
+static status copy_value(const struct json_doc *j, const struct json_value *v, const char *key,
+                         struct text *out)
+{
+    status st = OK;
+    char *text = NULL, name[256];
+    int64_t whole;
+    double number;
+    if (v->kind == JSON_IS_ARRAY || v->kind == JSON_IS_OBJECT) {
+        (v->kind == JSON_IS_OBJECT ? json_object : json_array)(out, key);
+        const struct json_value *child = json_first(v);
+        for (uint32_t i = 0; i < v->n; i++, child = json_next(j, child)) {
+            if (v->kind == JSON_IS_OBJECT && !json_get_key(j, child, name, sizeof name))
+                return fail(E_INPUT, "a key is longer than %zu bytes", sizeof name - 1);
+            TRY(copy_value(j, child, v->kind == JSON_IS_OBJECT ? name : NULL, out));
+        }
+        (v->kind == JSON_IS_OBJECT ? json_end_object : json_end_array)(out);
+    } else if (v->kind == JSON_IS_TEXT) {
+        TRY(memory_alloc((size_t)v->size + 1, 1, "a text", &text));
+        if (!json_get_text(j, v, text, (size_t)v->size + 1))
+            return free(text), fail(E_INPUT, "a text holds half a surrogate pair or a NUL");
+        json_text(out, key, text);
+    } else if (json_get_integer(j, v, INT64_MIN, INT64_MAX, &whole)) {
+        json_integer(out, key, whole);
+    } else if (v->kind == JSON_IS_TRUE || v->kind == JSON_IS_FALSE) {
+        json_bool(out, key, v->kind == JSON_IS_TRUE);
+    } else {
+        json_number(out, key, json_get_number(j, v, &number) ? number : (double)NAN);
+    }
+done:
+    free(text);
+    return st;
+}
 
 static status describe_json(const char *path, struct text *out)
 {
@@ -27,7 +64,7 @@ static status describe_json(const char *path, struct text *out)
     }
     bool manifest = json_find(&j, j.value, "frame") && json_find(&j, j.value, "files");
     json_text(out, "kind", manifest ? "manifest" : json_find(&j, j.value, "device") ? "run" : "JSON");
-    TRY(words_copy(&j, j.value, "content", out));
+    TRY(copy_value(&j, j.value, "content", out));
 done:
     json_doc_free(&j);
     free(bytes);

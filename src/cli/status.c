@@ -48,7 +48,7 @@ static status survey_frame(struct survey *s, int frame, size_t i)
     if (damaged) {
         size_t k = s->n[STATE_DAMAGED];
         TRY(memory_grow(&s->bad, &s->bad_capacity, k + 1, sizeof *s->bad, "the damaged frames"));
-        snprintf(s->bad[k], sizeof s->bad[k], "%s", *bad ? bad : status_message());
+        snprintf(s->bad[k], sizeof s->bad[k], "%s", status_message());
     } else {
         s->written[s->n[STATE_DONE]] = modified(s, frame);
     }
@@ -131,7 +131,7 @@ static void add_rate(struct survey *s, struct text *out)
     double each = between[k / 2];
     if (each > 0) {
         json_number(out, "frames_per_second", (double)(int64_t)(1e4 / each) / 1e4);
-        json_integer(out, "left_seconds",
+        json_integer(out, "time_left_seconds",
                      (int64_t)((double)(s->n[STATE_MISSING] + s->n[STATE_DAMAGED]) * each));
     }
     json_integer(out, "since_last_frame_seconds",

@@ -27,6 +27,11 @@ static void found(struct search *s, bool missing, const char *path, const char *
 {
     *(missing ? &s->n_missing : &s->n_damaged) += 1;
     const char *kind = missing ? "missing" : "damaged";
+    /* The readers' sentences begin with the whole path. */
+    size_t root = strlen(s->root), relative = strlen(path);
+    if (strncmp(what, s->root, root) == 0 && what[root] == '/' &&
+        strncmp(what + root + 1, path, relative) == 0 && strncmp(what + root + 1 + relative, ": ", 2) == 0)
+        what += root + relative + 3;
     if (s->json) {
         json_object(&s->answer, NULL);
         json_text(&s->answer, "kind", kind);
@@ -166,9 +171,10 @@ static status report(struct search *s)
                s->n_checkpoints, s->n_damaged, s->n_missing);
     }
     if (s->n_damaged + s->n_missing)
-        st =
-            fail(E_INPUT, "%s: %zu files damaged, %zu missing; running the job again makes those frames anew",
-                 s->root, s->n_damaged, s->n_missing);
+        st = fail(
+            E_INPUT,
+            "%s: of %zu files %zu are damaged, %zu missing; running the job again makes their frames anew",
+            s->root, s->n_files, s->n_damaged, s->n_missing);
 done:
     return st;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "checkpoint/json_read.h"
 #include "cli/progress.h"
 
 enum { COLUMNS_MAX = 16, LABEL_SIZE = 64 };
@@ -70,6 +71,10 @@ static status scalar(const struct json_doc *j, const struct json_value *v, char 
         strcpy(*out, "-");
     } else {
         memcpy(*out, j->text + v->at, v->size);
+        /* 5e+03 is the shortest form, and right for programs. */
+        if (strchr(*out, 'e') && json_get_number(j, v, &number) && fabs(number) >= 1e-4 &&
+            fabs(number) < 1e15)
+            snprintf(*out, (size_t)v->size + 32, "%.15g", number);
     }
 done:
     return st;
@@ -207,37 +212,5 @@ status words_print(const struct text *answer, bool as_json)
     TRY(print_members(&j, j.value, 0));
 done:
     json_doc_free(&j);
-    return st;
-}
-
-status words_copy(const struct json_doc *j, const struct json_value *v, const char *key, struct text *out)
-{
-    status st = OK;
-    char *text = NULL, name[256];
-    int64_t whole;
-    double number;
-    if (is_group(v)) {
-        (v->kind == JSON_IS_OBJECT ? json_object : json_array)(out, key);
-        const struct json_value *child = json_first(v);
-        for (uint32_t i = 0; i < v->n; i++, child = json_next(j, child)) {
-            if (v->kind == JSON_IS_OBJECT && !json_get_key(j, child, name, sizeof name))
-                return fail(E_INPUT, "a key is longer than %zu bytes", sizeof name - 1);
-            TRY(words_copy(j, child, v->kind == JSON_IS_OBJECT ? name : NULL, out));
-        }
-        (v->kind == JSON_IS_OBJECT ? json_end_object : json_end_array)(out);
-    } else if (v->kind == JSON_IS_TEXT) {
-        TRY(memory_alloc((size_t)v->size + 1, 1, "a text", &text));
-        if (!json_get_text(j, v, text, (size_t)v->size + 1))
-            return free(text), fail(E_INPUT, "a text holds half a surrogate pair or a NUL");
-        json_text(out, key, text);
-    } else if (json_get_integer(j, v, INT64_MIN, INT64_MAX, &whole)) {
-        json_integer(out, key, whole);
-    } else if (v->kind == JSON_IS_TRUE || v->kind == JSON_IS_FALSE) {
-        json_bool(out, key, v->kind == JSON_IS_TRUE);
-    } else {
-        json_number(out, key, json_get_number(j, v, &number) ? number : (double)NAN);
-    }
-done:
-    free(text);
     return st;
 }

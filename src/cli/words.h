@@ -9,13 +9,8 @@
 #include <stdbool.h>
 
 #include "base/text.h"
-#include "checkpoint/json_read.h"
 
 /* Prints the finished JSON in `answer` on stdout. */
 MUST_USE status words_print(const struct text *answer, bool as_json);
-
-/* Writes `v` and all it holds into `out`, under `key` (NULL in arrays). */
-MUST_USE status words_copy(const struct json_doc *j, const struct json_value *v, const char *key,
-                           struct text *out);
 
 #endif
