@@ -2,12 +2,14 @@
  *
  * Layout (little endian)
  *   magic "hoodoo.ckpt\0", format version
- *   sections: each a run of chunks of at most 4 MiB raw; a chunk is byte-shuffled by the item size and compressed by zstd
- *   index: JSON: provenance, and each section's name, item size, count, XXH3 of the raw bytes, and its chunks (offset, size)
- *   end: offset and size of the index, XXH3 of everything before the end, magic
- * The end is read first, so a torn file is refused before anything in it is believed. Every size is checked against the file's.
+ *   sections: each a run of chunks of at most 4 MiB raw; a chunk is byte-shuffled by the item size and
+ * compressed by zstd index: JSON: provenance, and each section's name, item size, count, XXH3 of the raw
+ * bytes, and its chunks (offset, size) end: offset and size of the index, XXH3 of everything before the end,
+ * magic The end is read first, so a torn file is refused before anything in it is believed. Every size is
+ * checked against the file's.
  *
- * checkpoint/NAME.1010.ckpt is the state after frame 1010 was simulated: a run that continues begins with frame 1011.
+ * checkpoint/NAME.1010.ckpt is the state after frame 1010 was simulated: a run that continues begins with
+ * frame 1011.
  */
 #ifndef HOODOO_CHECKPOINT_H
 #define HOODOO_CHECKPOINT_H
@@ -31,9 +33,9 @@ struct checkpoint {
     int frame;
     double years;
     uint64_t job_hash;
-    char version[32], commit[32];    /* of hoodoo */
-    char device[256], driver[256];   /* as gpu_info() gives them */
-    char shaders[17];                /* hash of every kernel, in hex */
+    char version[32], commit[32];  /* of hoodoo */
+    char device[256], driver[256]; /* as gpu_info() gives them */
+    char shaders[17];              /* hash of every kernel, in hex */
     size_t n_sections;
     struct checkpoint_section section[CHECKPOINT_SECTIONS_MAX];
 };
@@ -41,8 +43,8 @@ struct checkpoint {
 /* The whole file in memory: freed with free(*bytes). Sections' data is only read. */
 MUST_USE status checkpoint_encode(const struct checkpoint *c, void *bytes, size_t *size);
 
-/* E_CHECKPOINT with what is wrong and where: truncated, flipped, of another format, hostile. On success the sections' data are owned
- * by *c: checkpoint_free(). */
+/* E_CHECKPOINT with what is wrong and where: truncated, flipped, of another format, hostile. On success the
+ * sections' data are owned by *c: checkpoint_free(). */
 MUST_USE status checkpoint_read(const char *path, struct checkpoint *c);
 
 /* Everything but the sections' data, after checking the file hash. */
@@ -55,7 +57,8 @@ const struct checkpoint_section *checkpoint_find(const struct checkpoint *c, con
 /* In words for `inspect`, as a JSON object's members. */
 MUST_USE status checkpoint_describe(const char *path, struct text *out);
 
-/* Writes root/checkpoint/NAME.FRAME.ckpt, then removes all but the newest `keep` (those beside a NAME.FRAME.keep file stay). */
+/* Writes root/checkpoint/NAME.FRAME.ckpt, then removes all but the newest `keep` (those beside a
+ * NAME.FRAME.keep file stay). */
 MUST_USE status checkpoint_save(const char *root, const char *name, const struct checkpoint *c, int keep);
 
 /* The checkpoint frames of `name`, newest first; freed with free(). */

@@ -1,0 +1,191 @@
+/* A checkpoint's index: JSON, written by us and believed by nobody. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/hash.h"
+#include "base/memory.h"
+#include "checkpoint/chunk.h"
+#include "checkpoint/json_read.h"
+#include "checkpoint/layout.h"
+
+enum { FRAME_LIMIT = 10000000 };
+
+size_t section_chunks(const struct checkpoint_section *s)
+{
+    size_t raw = chunk_raw_size(s->item), total = s->n * s->item;
+    return total / raw + (total % raw != 0);
+}
+
+size_t section_chunk_raw(const struct checkpoint_section *s, size_t k)
+{
+    size_t raw = chunk_raw_size(s->item), left = s->n * s->item - k * raw;
+    return left < raw ? left : raw;
+}
+
+status index_write(const struct checkpoint *c, const struct layout *layout, struct text *out)
+{
+    char hash[17];
+    json_object(out, NULL);
+    json_integer(out, "frame", c->frame);
+    json_number(out, "years", c->years);
+    json_text(out, "job_hash", hash_text(c->job_hash, hash));
+    json_text(out, "version", c->version);
+    json_text(out, "commit", c->commit);
+    json_text(out, "device", c->device);
+    json_text(out, "driver", c->driver);
+    json_text(out, "shaders", c->shaders);
+    json_array(out, "sections");
+    for (size_t i = 0; i < c->n_sections; i++) {
+        const struct checkpoint_section *s = &c->section[i];
+        json_object(out, NULL);
+        json_text(out, "name", s->name);
+        json_integer(out, "item", (int64_t)s->item);
+        json_integer(out, "count", (int64_t)s->n);
+        json_text(out, "hash", hash_text(layout->hash[i], hash));
+        /* Offset and size by turns. */
+        json_array(out, "chunks");
+        for (size_t k = layout->first[i]; k < layout->first[i + 1]; k++) {
+            json_integer(out, NULL, (int64_t)layout->chunk[k].at);
+            json_integer(out, NULL, (int64_t)layout->chunk[k].size);
+        }
+        json_end_array(out);
+        json_end_object(out);
+    }
+    json_end_array(out);
+    json_end_object(out);
+    return text_status(out);
+}
+
+/* ---- reading */
+
+struct reader {
+    const struct json_doc *json;
+    const struct json_value *object; /* where members are looked up */
+};
+
+static status get_text(const struct reader *r, const char *key, char *out, size_t size)
+{
+    if (!json_get_text(r->json, json_find(r->json, r->object, key), out, size))
+        return fail(E_CHECKPOINT, "'%s' is missing, no text, or longer than %zu bytes", key, size - 1);
+    return OK;
+}
+
+static status get_size(const struct reader *r, const char *key, size_t min, size_t max, size_t *out)
+{
+    int64_t n;
+    int64_t limit = max > INT64_MAX ? INT64_MAX : (int64_t)max;
+    if (!json_get_integer(r->json, json_find(r->json, r->object, key), (int64_t)min, limit, &n))
+        return fail(E_CHECKPOINT, "'%s' is missing, or not a whole number between %zu and %zu", key, min,
+                    max);
+    *out = (size_t)n;
+    return OK;
+}
+
+static status get_hash(const struct reader *r, const char *key, uint64_t *out)
+{
+    char digits[17];
+    status st = OK;
+    TRY(get_text(r, key, digits, sizeof digits));
+    if (strspn(digits, "0123456789abcdef") != 16)
+        return fail(E_CHECKPOINT, "'%s' is not 16 hex digits", key);
+    *out = strtoull(digits, NULL, 16);
+done:
+    return st;
+}
+
+static status read_provenance(const struct reader *r, struct checkpoint *c)
+{
+    status st = OK;
+    int64_t frame;
+    if (!json_get_integer(r->json, json_find(r->json, r->object, "frame"), -FRAME_LIMIT, FRAME_LIMIT, &frame))
+        return fail(E_CHECKPOINT, "'frame' is missing or no frame number");
+    if (!json_get_number(r->json, json_find(r->json, r->object, "years"), &c->years))
+        return fail(E_CHECKPOINT, "'years' is missing or no number");
+    c->frame = (int)frame;
+    TRY(get_hash(r, "job_hash", &c->job_hash));
+    TRY(get_text(r, "version", c->version, sizeof c->version));
+    TRY(get_text(r, "commit", c->commit, sizeof c->commit));
+    TRY(get_text(r, "device", c->device, sizeof c->device));
+    TRY(get_text(r, "driver", c->driver, sizeof c->driver));
+    TRY(get_text(r, "shaders", c->shaders, sizeof c->shaders));
+done:
+    return st;
+}
+
+/* The section's chunks, each beginning at *at, where the one before ended. */
+static status read_chunks(const struct reader *r, const struct checkpoint_section *s, struct layout *layout,
+                          size_t *capacity, uint64_t *at, uint64_t limit)
+{
+    status st = OK;
+    const struct json_value *list = json_find(r->json, r->object, "chunks");
+    size_t n = section_chunks(s);
+    if (!list || list->kind != JSON_IS_ARRAY || list->n / 2 != n || list->n % 2)
+        return fail(E_CHECKPOINT, "section '%s': %zu items of %zu bytes need %zu chunks, not those listed",
+                    s->name, s->n, s->item, n);
+    TRY(memory_grow(&layout->chunk, capacity, layout->n_chunks + n, sizeof *layout->chunk,
+                    "the chunk table"));
+    const struct json_value *v = json_first(list);
+    for (size_t k = 0; k < n; k++) {
+        int64_t place, size, bound = (int64_t)chunk_bound(section_chunk_raw(s, k));
+        bool good = json_get_integer(r->json, v, (int64_t)*at, (int64_t)*at, &place);
+        v = json_next(r->json, v);
+        good = good && json_get_integer(r->json, v, 1, bound, &size) && (uint64_t)size <= limit - *at;
+        v = json_next(r->json, v);
+        if (!good)
+            return fail(E_CHECKPOINT,
+                        "section '%s': chunk %zu of %zu is not at byte %llu, or has an impossible size",
+                        s->name, k + 1, n, (unsigned long long)*at);
+        layout->chunk[layout->n_chunks++] = (struct chunk){*at, (uint64_t)size};
+        *at += (uint64_t)size;
+    }
+done:
+    return st;
+}
+
+static status read_section(const struct reader *r, struct checkpoint *c, struct layout *layout,
+                           size_t *capacity, uint64_t *at, uint64_t limit)
+{
+    status st = OK;
+    struct checkpoint_section *s = &c->section[c->n_sections];
+    TRY(get_text(r, "name", s->name, sizeof s->name));
+    for (size_t i = 0; i < c->n_sections; i++)
+        if (strcmp(c->section[i].name, s->name) == 0)
+            return fail(E_CHECKPOINT, "two sections are named '%s'", s->name);
+    TRY(get_size(r, "item", 1, CHUNK_ITEM_MAX, &s->item));
+    TRY(get_size(r, "count", 0, SIZE_MAX / 2 / s->item, &s->n));
+    TRY(get_hash(r, "hash", &layout->hash[c->n_sections]));
+    layout->first[c->n_sections] = layout->n_chunks;
+    TRY(read_chunks(r, s, layout, capacity, at, limit));
+    layout->first[++c->n_sections] = layout->n_chunks;
+done:
+    return st;
+}
+
+status index_read(const char *text, size_t size, uint64_t index_at, struct checkpoint *c,
+                  struct layout *layout)
+{
+    struct json_doc json = {0};
+    size_t capacity = 0;
+    uint64_t at = sizeof(struct file_head);
+    status st = json_parse(text, size, &json);
+    if (st != OK)
+        return st == E_INPUT ? fail(E_CHECKPOINT, "%s", status_message()) : st;
+    struct reader r = {&json, json.value};
+    TRY(read_provenance(&r, c));
+    const struct json_value *sections = json_find(&json, json.value, "sections");
+    if (!sections || sections->kind != JSON_IS_ARRAY || sections->n > CHECKPOINT_SECTIONS_MAX) {
+        st = fail(E_CHECKPOINT, "'sections' is missing, no list, or longer than %d", CHECKPOINT_SECTIONS_MAX);
+        goto done;
+    }
+    const struct json_value *v = json_first(sections);
+    for (uint32_t i = 0; i < sections->n; i++, v = json_next(&json, v)) {
+        r.object = v;
+        TRY(read_section(&r, c, layout, &capacity, &at, index_at));
+    }
+    if (at != index_at)
+        st = fail(E_CHECKPOINT, "%llu bytes before the index belong to no section",
+                  (unsigned long long)(index_at - at));
+done:
+    json_doc_free(&json);
+    return st;
+}

@@ -1,0 +1,32 @@
+/* The verbs: `hoodoo VERB ...` calls cli_VERB(), with argv[0] the verb. One file a verb.
+ *
+ * A verb parses its arguments with options_parse(&usage_VERB, ...), does its work, and returns a status; what
+ * it prints for people and programs goes to stdout, everything else to stderr. main() prints the sentence of
+ * a failure.
+ */
+#ifndef HOODOO_CLI_H
+#define HOODOO_CLI_H
+
+#include "base/status.h"
+#include "cli/options.h"
+
+/*    verb     operands  what it does */
+#define VERBS(X)                                                                                             \
+    X(run, "JOB", "simulate; resumes by itself when the output folder already holds part of this job")       \
+    X(plan, "JOB", "what it would do: frames, particles, memory, disk, time (nothing is written)")           \
+    X(status, "OUT", "frames done, missing and damaged, checkpoints, rate, time left")                       \
+    X(verify, "OUT", "re-read every file against its manifest; names each damaged or missing one")           \
+    X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
+    X(inspect, "FILE", "what a checkpoint, VDB, EXR or manifest holds, in words or --json")                  \
+    X(devices, "", "the Vulkan devices, by index, name, UUID, PCI address, memory")
+
+#define VERB_DECLARE(verb, operands, summary)                                                                \
+    MUST_USE status cli_##verb(int argc, char **argv);                                                       \
+    extern const struct usage usage_##verb;
+VERBS(VERB_DECLARE)
+#undef VERB_DECLARE
+
+/* The frames of the job in the output folder `root`, from its own copy of the job. */
+MUST_USE status job_frames(const char *root, struct frame_range *out);
+
+#endif

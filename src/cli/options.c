@@ -1,0 +1,201 @@
+#include "cli/options.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+status words_add(struct words *w, const char *word)
+{
+    status st = memory_grow(&w->word, &w->capacity, w->n + 1, sizeof *w->word, "the arguments");
+    if (st == OK)
+        w->word[w->n++] = word;
+    return st;
+}
+
+void words_free(struct words *w)
+{
+    free(w->word);
+    *w = (struct words){0};
+}
+
+void common_free(struct common *c)
+{
+    words_free(&c->sets);
+}
+
+/* ---- help */
+
+static void print_help(const struct usage *usage, const struct option *options, size_t n)
+{
+    printf("usage: hoodoo %s%s%s%s\n\n%s\n\n", usage->verb, n ? " [OPTIONS]" : "",
+           *usage->operands ? " " : "", usage->operands, usage->summary);
+    for (size_t i = 0; i < n; i++) {
+        const struct option *o = &options[i];
+        int width = printf("  --%s%s%s", o->name, o->value ? " " : "", o->value ? o->value : "");
+        if (width > 26)
+            width = printf("\n") - 1;
+        printf("%*s  %s\n", 26 - width, "", o->help);
+    }
+    printf("  %-24s  %s\n", "-h, --help", "this text");
+}
+
+/* ---- values */
+
+static status wrong_value(const struct usage *usage, const struct option *o, const char *value,
+                          const char *what)
+{
+    return fail(E_USAGE, "%s: --%s %.80s: %s", usage->verb, o->name, value, what);
+}
+
+static status take_number(const struct usage *usage, const struct option *o, const char *value)
+{
+    char *end;
+    errno = 0;
+    if (o->kind == OPTION_INT) {
+        long whole = strtol(value, &end, 10);
+        if (end == value || *end || errno || whole < INT_MIN || whole > INT_MAX)
+            return wrong_value(usage, o, value, "not a whole number");
+        *(int *)o->target = (int)whole;
+        return OK;
+    }
+    double number = strtod(value, &end);
+    if (end == value || *end || !isfinite(number))
+        return wrong_value(usage, o, value, "not a number");
+    *(double *)o->target = number;
+    return OK;
+}
+
+static status take_choice(const struct usage *usage, const struct option *o, const char *value)
+{
+    size_t length = strlen(value);
+    const char *word = o->value;
+    for (int i = 0;; i++) {
+        size_t n = strcspn(word, "|");
+        if (n == length && strncmp(word, value, n) == 0) {
+            *(int *)o->target = i;
+            return OK;
+        }
+        if (!word[n])
+            break;
+        word += n + 1;
+    }
+    return fail(E_USAGE, "%s: --%s %.80s: must be one of %s", usage->verb, o->name, value, o->value);
+}
+
+static status take_value(const struct usage *usage, const struct option *o, const char *value)
+{
+    switch (o->kind) {
+    case OPTION_FLAG:
+        *(bool *)o->target = true;
+        return OK;
+    case OPTION_TEXT:
+        *(const char **)o->target = value;
+        return *value ? OK : wrong_value(usage, o, "''", "is empty");
+    case OPTION_INT:
+    case OPTION_NUMBER:
+        return take_number(usage, o, value);
+    case OPTION_RANGE:
+        if (range_parse(value, o->target) != OK)
+            return fail(E_USAGE, "%s: --%s: %s", usage->verb, o->name, status_message());
+        return OK;
+    case OPTION_CHOICE:
+        return take_choice(usage, o, value);
+    case OPTION_WORDS:
+        return words_add(o->target, value);
+    }
+    return OK;
+}
+
+/* ---- the line */
+
+static status unknown_option(const struct usage *usage, const struct option *options, size_t n,
+                             const char *argument)
+{
+    const char *known[64] = {"help"};
+    size_t n_known = 1;
+    for (size_t i = 0; i < n && n_known < sizeof known / sizeof *known; i++)
+        known[n_known++] = options[i].name;
+    char word[64];
+    const char *name = argument + strspn(argument, "-");
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(name, "="), name);
+    const char *near = nearest_word(word, known, n_known);
+    if (near)
+        return fail(E_USAGE, "%s: unknown option %.80s; did you mean --%s?", usage->verb, argument, near);
+    return fail(E_USAGE, "%s: unknown option %.80s; 'hoodoo %s -h' lists them", usage->verb, argument,
+                usage->verb);
+}
+
+/* argv[*i] is an option; moves *i over its value if that is the next argument. */
+static status take_option(const struct usage *usage, const struct option *options, size_t n, int argc,
+                          char **argv, int *i)
+{
+    const char *argument = argv[*i];
+    const struct option *o = NULL;
+    const char *name = argument + 2;
+    size_t length = strcspn(name, "=");
+    const char *value = name[length] ? name + length + 1 : NULL;
+    for (size_t k = 0; k < n && strncmp(argument, "--", 2) == 0; k++)
+        if (strlen(options[k].name) == length && strncmp(options[k].name, name, length) == 0)
+            o = &options[k];
+    if (!o)
+        return unknown_option(usage, options, n, argument);
+    if (o->kind == OPTION_FLAG && value)
+        return fail(E_USAGE, "%s: --%s takes no value", usage->verb, o->name);
+    if (o->kind != OPTION_FLAG && !value) {
+        /* The next option swallowed as a value would surprise later and elsewhere. */
+        if (*i + 1 >= argc || strncmp(argv[*i + 1], "--", 2) == 0)
+            return fail(E_USAGE, "%s: --%s needs a value: --%s %s", usage->verb, o->name, o->name, o->value);
+        value = argv[++*i];
+    }
+    return take_value(usage, o, value);
+}
+
+static status count_operands(const struct usage *usage, const struct words *operands)
+{
+    size_t least = 0, most = 0;
+    for (const char *p = usage->operands; *p; p += strspn(p, " ")) {
+        size_t length = strcspn(p, " ");
+        bool many = length > 3 && strncmp(p + length - 3, "...", 3) == 0;
+        least += *p != '[';
+        most = many || most == SIZE_MAX ? SIZE_MAX : most + 1;
+        p += length;
+    }
+    if (operands->n > most)
+        return fail(E_USAGE, "%s: unexpected argument '%.80s'; usage: hoodoo %s [OPTIONS] %s", usage->verb,
+                    operands->word[most], usage->verb, usage->operands);
+    if (operands->n < least)
+        return fail(E_USAGE, "%s: %s is missing; usage: hoodoo %s [OPTIONS] %s", usage->verb, usage->operands,
+                    usage->verb, usage->operands);
+    return OK;
+}
+
+status options_parse(const struct usage *usage, const struct option *options, size_t n, int argc, char **argv,
+                     struct words *operands, bool *help)
+{
+    status st = OK;
+    bool ended = false;
+    *help = false;
+    for (int i = 1; i < argc; i++) {
+        const char *a = argv[i];
+        if (ended || a[0] != '-' || a[1] == '\0') {
+            TRY(words_add(operands, a));
+        } else if (strcmp(a, "--") == 0) {
+            ended = true;
+        } else if (strcmp(a, "-h") == 0 || strcmp(a, "--help") == 0) {
+            *help = true;
+            print_help(usage, options, n);
+            return OK;
+        } else {
+            TRY(take_option(usage, options, n, argc, argv, &i));
+        }
+    }
+    TRY(count_operands(usage, operands));
+done:
+    return st;
+}

@@ -1,0 +1,54 @@
+#include "cli/signals.h"
+
+#include <signal.h>
+#include <stdatomic.h>
+#include <stddef.h>
+
+static const struct {
+    int number;
+    const char *name;
+} stops[] = {{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGUSR1, "SIGUSR1"}};
+
+/* The first signal that came, or 0. Atomic, for the threads; lock-free, for the handler. */
+static atomic_int stop;
+
+static void on_stop(int number)
+{
+    int none = 0;
+    atomic_compare_exchange_strong(&stop, &none, number);
+}
+
+static void set(int number, void (*handler)(int))
+{
+    struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+}
+
+void signals_install(void)
+{
+    for (size_t i = 0; i < sizeof stops / sizeof *stops; i++)
+        set(stops[i].number, on_stop);
+    set(SIGPIPE, SIG_IGN);
+}
+
+void signals_reset(void)
+{
+    for (size_t i = 0; i < sizeof stops / sizeof *stops; i++)
+        set(stops[i].number, SIG_DFL);
+    set(SIGPIPE, SIG_DFL);
+}
+
+bool stop_requested(void)
+{
+    return atomic_load_explicit(&stop, memory_order_relaxed) != 0;
+}
+
+const char *stop_reason(void)
+{
+    int number = atomic_load(&stop);
+    for (size_t i = 0; i < sizeof stops / sizeof *stops; i++)
+        if (stops[i].number == number)
+            return stops[i].name;
+    return NULL;
+}

@@ -1,0 +1,206 @@
+/* hoodoo status OUT: what is there and how fast it comes, as far as the files tell. Reads no pixels and no
+ * voxels. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "base/memory.h"
+#include "checkpoint/checkpoint.h"
+#include "cli/cli.h"
+#include "cli/words.h"
+#include "output/folder.h"
+
+enum { STATE_MISSING, STATE_DONE, STATE_DAMAGED, N_STATES };
+enum { RECENT = 20 /* frames the rate is taken from */ };
+
+struct survey {
+    const char *root;
+    char name[256];
+    struct frame_range frames;
+    unsigned char *state; /* [range_count(frames)] */
+    char (*bad)[512];     /* [n[STATE_DAMAGED]]: what is wrong, in order of frames */
+    double *written;      /* [n[STATE_DONE]]: when manifests were, s */
+    size_t n[N_STATES], bad_capacity;
+};
+
+static double modified(const struct survey *s, int frame)
+{
+    char path[4096];
+    struct stat info;
+    if (folder_path(path, s->root, s->name, FILE_MANIFEST, frame, NULL) != OK || stat(path, &info) != 0)
+        return 0;
+    return (double)info.st_mtim.tv_sec + 1e-9 * (double)info.st_mtim.tv_nsec;
+}
+
+static status survey_frame(struct survey *s, int frame, size_t i)
+{
+    struct manifest manifest = {0};
+    const char *bad = "";
+    status st = manifest_read(s->root, s->name, frame, &manifest);
+    if (st == OK)
+        st = manifest_check(s->root, &manifest, false, &bad);
+    if (st == E_MEMORY)
+        goto done;
+    bool damaged = st != OK || *bad;
+    s->state[i] = damaged ? STATE_DAMAGED : STATE_DONE;
+    st = OK;
+    if (damaged) {
+        size_t k = s->n[STATE_DAMAGED];
+        TRY(memory_grow(&s->bad, &s->bad_capacity, k + 1, sizeof *s->bad, "the damaged frames"));
+        snprintf(s->bad[k], sizeof s->bad[k], "%s", status_message());
+    } else {
+        s->written[s->n[STATE_DONE]] = modified(s, frame);
+    }
+    s->n[s->state[i]]++;
+done:
+    manifest_free(&manifest);
+    return st;
+}
+
+static status survey_frames(struct survey *s)
+{
+    status st = OK;
+    int *there = NULL;
+    size_t n_there, total = range_count(s->frames);
+    TRY(folder_frames(s->root, s->name, &there, &n_there));
+    TRY(memory_alloc(total, sizeof *s->state, "the frames", &s->state));
+    TRY(memory_alloc(total, sizeof *s->written, "the frames", &s->written));
+    for (size_t i = 0; i < n_there; i++)
+        if (range_holds(s->frames, there[i]))
+            TRY(survey_frame(s, there[i], (size_t)((there[i] - s->frames.first) / s->frames.step)));
+    s->n[STATE_MISSING] = total - s->n[STATE_DONE] - s->n[STATE_DAMAGED];
+done:
+    free(there);
+    return st;
+}
+
+/* ---- the answer */
+
+/* The frames in `state`, as ranges. */
+static void add_ranges(const struct survey *s, int state, const char *key, struct text *out)
+{
+    size_t total = range_count(s->frames);
+    char text[48];
+    json_array(out, key);
+    for (size_t i = 0; i < total; i++) {
+        size_t first = i;
+        if (s->state[i] != state)
+            continue;
+        while (i + 1 < total && s->state[i + 1] == state)
+            i++;
+        struct frame_range r = {s->frames.first + (int)first * s->frames.step,
+                                s->frames.first + (int)i * s->frames.step, s->frames.step};
+        json_text(out, NULL, range_text(r, text));
+    }
+    json_end_array(out);
+}
+
+static void add_damaged(const struct survey *s, struct text *out)
+{
+    size_t k = 0;
+    json_array(out, "damage");
+    for (size_t i = 0; k < s->n[STATE_DAMAGED]; i++) {
+        if (s->state[i] != STATE_DAMAGED)
+            continue;
+        json_object(out, NULL);
+        json_integer(out, "frame", s->frames.first + (int)i * s->frames.step);
+        json_text(out, "what", s->bad[k++]);
+        json_end_object(out);
+    }
+    json_end_array(out);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The median time between recent frames: a night's pause among them does not count. */
+static void add_rate(struct survey *s, struct text *out)
+{
+    double between[RECENT], now = (double)time(NULL);
+    size_t n = s->n[STATE_DONE], k = 0;
+    if (n < 2)
+        return;
+    qsort(s->written, n, sizeof *s->written, ascending);
+    for (size_t i = n > RECENT ? n - RECENT : 1; i < n; i++)
+        between[k++] = s->written[i] - s->written[i - 1];
+    qsort(between, k, sizeof *between, ascending);
+    double each = between[k / 2];
+    if (each > 0) {
+        json_number(out, "frames_per_second", (double)(int64_t)(1e4 / each) / 1e4);
+        json_integer(out, "time_left_seconds",
+                     (int64_t)((double)(s->n[STATE_MISSING] + s->n[STATE_DAMAGED]) * each));
+    }
+    json_integer(out, "since_last_frame_seconds",
+                 (int64_t)(now > s->written[n - 1] ? now - s->written[n - 1] : 0));
+}
+
+static status add_checkpoints(const struct survey *s, struct text *out)
+{
+    int *frames = NULL;
+    size_t n;
+    status st = checkpoint_list(s->root, s->name, &frames, &n);
+    json_array(out, "checkpoints");
+    for (size_t i = 0; st == OK && i < n; i++)
+        json_integer(out, NULL, frames[i]);
+    json_end_array(out);
+    free(frames);
+    return st;
+}
+
+static status answer_status(struct survey *s, struct text *out)
+{
+    status st = OK;
+    char text[48];
+    json_object(out, NULL);
+    json_text(out, "folder", s->root);
+    json_text(out, "name", s->name);
+    json_text(out, "frames", range_text(s->frames, text));
+    json_integer(out, "total", (int64_t)range_count(s->frames));
+    json_integer(out, "done", (int64_t)s->n[STATE_DONE]);
+    json_integer(out, "missing", (int64_t)s->n[STATE_MISSING]);
+    json_integer(out, "damaged", (int64_t)s->n[STATE_DAMAGED]);
+    add_ranges(s, STATE_DONE, "frames_done", out);
+    add_ranges(s, STATE_MISSING, "frames_missing", out);
+    add_ranges(s, STATE_DAMAGED, "frames_damaged", out);
+    TRY(add_checkpoints(s, out));
+    add_rate(s, out);
+    if (s->n[STATE_DAMAGED])
+        add_damaged(s, out);
+    json_end_object(out);
+done:
+    return st;
+}
+
+status cli_status(int argc, char **argv)
+{
+    status st = OK;
+    struct common c = {0};
+    struct words operands = {0};
+    struct survey s = {0};
+    struct text answer = {0};
+    bool help;
+    const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c)};
+    TRY(options_parse(&usage_status, options, sizeof options / sizeof *options, argc, argv, &operands,
+                      &help));
+    if (help)
+        goto done;
+    s.root = operands.word[0];
+    TRY(folder_open(s.root, s.name));
+    s.frames = c.frames;
+    if (s.frames.step == 0)
+        TRY(job_frames(s.root, &s.frames));
+    TRY(survey_frames(&s));
+    TRY(answer_status(&s, &answer));
+    TRY(words_print(&answer, c.json));
+done:
+    text_free(&answer);
+    free(s.state);
+    free(s.bad);
+    free(s.written);
+    words_free(&operands);
+    return st;
+}

@@ -1,0 +1,213 @@
+/* hoodoo verify OUT: reads every file there is, against its manifest and with the reader of its kind. All is
+ * well only when every frame of the job (or of --frames) is there and whole. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/hash.h"
+#include "checkpoint/checkpoint.h"
+#include "cli/cli.h"
+#include "cli/words.h"
+#include "output/exr.h"
+#include "output/folder.h"
+#include "output/vdb.h"
+
+struct search {
+    const char *root;
+    char name[256];
+    struct frame_range frames;
+    bool json, only_frames; /* --frames: checkpoints are not asked for */
+    size_t n_frames, n_files, n_checkpoints, n_damaged, n_missing;
+    struct text answer; /* JSON, so far up to the list of problems */
+};
+
+/* A line now, in words, since reading everything takes long; or a member of the list. */
+static void found(struct search *s, bool missing, const char *path, const char *what)
+{
+    *(missing ? &s->n_missing : &s->n_damaged) += 1;
+    const char *kind = missing ? "missing" : "damaged";
+    /* The readers' sentences begin with the whole path. */
+    size_t root = strlen(s->root), relative = strlen(path);
+    if (strncmp(what, s->root, root) == 0 && what[root] == '/' &&
+        strncmp(what + root + 1, path, relative) == 0 && strncmp(what + root + 1 + relative, ": ", 2) == 0)
+        what += root + relative + 3;
+    if (s->json) {
+        json_object(&s->answer, NULL);
+        json_text(&s->answer, "kind", kind);
+        json_text(&s->answer, "file", path);
+        json_text(&s->answer, "what", what);
+        json_end_object(&s->answer);
+        return;
+    }
+    printf("%s %s%s%s\n", kind, path, *what ? ": " : "", what);
+    fflush(stdout);
+}
+
+static bool ends_with(const char *path, const char *end)
+{
+    size_t n = strlen(path), m = strlen(end);
+    return n >= m && strcmp(path + n - m, end) == 0;
+}
+
+/* E_MEMORY alone ends the search; everything else is a finding. */
+static status verify_file(struct search *s, const struct manifest_file *f)
+{
+    char path[4096], what[256] = "";
+    uint64_t hash, size;
+    status st = OK;
+    s->n_files++;
+    if (snprintf(path, sizeof path, "%s/%s", s->root, f->path) >= (int)sizeof path)
+        return fail(E_INPUT, "%.200s...: the path is too long", s->root);
+    if (access(path, F_OK) != 0) {
+        found(s, true, f->path, "");
+        return OK;
+    }
+    st = hash_file(path, &hash, &size);
+    if (st == OK && size != f->size)
+        snprintf(what, sizeof what, "%llu bytes, its manifest says %llu", (unsigned long long)size,
+                 (unsigned long long)f->size);
+    else if (st == OK && hash != f->hash)
+        snprintf(what, sizeof what, "its content is not what its manifest says");
+    else if (st == OK && ends_with(path, ".vdb"))
+        st = vdb_check(path);
+    else if (st == OK && ends_with(path, ".exr"))
+        st = exr_check(path);
+    if (st == E_MEMORY)
+        return st;
+    if (st != OK || *what)
+        found(s, false, f->path, *what ? what : status_message());
+    return OK;
+}
+
+static status verify_frame(struct search *s, int frame)
+{
+    struct manifest m = {0};
+    char path[4096];
+    const char *relative = path + strlen(s->root) + 1;
+    status st = OK;
+    TRY(folder_path(path, s->root, s->name, FILE_MANIFEST, frame, NULL));
+    s->n_files++;
+    if (access(path, F_OK) != 0) {
+        found(s, true, relative, "the frame is not done");
+        goto done;
+    }
+    s->n_frames++;
+    st = manifest_read(s->root, s->name, frame, &m);
+    if (st == E_MEMORY)
+        goto done;
+    if (st != OK || m.frame != frame) {
+        found(s, false, relative, st != OK ? status_message() : "it is another frame's");
+        st = OK;
+        goto done;
+    }
+    const struct ledger *l = &m.ledger;
+    if (l->start != l->rock + l->deposit + l->fallen + l->left)
+        found(s, false, relative, "its ledger does not add up");
+    for (size_t i = 0; i < m.n_files; i++)
+        TRY(verify_file(s, &m.file[i]));
+done:
+    manifest_free(&m);
+    return st;
+}
+
+/* Every frame asked for, and those there beyond them (a job whose range was shortened). */
+static status verify_frames(struct search *s)
+{
+    status st = OK;
+    int *there = NULL;
+    size_t n = 0;
+    for (size_t i = 0; i < range_count(s->frames); i++)
+        TRY(verify_frame(s, s->frames.first + (int)i * s->frames.step));
+    if (!s->only_frames)
+        TRY(folder_frames(s->root, s->name, &there, &n));
+    for (size_t i = 0; i < n; i++)
+        if (!range_holds(s->frames, there[i]))
+            TRY(verify_frame(s, there[i]));
+done:
+    free(there);
+    return st;
+}
+
+static status verify_checkpoints(struct search *s)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    char path[4096];
+    struct checkpoint c;
+    TRY(checkpoint_list(s->root, s->name, &frames, &n));
+    for (size_t i = 0; i < n; i++) {
+        TRY(folder_path(path, s->root, s->name, FILE_CHECKPOINT, frames[i], NULL));
+        s->n_files++;
+        s->n_checkpoints++;
+        st = checkpoint_read_index(path, &c);
+        if (st == E_MEMORY)
+            goto done;
+        if (st != OK || c.frame != frames[i])
+            found(s, false, path + strlen(s->root) + 1,
+                  st != OK ? status_message() : "it is another frame's");
+        st = OK;
+    }
+done:
+    free(frames);
+    return st;
+}
+
+static status report(struct search *s)
+{
+    status st = OK;
+    if (s->json) {
+        json_end_array(&s->answer);
+        json_integer(&s->answer, "frames", (int64_t)s->n_frames);
+        json_integer(&s->answer, "files", (int64_t)s->n_files);
+        json_integer(&s->answer, "checkpoints", (int64_t)s->n_checkpoints);
+        json_integer(&s->answer, "damaged", (int64_t)s->n_damaged);
+        json_integer(&s->answer, "missing", (int64_t)s->n_missing);
+        json_end_object(&s->answer);
+        TRY(words_print(&s->answer, true));
+    } else {
+        printf("%zu frames, %zu files, %zu checkpoints: %zu damaged, %zu missing\n", s->n_frames, s->n_files,
+               s->n_checkpoints, s->n_damaged, s->n_missing);
+    }
+    if (s->n_damaged + s->n_missing)
+        st = fail(
+            E_INPUT,
+            "%s: of %zu files %zu are damaged, %zu missing; running the job again makes their frames anew",
+            s->root, s->n_files, s->n_damaged, s->n_missing);
+done:
+    return st;
+}
+
+status cli_verify(int argc, char **argv)
+{
+    status st = OK;
+    struct common c = {0};
+    struct words operands = {0};
+    struct search s = {0};
+    bool help;
+    const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c)};
+    TRY(options_parse(&usage_verify, options, sizeof options / sizeof *options, argc, argv, &operands,
+                      &help));
+    if (help)
+        goto done;
+    s.root = operands.word[0];
+    s.json = c.json;
+    TRY(folder_open(s.root, s.name));
+    s.frames = c.frames;
+    s.only_frames = c.frames.step > 0;
+    if (!s.only_frames)
+        TRY(job_frames(s.root, &s.frames));
+    json_object(&s.answer, NULL);
+    json_text(&s.answer, "folder", s.root);
+    json_text(&s.answer, "name", s.name);
+    json_array(&s.answer, "problems");
+    TRY(verify_frames(&s));
+    if (!s.only_frames)
+        TRY(verify_checkpoints(&s));
+    TRY(report(&s));
+done:
+    text_free(&s.answer);
+    words_free(&operands);
+    return st;
+}
