@@ -80,9 +80,9 @@ void field_build(struct gpu *gpu, struct field *f, const struct particles *p)
 status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out)
 {
     static const struct frame_grid kinds[] = {
-        {.name = "surface", .unit = "m", .class = GRID_LEVEL_SET}, {.name = "density", .unit = "", .class = GRID_FOG},
-        {.name = "stress", .unit = "Pa", .class = GRID_PLAIN},     {.name = "von_mises", .unit = "Pa", .class = GRID_PLAIN},
-        {.name = "viability", .unit = "", .class = GRID_PLAIN},
+        {.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET}, {.name = "density", .unit = "", .kind = GRID_FOG},
+        {.name = "stress", .unit = "Pa", .kind = GRID_PLAIN},     {.name = "von_mises", .unit = "Pa", .kind = GRID_PLAIN},
+        {.name = "viability", .unit = "", .kind = GRID_PLAIN},
     };
     status st = OK;
     size_t n = sample_count(f);
