@@ -195,25 +195,13 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
     return OK;
 }
 
-/* Whether anything under the key changes the simulation: cameras, say, do not. */
-static bool matters(const struct job_key *key)
-{
-    if (key->type != KEY_SUB && key->type != KEY_LIST && key->type != KEY_MAP)
-        return key->use == SIM;
-    const struct job_section *child = &job_sections[key->child];
-    for (size_t i = 0; i < child->n; i++)
-        if (matters(&child->key[i]))
-            return true;
-    return false;
-}
-
 static status walk_section(struct walk *w, enum job_section_id section, const void *base)
 {
     const struct job_section *s = &job_sections[section];
     status st = OK;
     for (size_t i = 0; i < s->n; i++) {
         const struct job_key *key = &s->key[i];
-        if (!matters(key) && !w->only_inputs)
+        if (!key_simulates(key) && !w->only_inputs)
             continue;
         size_t back = path_add(w, key->name);
         put_text(w, key->name);

@@ -140,7 +140,7 @@ static void put_default(struct text *t, const struct job_key *key)
 static void put_row(struct text *t, const struct job_key *key)
 {
     char range[256] = "", low[32], high[32];
-    text_add(t, "| `%s`%s | ", key->name, key->use == OUT ? " \u2020" : "");
+    text_add(t, "| `%s`%s | ", key->name, key_simulates(key) ? "" : " \u2020");
     if (key->type == KEY_VEC)
         text_add(t, "%zu ", key->n);
     text_add(t, "%s%s", type_name(key), key->unit[0] ? ", " : "");
@@ -159,25 +159,26 @@ static void put_row(struct text *t, const struct job_key *key)
     text_add(t, " |\n");
 }
 
-/* Shapes share the keys of `group`; those have a table of their own. */
-static void put_table(struct text *t, enum job_section_id section, const char *title, bool shared)
+/* Shapes share the keys of `group`, which have a table of their own, and what a MAP holds is named by its
+ * key. */
+static void put_table(struct text *t, enum job_section_id section, const char *title, bool shared, bool named)
 {
     const struct job_section *s = &job_sections[section];
     text_add(t, "\n## %s\n\n", title);
     put_cell(t, s->meaning);
     text_add(t, "\n\n| key | type, unit | default | range | meaning | source |\n|---|---|---|---|---|---|\n");
     for (size_t i = 0; i < s->n; i++)
-        if (shared || !key_places(s->key[i].name))
+        if ((shared || !key_places(s->key[i].name)) && !(named && s->key[i].type == KEY_NAME))
             put_row(t, &s->key[i]);
 }
 
 /* The section's table, then those inside it. `path` is where it stands in a job: "wind.deflation". */
-static void put_tables(struct text *t, enum job_section_id section, const char *path)
+static void put_tables(struct text *t, enum job_section_id section, const char *path, bool named)
 {
     const struct job_section *s = &job_sections[section];
     char title[300];
     snprintf(title, sizeof title, path[0] ? "`%s`" : "The job", path);
-    put_table(t, section, title, true);
+    put_table(t, section, title, true, named);
     for (size_t i = 0; i < s->n; i++) {
         const struct job_key *key = &s->key[i];
         if (key->type != KEY_SUB && key->type != KEY_LIST && key->type != KEY_MAP)
@@ -187,7 +188,7 @@ static void put_tables(struct text *t, enum job_section_id section, const char *
                  key->type == KEY_LIST  ? ".N"
                  : key->type == KEY_MAP ? ".NAME"
                                         : "");
-        put_tables(t, (enum job_section_id)key->child, inner);
+        put_tables(t, (enum job_section_id)key->child, inner, key->type == KEY_MAP);
     }
 }
 
@@ -195,12 +196,12 @@ status job_reference(struct text *out)
 {
     char title[100];
     text_add(out, "%s", intro);
-    put_tables(out, SECTION_job, "");
+    put_tables(out, SECTION_job, "", false);
     for (int i = 0; i < SHAPES; i++) {
         snprintf(title, sizeof title, "Shape `%s`", job_sections[i].name);
-        put_table(out, (enum job_section_id)i, title, false);
+        put_table(out, (enum job_section_id)i, title, false, false);
     }
-    put_table(out, SECTION_group, "Every shape and operator", true);
+    put_table(out, SECTION_group, "Every shape and operator", true, false);
     text_add(out, "\nThese stand inside a shape's mapping, or beside an operator's list.\n");
     return text_status(out);
 }

@@ -104,6 +104,17 @@ bool key_required(const struct job_key *key)
     return false;
 }
 
+bool key_simulates(const struct job_key *key)
+{
+    if (key->type != KEY_SUB && key->type != KEY_LIST && key->type != KEY_MAP)
+        return key->use == SIM;
+    const struct job_section *child = &job_sections[key->child];
+    for (size_t i = 0; i < child->n; i++)
+        if (key_simulates(&child->key[i]))
+            return true;
+    return false;
+}
+
 bool key_places(const char *name)
 {
     return table_find(SECTION_group, name) != NULL;

@@ -72,6 +72,9 @@ const struct job_key *table_find(enum job_section_id section, const char *name);
 
 bool key_required(const struct job_key *key);
 
+/* Whether the key, or any key inside it, changes the simulation. Cameras, say, do not. */
+bool key_simulates(const struct job_key *key);
+
 /* Whether every node has this key (PLACE in keys.def), whatever its shape. */
 bool key_places(const char *name);
 

@@ -498,5 +498,5 @@ int main(void)
         cmocka_unit_test(deep_shapes),
         cmocka_unit_test(mutated_jobs_are_refused_or_survive_the_round_trip),
     };
-    return cmocka_run_group_tests_name("job_bad", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("job_wrong", tests, NULL, NULL);
 }
