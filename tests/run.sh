@@ -11,10 +11,10 @@ passed=0 failed=0
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/hoodoo-test.XXXXXX")
 trap 'rm -rf "$scratch"' EXIT
 for folder in "$@"; do
-    for t in "$build/tests/$folder"/test_*[!d] "$top/tests/$folder"/*.sh "$top/tests/$folder"/*.py; do
+    for t in "$build/tests/$folder"/test_* "$top/tests/$folder"/*.sh "$top/tests/$folder"/*.py; do
         [ -f "$t" ] || continue
         name=$folder/$(basename "$t")
-        case $t in *.sh) run="sh $t" ;; *.py) run="/usr/bin/python3 $t" ;; *.d | *.o) continue ;; *) run=$t ;; esac
+        case $t in *.d | *.o) continue ;; *.sh) run="sh $t" ;; *.py) run="/usr/bin/python3 $t" ;; *) run=$t ;; esac
         mkdir -p "$scratch/$name" && cd "$scratch/$name" || exit 1
         start=$(date +%s)
         $run >"$scratch/log" 2>&1

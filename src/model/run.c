@@ -1,0 +1,389 @@
+#include "model/run.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/hash.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "base/version.h"
+#include "model/model.h"
+#include "output/folder.h"
+#include "output/writer.h"
+
+struct run {
+    const struct job *job;
+    const struct run_options *options;
+    const struct model_type *type;
+    uint64_t job_hash;
+    struct frame_range frames;
+    struct gpu *gpu;
+    struct model *model;
+    struct writer *writer;
+    bool *done; /* [last - first + 1], by frame number */
+    int first_missing; /* last + 1: none */
+    size_t n_done;
+};
+
+/* ---- what is there */
+
+static status frame_done(const struct run *r, int frame, bool *done)
+{
+    struct manifest manifest = {0};
+    const char *bad = "";
+    status st = manifest_read(r->options->root, r->job->name, frame, &manifest);
+    if (st == OK)
+        st = manifest_check(r->options->root, &manifest, false, &bad);
+    *done = st == OK && *bad == '\0' && manifest.job_hash == r->job_hash;
+    if (st == OK && !*done)
+        log_info("frame %d is there but %s; it will be made again", frame, *bad ? bad : "of another job");
+    manifest_free(&manifest);
+    return st == E_MEMORY ? st : OK; /* missing or damaged is no error here */
+}
+
+static status survey(struct run *r)
+{
+    status st = OK;
+    size_t n = (size_t)(r->frames.last - r->frames.first) + 1;
+    int *there = NULL;
+    size_t n_there;
+    TRY(memory_alloc(n, sizeof *r->done, "the frames", &r->done));
+    TRY(folder_frames(r->options->root, r->job->name, &there, &n_there));
+    for (size_t i = 0; i < n_there; i++)
+        if (range_holds(r->frames, there[i]))
+            TRY(frame_done(r, there[i], &r->done[there[i] - r->frames.first]));
+    r->first_missing = r->frames.last + 1;
+    for (int f = r->frames.last; f >= r->frames.first; f--)
+        if (range_holds(r->frames, f)) {
+            r->n_done += r->done[f - r->frames.first];
+            if (!r->done[f - r->frames.first])
+                r->first_missing = f;
+        }
+done:
+    free(there);
+    return st;
+}
+
+/* Is this folder's job this job? Its job.yaml is the job as it was run. */
+static status check_owner(struct run *r)
+{
+    status st = OK;
+    char path[4096];
+    struct job *theirs = NULL;
+    uint64_t hash;
+    if (snprintf(path, sizeof path, "%s/job.yaml", r->options->root) >= (int)sizeof path)
+        return fail(E_OUTPUT, "%.100s...: the path is too long", r->options->root);
+    if (access(path, F_OK) != 0)
+        return OK;
+    if (job_load(path, NULL, 0, &theirs) != OK || job_hash(theirs, &hash) != OK) {
+        st = fail(E_CHECKPOINT, "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
+                  "--resume never to start over", path, status_message());
+    } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
+        st = fail(E_CHECKPOINT, "%s holds another job (%s differs in what is simulated); use another --out, or --resume never "
+                  "to start over", r->options->root, path);
+    }
+    job_destroy(&theirs);
+    return st;
+}
+
+/* --resume never: what could be taken for this job's goes away. */
+static status forget(const struct run *r)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    char path[4096];
+    TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
+    for (size_t i = 0; i < n; i++) {
+        TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
+        unlink(path);
+    }
+    free(frames);
+    frames = NULL;
+    TRY(folder_frames(r->options->root, r->job->name, &frames, &n));
+    for (size_t i = 0; i < n; i++) {
+        TRY(folder_path(path, r->options->root, r->job->name, FILE_MANIFEST, frames[i], NULL));
+        unlink(path);
+    }
+done:
+    free(frames);
+    return st;
+}
+
+/* ---- checkpoints */
+
+static void provenance(const struct run *r, struct checkpoint *c)
+{
+    const struct gpu_info *info = gpu_info(r->gpu);
+    c->job_hash = r->job_hash;
+    snprintf(c->version, sizeof c->version, "%s", hoodoo_version);
+    snprintf(c->commit, sizeof c->commit, "%s", hoodoo_commit);
+    snprintf(c->device, sizeof c->device, "%s", info->name);
+    snprintf(c->driver, sizeof c->driver, "%s", info->driver);
+    hash_text(gpu_kernels_hash(), c->shaders);
+}
+
+/* Can this checkpoint be continued here, bit for bit? */
+static status check_provenance(const struct run *r, const struct checkpoint *c, const char *path)
+{
+    struct checkpoint here = {0};
+    provenance(r, &here);
+    if (c->job_hash != here.job_hash)
+        return fail(E_CHECKPOINT, "%s is of another job; use another --out, or --resume never to start over", path);
+    bool same_code = strcmp(c->shaders, here.shaders) == 0 && strcmp(c->version, here.version) == 0;
+    bool same_device = strcmp(c->device, here.device) == 0 && strcmp(c->driver, here.driver) == 0;
+    if (same_code && same_device)
+        return OK;
+    if (r->options->resume == RUN_OTHER_DEVICE) {
+        log_warn("%s was made by hoodoo %s (%s) on %s, %s; continuing with %s on %s: not bit for bit", path, c->version,
+                 c->commit, c->device, c->driver, here.version, here.device);
+        return OK;
+    }
+    if (!same_code)
+        return fail(E_CHECKPOINT, "%s was made by hoodoo %s (%s), whose numbers differ from this one's; continue with that "
+                    "one, or add --resume other-device", path, c->version, c->commit);
+    return fail(E_CHECKPOINT, "%s was made on %s (%s), and this is %s (%s); add --resume other-device to go on anyway, not bit "
+                "for bit", path, c->device, c->driver, here.device, here.driver);
+}
+
+/* The newest sound checkpoint before the first missing frame, or *found = false. Damaged ones are reported and passed over. */
+static status find_checkpoint(const struct run *r, struct checkpoint *c, bool *found)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    char path[4096];
+    *found = false;
+    TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
+    for (size_t i = 0; i < n && !*found; i++) {
+        if (frames[i] >= r->first_missing)
+            continue;
+        TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
+        st = checkpoint_read(path, c);
+        if (st == E_CHECKPOINT) {
+            log_warn("%s; trying the one before", status_message());
+            st = OK;
+            continue;
+        }
+        TRY(st);
+        TRY(check_provenance(r, c, path));
+        *found = true;
+    }
+done:
+    free(frames);
+    return st;
+}
+
+static status save(struct run *r)
+{
+    status st = OK;
+    struct checkpoint c;
+    TRY(r->type->save(r->model, &c));
+    provenance(r, &c);
+    TRY(writer_checkpoint(r->writer, &c));
+done:
+    return st;
+}
+
+/* ---- the folder's own papers */
+
+static status write_papers(const struct run *r)
+{
+    status st = OK;
+    char path[4096], hash[17];
+    struct text t = {0};
+    struct job_input *input = NULL;
+    size_t n_inputs;
+    const struct gpu_info *info = gpu_info(r->gpu);
+    TRY(job_resolved(r->job, &t));
+    snprintf(path, sizeof path, "%.4000s/job.yaml", r->options->root);
+    TRY(atomic_file_write(path, t.data, t.size));
+    text_free(&t);
+    TRY(job_inputs(r->job, &input, &n_inputs));
+    json_object(&t, NULL);
+    json_text(&t, "name", r->job->name);
+    json_text(&t, "version", hoodoo_version);
+    json_text(&t, "commit", hoodoo_commit);
+    json_text(&t, "kernels", hash_text(gpu_kernels_hash(), hash));
+    json_text(&t, "device", info->name);
+    json_text(&t, "driver", info->driver);
+    json_text(&t, "device_uuid", info->uuid);
+    json_text(&t, "device_pci", info->pci);
+    json_integer(&t, "seed", r->job->seed);
+    json_text(&t, "job_hash", hash_text(r->job_hash, hash));
+    json_array(&t, "inputs");
+    for (size_t i = 0; i < n_inputs; i++) {
+        json_object(&t, NULL);
+        json_text(&t, "path", input[i].path);
+        json_integer(&t, "size", (int64_t)input[i].size);
+        json_text(&t, "xxh3", hash_text(input[i].hash, hash));
+        json_end_object(&t);
+    }
+    json_end_array(&t);
+    json_end_object(&t);
+    TRY(text_status(&t));
+    snprintf(path, sizeof path, "%.4000s/run.json", r->options->root);
+    TRY(atomic_file_write(path, t.data, t.size));
+done:
+    free(input);
+    text_free(&t);
+    return st;
+}
+
+static status check_memory(const struct run *r)
+{
+    struct model_estimate e;
+    status st = r->type->estimate(r->job, &e);
+    const struct gpu_info *info = gpu_info(r->gpu);
+    uint64_t device_free = gpu_memory_free(r->gpu), host_free = memory_available();
+    uint64_t device_need = e.device_bytes + (info->is_cpu ? e.host_bytes : 0);
+    if (st != OK)
+        return st;
+    /* What fits shrinks with the cube of the spacing. */
+    if (device_need > device_free || e.host_bytes > host_free) {
+        double ratio = (double)device_need / (double)device_free;
+        if ((double)e.host_bytes / (double)host_free > ratio)
+            ratio = (double)e.host_bytes / (double)host_free;
+        double fits = r->job->domain.spacing_m;
+        for (double share = ratio; share > 1; share /= 1.331)
+            fits *= 1.1;
+        return fail(E_MEMORY,
+                    "this job's %zu particles in %d x %d x %d voxels need %.1f GB on %s and %.1f GB beside it; %.1f and %.1f GB "
+                    "are free. domain.spacing_m: %.3g would fit",
+                    e.n_particles, e.voxels[0], e.voxels[1], e.voxels[2], (double)e.device_bytes / 1e9, info->name,
+                    (double)e.host_bytes / 1e9, (double)device_free / 1e9, (double)host_free / 1e9, fits);
+    }
+    log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9, info->name, info->driver);
+    return OK;
+}
+
+/* ---- the loop */
+
+static status begin(struct run *r)
+{
+    status st = OK;
+    struct checkpoint c = {0};
+    bool found;
+    TRY(find_checkpoint(r, &c, &found));
+    if (!found && r->options->resume == RUN_REQUIRE) {
+        st = fail(E_CHECKPOINT, "%s holds no usable checkpoint before frame %d, and --resume require was given",
+                  r->options->root, r->first_missing);
+        goto done;
+    }
+    if (!found && r->frames.first != r->job->frames.first) {
+        st = fail(E_CHECKPOINT, "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the "
+                  "block before it first", r->options->root, r->first_missing);
+        goto done;
+    }
+    if (found)
+        log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
+                 range_count(r->frames));
+    TRY(r->type->create(r->gpu, r->job, found ? &c : NULL, &r->model));
+    TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
+done:
+    checkpoint_free(&c);
+    return st;
+}
+
+static status finish_frame(struct run *r)
+{
+    status st = OK;
+    struct frame frame;
+    int number = r->type->frame(r->model);
+    if (number < r->frames.first || !range_holds(r->frames, number) || r->done[number - r->frames.first])
+        return OK;
+    TRY(r->type->output(r->model, &frame));
+    double share = frame.start_volume_m3 > 0 ? frame.volume_m3 / frame.start_volume_m3 : 0;
+    int iterations = frame.stress_iterations;
+    TRY(writer_frame(r->writer, &frame));
+    if (r->options->frame)
+        r->options->frame(r->options->user, number, share, iterations);
+done:
+    return st;
+}
+
+static status simulate(struct run *r)
+{
+    status st = OK;
+    int last = r->frames.last;
+    bool fresh = r->type->frame(r->model) == r->job->frames.first;
+    for (;;) {
+        int number = r->type->frame(r->model);
+        if (fresh)
+            TRY(finish_frame(r));
+        bool stop = r->options->stop && r->options->stop();
+        bool due = (number - r->job->frames.first) % (int)r->job->checkpoint.every == 0 || number >= last;
+        if (fresh && (due || stop))
+            TRY(save(r));
+        if (number >= last)
+            break;
+        if (stop) {
+            TRY(writer_finish(&r->writer));
+            st = fail(STOPPED, "stopped after frame %d, with its checkpoint saved; run the same command again to go on", number);
+            goto done;
+        }
+        TRY(r->type->step(r->model));
+        fresh = true;
+    }
+    TRY(writer_finish(&r->writer));
+done:
+    return st;
+}
+
+static void log_times(struct gpu *gpu)
+{
+    const struct gpu_time *times;
+    size_t n = gpu_stage_times(gpu, &times);
+    for (size_t i = 0; i < n; i++)
+        if (times[i].ns)
+            log_info("device time: %-12s %8.2f s in %llu dispatches", times[i].name, (double)times[i].ns / 1e9,
+                     (unsigned long long)times[i].dispatches);
+}
+
+status run_job(const struct job *job, const struct run_options *options)
+{
+    status st = OK;
+    struct run r = {.job = job, .options = options, .type = model_of(job), .frames = options->frames};
+    if (r.frames.step == 0)
+        r.frames = job->frames;
+    if (!range_holds(job->frames, r.frames.first) || !range_holds(job->frames, r.frames.last)) {
+        char asked[48], whole[48];
+        return fail(E_USAGE, "--frames %s: the job's frames are %s", range_text(r.frames, asked), range_text(job->frames, whole));
+    }
+    TRY(job_hash(job, &r.job_hash));
+    TRY(folder_prepare(options->root));
+    if (options->resume == RUN_NEVER)
+        TRY(forget(&r));
+    else
+        TRY(check_owner(&r));
+    TRY(survey(&r));
+    if (options->begin)
+        options->begin(options->user, r.frames, r.n_done);
+    if (r.first_missing > r.frames.last) {
+        log_info("all %zu frames are done already", r.n_done);
+        goto done;
+    }
+    TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
+    TRY(check_memory(&r));
+    TRY(write_papers(&r));
+    TRY(begin(&r));
+    TRY(simulate(&r));
+    log_times(r.gpu);
+done:
+    if (st != OK && r.writer) {
+        /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
+        char message[2048];
+        snprintf(message, sizeof message, "%s", status_message());
+        if (writer_finish(&r.writer) != OK)
+            log_warn("%s", status_message());
+        fail(st, "%s", message);
+    }
+    if (r.model)
+        r.type->destroy(&r.model);
+    gpu_destroy(&r.gpu);
+    free(r.done);
+    return st;
+}

@@ -1,0 +1,36 @@
+/* A run: a job simulated into an output folder, from wherever it stands.
+ *
+ * Done        A frame is done when its manifest is there, is of this job, and its files have the sizes it says.
+ * Resume      The first frame that is not done is where work begins: from the newest sound checkpoint before it, or from the job's
+ *             first frame. Frames simulated on the way that are done already are not written again.
+ * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or the first
+ *             frame asked for is not the job's first and there is no checkpoint before it.
+ * Stop        When a stop is requested, the frame under way is finished and written, then a checkpoint: STOPPED.
+ */
+#ifndef HOODOO_RUN_H
+#define HOODOO_RUN_H
+
+#include <stdbool.h>
+
+#include "base/ranges.h"
+#include "gpu/gpu.h"
+#include "job/job.h"
+
+enum run_resume { RUN_AUTO, RUN_NEVER, RUN_REQUIRE, RUN_OTHER_DEVICE };
+
+struct run_options {
+    const char *root;          /* the output folder */
+    const char *device;        /* gpu_options */
+    struct frame_range frames; /* which of the job's to produce; step 0: all */
+    enum run_resume resume;
+
+    /* What the caller shows. Any may be NULL. */
+    void (*begin)(void *user, struct frame_range frames, size_t done);
+    void (*frame)(void *user, int frame, double volume_share, int stress_iterations);
+    bool (*stop)(void);
+    void *user;
+};
+
+MUST_USE status run_job(const struct job *job, const struct run_options *options);
+
+#endif
