@@ -156,14 +156,14 @@ status checkpoint_read(const char *path, struct checkpoint *c)
     status st = OK;
     struct layout layout;
     int fd = -1;
-    size_t need = 0, have = memory_available();
+    size_t need = 0, have = memory_available() / 4 * 3; /* the run wants some, too */
     TRY(layout_open(path, c, &layout, &fd));
     /* zstd can promise thirty thousand times a file's size: what cannot fit is refused before it is
      * allocated. */
     for (size_t i = 0; i < c->n_sections && need <= have; i++)
         need += c->section[i].n * c->section[i].item;
     if (need > have) {
-        st = fail(E_MEMORY, "%s: the state needs more than the %zu MB of memory that are free", path,
+        st = fail(E_MEMORY, "%s: the state needs more than the %zu MB of memory that can be spared", path,
                   have / 1000000);
         goto done;
     }

@@ -64,13 +64,17 @@ static void draw(const struct progress *p)
 
 static void step_aside(bool before)
 {
+    /* The guard may be set while another thread is between its two calls. */
+    static _Thread_local bool held;
     if (before) {
         pthread_mutex_lock(&lock);
+        held = true;
         if (shown)
             fputs("\r\033[K", stderr);
-    } else {
+    } else if (held) {
         if (shown)
             draw(shown);
+        held = false;
         pthread_mutex_unlock(&lock);
     }
 }
@@ -170,7 +174,7 @@ void progress_end(struct progress *p)
 {
     if (p->style != PROGRESS_BAR || shown != p)
         return;
-    log_set_guard(NULL);
+    /* The guard stays: with nothing shown it does nothing. */
     pthread_mutex_lock(&lock);
     shown = NULL;
     pthread_mutex_unlock(&lock);
