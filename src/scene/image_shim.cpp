@@ -2,7 +2,9 @@
 
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <new>
+#include <string>
 
 #include <OpenImageIO/imageio.h>
 
@@ -25,8 +27,11 @@ static status decode(const char *path, size_t max_pixels, size_t *width, size_t 
     *value = static_cast<float *>(std::calloc(n, sizeof(float)));
     if (!*value)
         throw std::bad_alloc();
-    if (!in->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, *value))
-        return fail(E_INPUT, "%s: damaged image: %s", path, in->geterror().c_str());
+    if (!in->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, *value)) {
+        const std::string why = in->geterror();
+        return fail(E_INPUT, "%s: damaged image: %s", path,
+                    why.empty() ? "its pixels end early" : why.c_str());
+    }
     *width = size_t(spec.width);
     *height = size_t(spec.height);
     return OK;

@@ -153,14 +153,18 @@ static void hostile_images_are_refused(void **state)
     assert_failed(read_only("/tmp"), E_INPUT, "/tmp", "regular");
     assert_failed(read_only(write_text("empty.png", "")), E_INPUT, "empty.png", "");
     assert_failed(read_only(write_text("text.png", "not a picture at all")), E_INPUT, "text.png", "");
-    assert_failed(read_only(write_text("huge.pgm", "P5\n100000 100000\n255\nabc")), E_INPUT, "huge.pgm", "");
+    assert_failed(read_only(write_text("huge.pgm", "P5\n100000 100000\n255\nabc")), E_INPUT, "huge.pgm",
+                  "100000 x 100000 pixels");
     assert_failed(read_only(write_text("short.pgm", "P5\n2000 2000\n255\nabc")), E_INPUT, "short.pgm", "");
     /* A PNG whose header claims 100000 x 100000, its checksums right. */
-    static const unsigned char png[] = {0x89, 'P', 'N', 'G', 13,  10,   26,   10,   0,    0, 0,    13,
-                                        'I',  'H', 'D', 'R', 0,   1,    0x86, 0xa0, 0,    1, 0x86, 0xa0,
-                                        8,    0,   0,   0,   0,   0x8d, 0x39, 0x54, 0x14, 0, 0,    0,
-                                        0,    'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
-    assert_failed(read_only(write_file("huge.png", png, sizeof png)), E_INPUT, "huge.png", "");
+    static const unsigned char png[] = {
+        0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+        0x44, 0x52, 0x00, 0x01, 0x86, 0xa0, 0x00, 0x01, 0x86, 0xa0, 0x08, 0x00, 0x00, 0x00,
+        0x00, 0x8d, 0x39, 0x54, 0x14, 0x00, 0x00, 0x00, 0x0c, 0x49, 0x44, 0x41, 0x54, 0x78,
+        0xda, 0x63, 0x60, 0xa0, 0x0c, 0x00, 0x00, 0x00, 0x40, 0x00, 0x01, 0x89, 0xc9, 0xaf,
+        0x43, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+    assert_failed(read_only(write_file("huge.png", png, sizeof png)), E_INPUT, "huge.png",
+                  "100000 x 100000 pixels");
 }
 
 static void damaged_images_never_crash(void **state)
