@@ -19,7 +19,7 @@ COMMIT = $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 CPPFLAGS = -D_GNU_SOURCE -Isrc -Ishaders -I. -I$(BUILD)/gen
 CFLAGS = -std=c11 $(OPT) $(WARN) -fno-math-errno -ffp-contract=off -fopenmp $(SANITIZE)
 CXXFLAGS = -std=c++17 $(OPT) -Wall -Wextra $(SANITIZE) -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
-LDLIBS = -lvulkan -lopenvdb -ltbb -lImath-3_1 -lOpenEXRCore-3_1 -lOpenImageIO -lfyaml -lzstd -lxxhash -lm -lpthread -lstdc++
+LDLIBS = -lvulkan -lopenvdb -ltbb -lOpenEXRCore-3_1 -lImath-3_1 -lOpenImageIO -lOpenImageIO_Util -lfyaml -lzstd -lxxhash -lm -lpthread -lstdc++
 EXR_FLAGS = -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
 LDLIBS += -lOpenImageIO_Util
 

@@ -1,8 +1,8 @@
 /* Error codes, and the one sentence that explains the last one.
  *
  * Whoever detects an error describes it with fail(): what, where (file, key path, frame), with numbers, and what
- * to do. Everyone above only forwards the code with TRY(). main() prints the sentence once and exits with
- * status_exit_code().
+ * to do. Everyone above only forwards the code with TRY(). main() prints the sentence once; a status's value is
+ * the exit code.
  *
  * Threads   The sentence is per thread. A worker that hands its status to another thread must carry the sentence
  *           with it: copy status_message(), and say it again there with fail(st, "%s", text).

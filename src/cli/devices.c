@@ -6,8 +6,6 @@
 #include "cli/cli.h"
 #include "gpu/gpu.h"
 
-const struct usage usage_devices = {"devices", "", "the Vulkan devices, by index, name, UUID, PCI address, memory"};
-
 static void print_words(const struct gpu_info *d, size_t n)
 {
     for (size_t i = 0; i < n; i++) {

@@ -9,9 +9,6 @@
 #include "cli/signals.h"
 #include "output/folder.h"
 
-const struct usage usage_run = {
-    "run", "JOB", "simulate; resumes by itself when the output folder already holds part of this job"};
-
 struct shown {
     struct progress progress;
     enum progress_style style;

@@ -10,16 +10,10 @@ uint64_t erosion_bytes(size_t n)
     return (uint64_t)n * 4;
 }
 
-/* A job without strata has one layer of defaults. */
-static size_t layer_count(const struct job *job)
-{
-    return job->n_strata ? job->n_strata : 1;
-}
-
 status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, struct erosion *e)
 {
     status st = OK;
-    *e = (struct erosion){.n_layers = layer_count(job)};
+    *e = (struct erosion){.n_layers = job->n_strata};
     TRY(gpu_buffer_create(gpu, "layers", e->n_layers, 16, &e->layers));
     TRY(gpu_buffer_create(gpu, "unspent steps", n_max, 4, &e->unspent));
 done:
@@ -48,8 +42,6 @@ int erosion_steps(const struct job *job, int frame)
     const struct job_deflation *d = &job->wind.deflation;
     for (size_t i = 0; i < job->n_strata; i++)
         weakest = fmax(weakest, curve_at(&job->strata[i].weak_m_per_kyr, frame));
-    if (!job->n_strata)
-        weakest = 0.2;
     double kyr = job->clock.years_per_frame / 1000;
     double share = weakest * (curve_at(&d->intensity, frame) + abrasion(job, frame)) * kyr / job->domain.spacing_m;
     double steps = ceil(share / job->erosion.max_step);
@@ -62,11 +54,10 @@ static status upload_layers(struct gpu *gpu, struct erosion *e, const struct job
     float *layer = NULL;
     TRY(memory_alloc(e->n_layers, 16, "layers", &layer));
     for (size_t i = 0; i < e->n_layers; i++) {
-        bool given = job->n_strata > 0;
-        const struct job_layer *l = given ? &job->strata[i] : NULL;
-        layer[4 * i + 0] = given ? (float)curve_at(&l->weak_m_per_kyr, frame) : 0.2f;
-        layer[4 * i + 1] = given ? (float)curve_at(&l->strong_m_per_kyr, frame) : 0.002f;
-        layer[4 * i + 2] = given ? (float)(1e6 * curve_at(&l->interlock_MPa, frame)) : 1.5e6f;
+        const struct job_layer *l = &job->strata[i];
+        layer[4 * i + 0] = (float)curve_at(&l->weak_m_per_kyr, frame);
+        layer[4 * i + 1] = (float)curve_at(&l->strong_m_per_kyr, frame);
+        layer[4 * i + 2] = (float)(1e6 * curve_at(&l->interlock_MPa, frame));
     }
     TRY(gpu_upload(gpu, e->layers, 0, layer, e->n_layers));
 done:

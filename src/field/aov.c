@@ -10,11 +10,6 @@
 /* Towards the sun: late morning, from the left behind the usual camera. */
 static const double SUN[3] = {-0.48, -0.62, 0.62};
 
-static size_t layer_count(const struct job *job)
-{
-    return job->n_strata ? job->n_strata : 1;
-}
-
 static const struct job_camera *camera_named(const struct job *job, const char *name)
 {
     for (size_t i = 0; i < job->n_cameras; i++)
@@ -49,11 +44,11 @@ status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struc
     TRY(gpu_buffer_create(gpu, "picture", n_pixels, 16, &a->color));
     TRY(gpu_buffer_create(gpu, "picture fields", n_pixels, 16, &a->fields));
     TRY(gpu_buffer_create(gpu, "picture ids", 2 * n_pixels, 4, &a->ids));
-    TRY(gpu_buffer_create(gpu, "palette", layer_count(job), 16, &a->palette));
-    TRY(memory_alloc(layer_count(job), sizeof *palette, "the palette", &palette));
-    for (size_t i = 0; i < layer_count(job); i++)
+    TRY(gpu_buffer_create(gpu, "palette", job->n_strata, 16, &a->palette));
+    TRY(memory_alloc(job->n_strata, sizeof *palette, "the palette", &palette));
+    for (size_t i = 0; i < job->n_strata; i++)
         palette_color(job, i, palette[i]);
-    TRY(gpu_upload(gpu, a->palette, 0, palette, layer_count(job)));
+    TRY(gpu_upload(gpu, a->palette, 0, palette, job->n_strata));
 done:
     free(palette);
     if (st != OK)

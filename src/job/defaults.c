@@ -87,3 +87,14 @@ status read_default(const struct job_key *key, const struct yaml *map, const cha
     }
     return OK;
 }
+
+status read_default_layer(const struct yaml *root, struct job *job)
+{
+    if (job->n_strata)
+        return OK;
+    status st = memory_alloc(1, sizeof *job->strata, "a layer", &job->strata);
+    if (st != OK)
+        return st;
+    job->n_strata = 1;
+    return default_section(SECTION_layer, root, "strata", job->strata);
+}

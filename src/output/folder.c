@@ -59,6 +59,8 @@ status folder_prepare(const char *root)
         TRY(folder_make(path));
         atomic_file_sweep(path);
     }
+    if (snprintf(path, sizeof path, "%s/log", root) < (int)sizeof path)
+        TRY(folder_make(path));
 done:
     return st;
 }

@@ -46,7 +46,7 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
     status st = OK;
     char path[4096];
     struct vdb_bytes file = {0};
-    size_t n_layers = job->n_strata ? job->n_strata : 1;
+    size_t n_layers = job->n_strata;
     float(*color)[3] = NULL;
     struct vdb_options options = {
         .up = job->output.up,

@@ -1,0 +1,106 @@
+/* hoodoo plan JOB: what a run would do and take, without doing it. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/memory.h"
+#include "base/text.h"
+#include "cli/cli.h"
+#include "cli/words.h"
+#include "gpu/primitives.h"
+#include "job/job.h"
+#include "model/model.h"
+
+/* Device time of one particle in one step, in units of one word read and written, measured on lavapipe with jobs/demo.yaml: what a
+ * plan's time rests on. Off by a factor of two is to be expected. */
+static const double WORDS_PER_PARTICLE_STEP = 1500;
+
+/* Seconds a word takes to be read and written here: a gather of 16 MB, twice, the second time warm. */
+static status word_seconds(struct gpu *gpu, double *out)
+{
+    enum { N = 4 << 20 };
+    status st = OK;
+    struct gpu_buffer *order = NULL, *from = NULL, *to = NULL;
+    struct count_params k = {N};
+    TRY(gpu_buffer_create(gpu, "plan", N, 4, &order));
+    TRY(gpu_buffer_create(gpu, "plan", N, 4, &from));
+    TRY(gpu_buffer_create(gpu, "plan", N, 4, &to));
+    GPU_RUN(gpu, gpu_iota, N, k, order);
+    gpu_gather(gpu, order, from, to, N);
+    TRY(gpu_wait(gpu));
+    gpu_times_reset(gpu);
+    gpu_gather(gpu, order, from, to, N);
+    TRY(gpu_wait(gpu));
+    *out = (double)gpu_kernel_time(gpu, KERNEL_gpu_gather_u)->ns * 1e-9 / N;
+done:
+    gpu_buffer_destroy(gpu, &order);
+    gpu_buffer_destroy(gpu, &from);
+    gpu_buffer_destroy(gpu, &to);
+    return st;
+}
+
+static status answer(const struct job *job, struct gpu *gpu, struct text *t)
+{
+    status st = OK;
+    struct model_estimate e;
+    const struct gpu_info *info = gpu_info(gpu);
+    double seconds;
+    char frames[48];
+    size_t n_frames = range_count(job->frames);
+    TRY(model_of(job)->estimate(job, &e));
+    TRY(word_seconds(gpu, &seconds));
+    size_t n_checkpoints = (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));
+    json_object(t, NULL);
+    json_text(t, "name", job->name);
+    json_text(t, "model", model_of(job)->name);
+    json_text(t, "frames", range_text(job->frames, frames));
+    json_integer(t, "frame_count", (int64_t)n_frames);
+    json_number(t, "years", (job->frames.last - job->frames.first) * job->clock.years_per_frame);
+    json_integer(t, "particles", (int64_t)e.n_particles);
+    json_object(t, "voxels");
+    json_integer(t, "x", e.voxels[0]);
+    json_integer(t, "y", e.voxels[1]);
+    json_integer(t, "z", e.voxels[2]);
+    json_end_object(t);
+    json_integer(t, "erosion_steps", (int64_t)e.steps);
+    json_text(t, "device", info->name);
+    json_integer(t, "device_bytes", (int64_t)e.device_bytes);
+    json_integer(t, "device_free_bytes", (int64_t)gpu_memory_free(gpu));
+    json_integer(t, "host_bytes", (int64_t)e.host_bytes);
+    json_integer(t, "host_free_bytes", (int64_t)memory_available());
+    json_integer(t, "frame_disk_bytes", (int64_t)e.frame_bytes);
+    json_integer(t, "disk_bytes", (int64_t)(e.frame_bytes * n_frames + e.checkpoint_bytes * n_checkpoints));
+    json_number(t, "estimated_seconds",
+                round(seconds * WORDS_PER_PARTICLE_STEP * (double)e.n_particles * (e.steps + (double)n_frames)));
+    bool fits = e.device_bytes + (info->is_cpu ? e.host_bytes : 0) <= gpu_memory_free(gpu) && e.host_bytes <= memory_available();
+    json_bool(t, "fits_in_memory", fits);
+    json_end_object(t);
+    TRY(text_status(t));
+done:
+    return st;
+}
+
+status cli_plan(int argc, char **argv)
+{
+    status st = OK;
+    struct common c = {0};
+    struct words operands = {0};
+    struct job *job = NULL;
+    struct gpu *gpu = NULL;
+    struct text t = {0};
+    bool help = false;
+    const struct option options[] = {OPTION_DEVICE(&c), OPTION_SET(&c), OPTION_JSON(&c)};
+    TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
+    if (help)
+        goto done;
+    TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
+    TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
+    TRY(answer(job, gpu, &t));
+    TRY(words_print(&t, c.json));
+done:
+    text_free(&t);
+    gpu_destroy(&gpu);
+    job_destroy(&job);
+    words_free(&operands);
+    common_free(&c);
+    return st;
+}
