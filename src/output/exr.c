@@ -150,7 +150,7 @@ static status add_part(exr_context_t exr, const struct aov_image *image, const s
                                     !channel->value ? EXR_PIXEL_UINT
                                     : channel->half ? EXR_PIXEL_HALF
                                                     : EXR_PIXEL_FLOAT,
-                                    EXR_PERCEPTUALLY_LINEAR, 1, 1));
+                                    EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
     }
     TRY(add_attributes(exr, part, image, options, sink));
 done:

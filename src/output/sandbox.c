@@ -67,8 +67,10 @@ static void limit_child(uint64_t file_size)
     signal(SIGALRM, SIG_DFL);
     alarm(4 * seconds); /* a slow disk costs no CPU time */
     int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (null >= 0)
+    if (null >= 0) {
+        dup2(null, STDOUT_FILENO);
         dup2(null, STDERR_FILENO);
+    }
 }
 
 static void run_child(int fd, const char *path, sandbox_reader *reader, struct text *text)
@@ -113,6 +115,29 @@ static status collect(int fd, struct answer *answer, struct text *text)
     return got == sizeof *answer ? OK : E_INPUT;
 }
 
+/* What stands in a stranger's file may be no UTF-8, and then JSON with it is no JSON: such bytes become '?'.
+ */
+static void make_utf8(struct text *text)
+{
+    for (size_t i = 0; i < text->size;) {
+        const unsigned char *c = (const unsigned char *)text->data + i;
+        const size_t n = *c < 0x80                 ? 1
+                         : *c >= 0xc2 && *c < 0xe0 ? 2
+                         : *c >= 0xe0 && *c < 0xf0 ? 3
+                         : *c >= 0xf0 && *c < 0xf5 ? 4
+                                                   : 0;
+        bool good = n > 0 && n <= text->size - i;
+        for (size_t k = 1; good && k < n; k++)
+            good = (c[k] & 0xc0) == 0x80;
+        if (good && n > 2) /* overlong forms, halves of surrogate pairs, and beyond the last character */
+            good = !((*c == 0xe0 && c[1] < 0xa0) || (*c == 0xed && c[1] > 0x9f) ||
+                     (*c == 0xf0 && c[1] < 0x90) || (*c == 0xf4 && c[1] > 0x8f));
+        if (!good)
+            text->data[i] = '?';
+        i += good ? n : 1;
+    }
+}
+
 status sandbox_read(const char *path, sandbox_reader *reader, struct text *out)
 {
     /* The child goes on writing JSON where `out` stands. */
@@ -148,6 +173,7 @@ status sandbox_read(const char *path, sandbox_reader *reader, struct text *out)
     else
         st = text_status(&text);
     if (st == OK && out && text.size) {
+        make_utf8(&text);
         text_add_bytes(out, text.data, text.size);
         out->comma = true;
     }

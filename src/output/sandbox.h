@@ -1,7 +1,7 @@
 /* Readers of files that may be hostile, run in a child process.
  *
- * The child has limits on memory and time, no core dump and no stderr. What it writes into its text comes
- * back; whatever else happens to it stays there.
+ * The child has limits on memory and time, no core dump, and neither stdout nor stderr. What it writes into
+ * its text comes back; whatever else happens to it stays there.
  */
 #ifndef HOODOO_SANDBOX_H
 #define HOODOO_SANDBOX_H

@@ -4,7 +4,7 @@
 #include "output/vdb_shim.hpp"
 
 #include <openvdb/io/Archive.h>
-#include <openvdb/points/PointDataGrid.h>
+#include <openvdb/util/logging.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -101,24 +101,29 @@ struct memory_archive : openvdb::io::Archive {
     }
 };
 
-constexpr size_t UUID_AT = 21, UUID_SIZE = 36;
+/* A version 8 UUID (RFC 9562: the maker's own): 58 bits of the identity, then the hash of all the file's
+ * other bytes. */
+constexpr size_t UUID_AT = 21, UUID_SIZE = 36, HASH_AT = UUID_AT + 19;
 
-/* A version 8 UUID (RFC 9562: the maker's own): 58 bits of the identity, 64 of the content's hash. */
-void uuid_text(uint64_t identity, uint64_t content, char out[UUID_SIZE + 1])
+void put_identity(char *bytes, uint64_t identity)
 {
-    std::snprintf(out, UUID_SIZE + 1, "%08x-%04x-8%03x-%04x-%04x%08x", static_cast<unsigned>(identity >> 32),
+    char text[HASH_AT - UUID_AT + 1];
+    std::snprintf(text, sizeof text, "%08x-%04x-8%03x-", static_cast<unsigned>(identity >> 32),
                   static_cast<unsigned>(identity >> 16 & 0xffff),
-                  static_cast<unsigned>(identity >> 4 & 0xfff),
-                  static_cast<unsigned>(0x8000 | (content >> 48 & 0x3fff)),
-                  static_cast<unsigned>(content >> 32 & 0xffff), static_cast<unsigned>(content & 0xffffffff));
+                  static_cast<unsigned>(identity >> 4 & 0xfff));
+    std::memcpy(bytes + UUID_AT, text, sizeof text - 1);
 }
 
-/* The hash of all bytes but the UUID's. */
-uint64_t content_hash(const char *bytes, size_t size)
+/* The UUID's end for this content. */
+std::string hash_digits(const char *bytes, size_t size)
 {
-    const uint64_t part[2] = {hash_bytes(bytes, UUID_AT),
-                              hash_bytes(bytes + UUID_AT + UUID_SIZE, size - UUID_AT - UUID_SIZE)};
-    return hash_bytes(part, sizeof part);
+    const size_t rest = UUID_AT + UUID_SIZE;
+    const uint64_t part[2] = {hash_bytes(bytes, HASH_AT), hash_bytes(bytes + rest, size - rest)};
+    const uint64_t hash = hash_bytes(part, sizeof part);
+    char text[rest - HASH_AT + 1];
+    std::snprintf(text, sizeof text, "%04x-%04x%08x", static_cast<unsigned>(0x8000 | (hash >> 48 & 0x3fff)),
+                  static_cast<unsigned>(hash >> 32 & 0xffff), static_cast<unsigned>(hash & 0xffffffff));
+    return text;
 }
 } // namespace
 
@@ -127,7 +132,11 @@ namespace vdb
 void start()
 {
     static std::once_flag once;
-    std::call_once(once, [] { openvdb::initialize(); });
+    std::call_once(once, [] {
+        openvdb::initialize();
+        /* It would warn on stdout, where farm managers obey what a line says. */
+        openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
+    });
 }
 
 openvdb::MetaMap file_metadata(const vdb_options &options, double voxel)
@@ -170,9 +179,9 @@ void encode(const openvdb::GridCPtrVec &grids, const vdb_options &options, const
     archive.to(os, grids, metadata);
     if (sink.size() < UUID_AT + UUID_SIZE || sink.data()[UUID_AT + 8] != '-')
         throw std::runtime_error("OpenVDB's file header is not the known one");
-    char uuid[UUID_SIZE + 1];
-    uuid_text(options.identity, content_hash(sink.data(), sink.size()), uuid);
-    std::memcpy(sink.data() + UUID_AT, uuid, UUID_SIZE);
+    put_identity(sink.data(), options.identity);
+    const std::string hash = hash_digits(sink.data(), sink.size());
+    std::memcpy(sink.data() + HASH_AT, hash.data(), hash.size());
     out->size = sink.size();
     out->bytes = sink.release();
 }
@@ -186,8 +195,7 @@ bool is_intact(const void *bytes, size_t size)
         return false;
     if (!memmem(text, size < 4096 ? size : 4096, "hoodoo", 6))
         return true;
-    char uuid[UUID_SIZE + 1];
-    uuid_text(0, content_hash(text, size), uuid);
-    return text[UUID_AT + 14] == '8' && std::memcmp(text + UUID_AT + 19, uuid + 19, UUID_SIZE - 19) == 0;
+    const std::string hash = hash_digits(text, size);
+    return std::memcmp(text + HASH_AT, hash.data(), hash.size()) == 0;
 }
 } // namespace vdb

@@ -2,12 +2,13 @@
  * bytes may come from anyone. */
 #include "output/vdb_shim.hpp"
 
-#include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/points/PointDataGrid.h>
 
 #include <cstdlib>
-#include <set>
-#include <typeinfo>
+#include <istream>
+#include <memory>
+#include <streambuf>
 
 extern "C" {
 #include "base/atomic_file.h"
@@ -113,11 +114,13 @@ void describe_grid(const GridBase &grid, struct text *out)
     count_voxels active;
     if (grid.apply<known_grids>(active))
         json_integer(out, "active_voxels", int64_t(active.n));
+    /* Samples stand at voxel centres; points lie up to half a voxel around theirs. */
     openvdb::CoordBBox box;
-    if (grid.baseTree().evalLeafBoundingBox(box)) {
-        const openvdb::BBoxd bounds =
-            grid.transform().indexToWorld(openvdb::BBoxd(box.min().asVec3d(), box.max().asVec3d()));
-        json_object(out, "leaf_bounds_m");
+    if (grid.baseTree().evalActiveVoxelBoundingBox(box)) {
+        const double reach = grid.isType<PointDataGrid>() ? 0.5 : 0;
+        const openvdb::BBoxd bounds = grid.transform().indexToWorld(
+            openvdb::BBoxd(box.min().asVec3d() - reach, box.max().asVec3d() + reach));
+        json_object(out, "bounds_m");
         json_vector(out, "min", bounds.min());
         json_vector(out, "max", bounds.max());
         json_end_object(out);
@@ -126,7 +129,30 @@ void describe_grid(const GridBase &grid, struct text *out)
     json_end_object(out);
 }
 
-/* Reads the whole file; describes it if `out` is not NULL. */
+/* A stream over bytes in memory. */
+struct memory_source : std::streambuf {
+    memory_source(char *bytes, size_t n)
+    {
+        setg(bytes, bytes, bytes + n);
+    }
+    pos_type seekoff(off_type off, std::ios_base::seekdir way, std::ios_base::openmode) override
+    {
+        const off_type base = way == std::ios_base::beg   ? 0
+                              : way == std::ios_base::cur ? gptr() - eback()
+                                                          : egptr() - eback();
+        if (base + off < 0 || base + off > egptr() - eback())
+            return pos_type(off_type(-1));
+        setg(eback(), eback() + base + off, egptr());
+        return pos_type(base + off);
+    }
+    pos_type seekpos(pos_type pos, std::ios_base::openmode which) override
+    {
+        return seekoff(off_type(pos), std::ios_base::beg, which);
+    }
+};
+
+/* Reads the whole file; describes it if `out` is not NULL. The library does not notice when a file ends too
+ * early: the stream does, and throws. */
 status read_file(const char *path, struct text *out)
 try {
     void *bytes = nullptr;
@@ -134,27 +160,23 @@ try {
     const status st = file_read(path, SIZE_MAX / 2, &bytes, &size);
     if (st != OK)
         return st;
-    const bool intact = vdb::is_intact(bytes, size);
-    std::free(bytes);
-    if (!intact)
-        return fail(E_INPUT, "%s: damaged: its content is not what was written", path);
-
+    const std::unique_ptr<void, decltype(&std::free)> owner(bytes, std::free);
     vdb::start();
-    openvdb::io::File file(path);
-    file.open(/*delayLoad=*/false);
-    if (out) {
-        json_text(out, "format", "OpenVDB");
-        json_text(out, "up_axis", vdb::is_y_up(*file.getMetadata()) ? "y" : "z");
-        describe_metadata(*file.getMetadata(), "metadata", out);
-        json_array(out, "grids");
-    }
-    for (auto name = file.beginName(); name != file.endName(); ++name) {
-        const GridBase::Ptr grid = file.readGrid(name.gridName());
-        if (out)
-            describe_grid(*grid, out);
-    }
-    if (out)
-        json_end_array(out);
+    memory_source source(static_cast<char *>(bytes), size);
+    std::istream is(&source);
+    is.exceptions(std::ios::eofbit | std::ios::failbit | std::ios::badbit);
+    openvdb::io::Stream file(is, /*delayLoad=*/false);
+    if (!vdb::is_intact(bytes, size))
+        return fail(E_INPUT, "%s: damaged: its content is not what was written", path);
+    if (!out)
+        return OK;
+    json_text(out, "format", "OpenVDB");
+    json_text(out, "up_axis", vdb::is_y_up(*file.getMetadata()) ? "y" : "z");
+    describe_metadata(*file.getMetadata(), "metadata", out);
+    json_array(out, "grids");
+    for (const GridBase::Ptr &grid : *file.getGrids())
+        describe_grid(*grid, out);
+    json_end_array(out);
     return OK;
 }
 SHIM_CATCH(E_INPUT, path)

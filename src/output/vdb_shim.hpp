@@ -34,14 +34,16 @@ extern "C" {
 
 namespace vdb
 {
+using openvdb::Coord;
+
 /* y up: (x, y, z) in the simulator is (x, z, -y) in the file. A turn about x, so windings stay. */
 template <class V> V file_from_sim(const V &s, bool y_up)
 {
-    return y_up ? V(s[0], s[2], -s[1]) : s;
+    return y_up ? V(s[0], s[2], 0 - s[1]) : s; /* not -s: no negative zeros */
 }
 template <class V> V sim_from_file(const V &f, bool y_up)
 {
-    return y_up ? V(f[0], -f[2], f[1]) : f;
+    return y_up ? V(f[0], 0 - f[2], f[1]) : f;
 }
 
 /* File metadata: how many voxels the frame's grids had, in the simulator's axes. */
