@@ -14,9 +14,9 @@
 
 enum { BRICK = 4, COVERAGE_FULL = 64 };
 
-/* How far from the surface a brick's middle can be and the surface still cross it: distances must be good to
- * here. */
-#define COVERAGE_REACH(h) (0.87 * BRICK * (h)) /* sqrt(3) / 2, rounded up */
+/* How far from the surface a brick's middle can be and the surface still cross it, in spacings: half its
+ * diagonal. Distances must be good to here. */
+#define COVERAGE_REACH (0.87 * BRICK)
 
 struct solid;
 struct coverage;

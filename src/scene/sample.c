@@ -153,13 +153,14 @@ done:
     return st;
 }
 
-static status sampler_init(struct sampler *s, const struct job *job)
+/* `reach`: how far from the surface distances will be asked for, in spacings. */
+static status sampler_init(struct sampler *s, const struct job *job, double reach)
 {
     status st = OK;
     double h = job->domain.spacing_m;
     *s = (struct sampler){.job = job, .h = h};
     TRY(scene_voxels(job, s->n));
-    TRY(solid_create(job->scene, h / 2, COVERAGE_REACH(h), &s->solid));
+    TRY(solid_create(job->scene, h / 2, reach * h, &s->solid));
 done:
     return st;
 }
@@ -178,7 +179,7 @@ status scene_sample(const struct job *job, struct rock *rock)
     size_t *first = NULL;
     uint32_t seed = (uint32_t)job->seed;
     *rock = (struct rock){0};
-    TRY(sampler_init(&s, job));
+    TRY(sampler_init(&s, job, COVERAGE_REACH));
     TRY(paint_create(job, &s.paint));
     s.noise = noise_init(&job->noise, seed);
     for (uint32_t a = 0; a < 3; a++)
@@ -200,7 +201,7 @@ status scene_estimate(const struct job *job, size_t *n_particles)
     status st = OK;
     struct sampler s;
     size_t total = 1, probes = 1, found = 0, blocks[3];
-    TRY(sampler_init(&s, job));
+    TRY(sampler_init(&s, job, 1));
     for (int a = 0; a < 3; a++)
         total *= (size_t)s.n[a];
     /* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels.

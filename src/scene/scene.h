@@ -49,8 +49,8 @@ struct solid_point solid_at(const struct solid *solid, const double x[3]);
  * hostile. E_MEMORY: says how many particles it would be. */
 MUST_USE status scene_sample(const struct job *job, struct rock *rock);
 
-/* About how many particles scene_sample() will make, from a quarter of a million voxels of it. Files and shapes fail as
- * there; an empty scene is 0 particles. */
+/* About how many particles scene_sample() will make, from a quarter of a million voxels of it. Files and
+ * shapes fail as there; an empty scene is 0 particles. */
 MUST_USE status scene_estimate(const struct job *job, size_t *n_particles);
 
 #endif

@@ -62,7 +62,7 @@ static inline double volume_of(const struct job_node *node, int n, double h)
     struct coverage *coverage;
     const int size[3] = {n, n, n};
     uint64_t sum = 0;
-    assert_int_equal(solid_create(node, h / 2, COVERAGE_REACH(h), &solid), OK);
+    assert_int_equal(solid_create(node, h / 2, COVERAGE_REACH * h, &solid), OK);
     assert_int_equal(coverage_create(solid, size, h, &coverage), OK);
     for (int k = 0; k < n; k++)
         for (int j = 0; j < n; j++)
