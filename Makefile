@@ -21,7 +21,6 @@ CFLAGS = -std=c11 $(OPT) $(WARN) -fno-math-errno -ffp-contract=off -fopenmp $(SA
 CXXFLAGS = -std=c++17 $(OPT) -Wall -Wextra $(SANITIZE) -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
 LDLIBS = -lvulkan -lopenvdb -ltbb -lOpenEXRCore-3_1 -lImath-3_1 -lOpenImageIO -lOpenImageIO_Util -lfyaml -lzstd -lxxhash -lm -lpthread -lstdc++
 EXR_FLAGS = -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
-LDLIBS += -lOpenImageIO_Util
 
 Q = $(if $(V),,@)
 SRC = $(shell find src farm render -name '*.c')

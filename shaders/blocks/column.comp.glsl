@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Every voxel that holds rock first points to the one below if that does too, else to itself; empty ones to themselves.
+// Each column's runs of rock are blocks to begin with: their voxels point to the lowest. Empty voxels point to themselves.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -8,16 +8,19 @@ READ_U(0, start)
 WRITE_U(1, pointer)
 PARAMS(voxel_params)
 
-bool rock(uint v)
-{
-    return LOAD_U(start, v) != LOAD_U(start, v + 1u);
-}
-
 void main()
 {
-    uint v = THREAD;
-    if (v >= k.n)
+    uint column = THREAD;
+    if (column >= k.n)
         return;
-    uint below = k.nx * k.ny;
-    AT(pointer, v) = v >= below && rock(v) && rock(v - below) ? v - below : v;
+    uint layer = k.nx * k.ny, lowest = column;
+    bool inside = false;
+    for (uint z = 0u; z < k.nz; z++) {
+        uint v = z * layer + column;
+        bool rock = LOAD_U(start, v) != LOAD_U(start, v + 1u);
+        if (!rock || !inside)
+            lowest = v;
+        AT(pointer, v) = lowest;
+        inside = rock;
+    }
 }

@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One round of joining face neighbours: a voxel takes the lowest pointer around, and that one's pointer. Pointers only fall
-// and never leave their block, so that all of a block end at its lowest voxel; voxels are numbered upwards, so that is one
-// on the ground if the block has any.
+// One round of joining blocks across faces. Every voxel points to its block's root; where a neighbour's root is lower, the own
+// root is hung below it. Minima of integers: the outcome, each block's lowest voxel as its root, does not depend on order.
+// Voxels are numbered upwards, so that this is a voxel on the ground if the block has any.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, start)
-READ_U(1, before)
+READ_U(1, root)
 WRITE_U(2, pointer)
 WRITE_U(3, counts)
 PARAMS(voxel_params)
@@ -20,26 +20,20 @@ bool rock(uint v)
 void main()
 {
     uint v = THREAD;
-    if (v >= k.n)
+    if (v >= k.n || !rock(v))
         return;
-    uint own = LOAD_U(before, v), least = own;
-    if (rock(v)) {
-        uint row = k.nx, layer = k.nx * k.ny, x = v % row, y = (v / row) % k.ny;
-        if (x > 0u && rock(v - 1u))
-            least = min(least, LOAD_U(before, v - 1u));
-        if (x + 1u < k.nx && rock(v + 1u))
-            least = min(least, LOAD_U(before, v + 1u));
-        if (y > 0u && rock(v - row))
-            least = min(least, LOAD_U(before, v - row));
-        if (y + 1u < k.ny && rock(v + row))
-            least = min(least, LOAD_U(before, v + row));
-        if (v >= layer && rock(v - layer))
-            least = min(least, LOAD_U(before, v - layer));
-        if (v + layer < k.n && rock(v + layer))
-            least = min(least, LOAD_U(before, v + layer));
-        least = min(least, LOAD_U(before, least));
-    }
-    AT(pointer, v) = least;
-    if (least != own)
+    uint x = v % k.nx, y = (v / k.nx) % k.ny, own = LOAD_U(root, v), least = own;
+    // A root differs from the own only across a boundary of blocks: look there before asking whether there is rock.
+    if (x > 0u && LOAD_U(root, v - 1u) < least && rock(v - 1u))
+        least = LOAD_U(root, v - 1u);
+    if (x + 1u < k.nx && LOAD_U(root, v + 1u) < least && rock(v + 1u))
+        least = LOAD_U(root, v + 1u);
+    if (y > 0u && LOAD_U(root, v - k.nx) < least && rock(v - k.nx))
+        least = LOAD_U(root, v - k.nx);
+    if (y + 1u < k.ny && LOAD_U(root, v + k.nx) < least && rock(v + k.nx))
+        least = LOAD_U(root, v + k.nx);
+    if (least < own) {
+        atomicMin(AT(pointer, own), least);
         AT(counts, COUNT_CHANGED) = 1u;
+    }
 }

@@ -31,15 +31,15 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b)
 status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p, uint32_t *n_fallen)
 {
     status st = OK;
-    size_t n = voxel_count(p->voxels);
-    struct voxel_params k = particles_params(p, n);
+    size_t n = voxel_count(p->voxels), columns = n / (size_t)p->voxels[2];
+    struct voxel_params k = particles_params(p, columns);
     struct gpu_buffer *counts = gpu_work_words(work);
     uint32_t changed = 1;
-    GPU_RUN(gpu, blocks_column, n, k, p->start, b->pointer);
-    TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
+    GPU_RUN(gpu, blocks_column, columns, k, p->start, b->pointer);
+    k.n = (uint)n;
     while (changed) {
         gpu_fill(gpu, counts, 0);
-        GPU_RUN(gpu, blocks_join, n, k, p->start, b->pointer, b->other, counts);
+        gpu_copy(gpu, b->other, b->pointer, n);
         GPU_RUN(gpu, blocks_join, n, k, p->start, b->other, b->pointer, counts);
         TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
         if (changed)

@@ -12,7 +12,7 @@
 #include "scene/scene.h"
 
 #define MAX_VOXELS 2147483648.0
-#define JITTER 0.4f /* of h, to either side of the voxel's middle */
+#define JITTER 0.25f /* of h, to either side of the voxel's middle */
 
 status scene_voxels(const struct job *job, int n[3])
 {
