@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <new>
 #include <string>
+#include <vector>
 
 extern "C" {
 #include "base/memory.h"
@@ -49,16 +50,16 @@ template <class V> V sim_from_file(const V &f, bool y_up)
 /* File metadata: how many voxels the frame's grids had, in the simulator's axes. */
 constexpr char LATTICE[] = "lattice_voxels";
 
-/* The frame's voxels in the file's index space: which box they fill, and where each is in the dense arrays.
- */
+/* The frame's voxels in the file's index space: their box, and where each is in the dense arrays. */
 struct lattice {
-    Coord lo, hi;        /* inclusive */
-    ptrdiff_t stride[3]; /* voxels */
+    Coord lo, hi;               /* inclusive */
+    ptrdiff_t start, stride[3]; /* voxels: of index 0 0 0, and steps */
     bool y_up;
 
-    lattice(const int n[3], bool y) : y_up(y)
+    /* `pad` more voxels on every side; index 0 stays where it is. */
+    lattice(const int n[3], bool y, int pad = 0) : y_up(y)
     {
-        const ptrdiff_t nx = n[0], layer = nx * n[1];
+        const ptrdiff_t nx = n[0] + 2 * pad, layer = nx * (n[1] + 2 * pad);
         if (y_up) {
             lo = Coord(0, 0, 1 - n[1]);
             hi = Coord(n[0] - 1, n[2] - 1, 0);
@@ -68,12 +69,20 @@ struct lattice {
             hi = Coord(n[0] - 1, n[1] - 1, n[2] - 1);
             stride[0] = 1, stride[1] = nx, stride[2] = layer;
         }
+        lo.offset(-pad);
+        hi.offset(pad);
+        start = pad * (1 + nx + layer);
     }
     ptrdiff_t at(int x, int y, int z) const
     {
-        return x * stride[0] + y * stride[1] + z * stride[2];
+        return start + x * stride[0] + y * stride[1] + z * stride[2];
     }
 };
+
+/* A level set's samples with PAD more on every side, positive there; empty if the solid is nowhere at the
+ * border, so that `value` will do. The solid ends half a voxel beyond the outermost samples. */
+constexpr int PAD = 4;
+std::vector<float> close_at_border(const float *value, const int n[3], double voxel);
 
 /* Registers OpenVDB's types once. */
 void start();
@@ -81,8 +90,7 @@ void start();
 /* The metadata of a file hoodoo writes. */
 openvdb::MetaMap file_metadata(const vdb_options &options, double voxel);
 
-/* Whether a file's metadata says y is up. Files by others than hoodoo are taken as y up if Houdini wrote
- * them. */
+/* Whether a file's metadata says y is up. Files by others are taken as y up if Houdini wrote them. */
 bool is_y_up(const openvdb::MetaMap &metadata);
 
 /* The grids as a file in memory, with its archive UUID made from `identity` and the content. */

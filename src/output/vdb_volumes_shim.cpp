@@ -124,7 +124,11 @@ openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, 
         return grid;
     }
     if (g.kind == GRID_LEVEL_SET) {
-        auto grid = sparse_grid(l, level_set{g.value, float(3 * grids.voxel)});
+        const std::vector<float> closed = vdb::close_at_border(g.value, grids.n, grids.voxel);
+        const float background = float(3 * grids.voxel);
+        auto grid = closed.empty() ? sparse_grid(l, level_set{g.value, background})
+                                   : sparse_grid(lattice(grids.n, l.y_up, vdb::PAD),
+                                                 level_set{closed.data(), background});
         grid->setGridClass(openvdb::GRID_LEVEL_SET);
         return grid;
     }

@@ -484,6 +484,56 @@ static void mesh_of_something_else_is_refused(void **state)
     vdb_mesh_free(&mesh);
 }
 
+/* Rock that stands on the floor of the grid, in the middle of it and in a corner: 8.5 x 12 x 9 m, 3 x 3 x 9
+ * m. */
+static void rock_on_the_floor_is_closed(void **state)
+{
+    (void)state;
+    enum { NX = 40, NY = 44, NZ = 30 };
+    static float value[NX * NY * NZ];
+    const double low[2][3] = {{3.5, 4, -50}, {17, 19, -50}}, high[2][3] = {{12, 16, 9}, {50, 50, 9}};
+    const struct frame_grids grids = {
+        .n = {NX, NY, NZ},
+        .voxel = 0.5,
+        .origin = {0.25, 0.25, 0.25},
+        .n_grids = 1,
+        .grid = {{.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET, .value = value}}};
+    for (int i = 0; i < NX * NY * NZ; i++) {
+        const int c[3] = {i % NX, i / NX % NY, i / NX / NY};
+        double nearest = 1e9;
+        for (int b = 0; b < 2; b++) {
+            double inside = -1e9, outside = 0;
+            for (int a = 0; a < 3; a++) {
+                const double x = 0.25 + 0.5 * c[a], d = fmax(low[b][a] - x, x - high[b][a]);
+                inside = fmax(inside, d);
+                outside += d > 0 ? d * d : 0;
+            }
+            nearest = fmin(nearest, outside > 0 ? sqrt(outside) : inside);
+        }
+        value[i] = (float)nearest;
+    }
+    for (int up = 0; up < 2; up++) {
+        const struct vdb_options options = options_of(up);
+        struct vdb_bytes file;
+        struct vdb_mesh mesh;
+        double low_z = 1e9, high_x = -1e9, high_y = -1e9;
+        assert_int_equal(vdb_volumes(&grids, &options, &file), OK);
+        damage_put("floor.vdb", file.bytes, file.size);
+        free(file.bytes);
+        assert_int_equal(vdb_mesh_read("floor.vdb", 0, NULL, 0, &mesh), OK);
+        const struct measure r = measure_mesh(&mesh);
+        assert_int_equal(r.open_edges, 0);
+        assert_true(fabs(r.volume / (8.5 * 12 * 9 + 3 * 3 * 9) - 1) < 0.03);
+        for (size_t v = 0; v < mesh.n_vertices; v++) {
+            low_z = fmin(low_z, (double)mesh.vertex[3 * v + 2]);
+            high_x = fmax(high_x, (double)mesh.vertex[3 * v]);
+            high_y = fmax(high_y, (double)mesh.vertex[3 * v + 1]);
+        }
+        assert_true(fabs(low_z) < 1e-3 && fabs(high_x - 20) < 1e-3 && fabs(high_y - 22) < 1e-3);
+        vdb_mesh_free(&mesh);
+    }
+}
+
 /* `adaptivity` merges flat parts; the surface stays closed and in place. */
 static void adaptive_mesh_is_smaller(void **state)
 {
@@ -516,6 +566,7 @@ int main(void)
         cmocka_unit_test(no_points_make_a_file),
         cmocka_unit_test(a_particle_nowhere_is_a_blow_up),
         cmocka_unit_test(mesh_of_a_ball_is_closed_and_true),
+        cmocka_unit_test(rock_on_the_floor_is_closed),
         cmocka_unit_test(adaptive_mesh_is_smaller),
         cmocka_unit_test(mesh_of_something_else_is_refused),
         cmocka_unit_test(description_says_what_is_in_it),
