@@ -7,14 +7,13 @@ static size_t voxel_count(const int voxels[3])
 
 uint64_t blocks_bytes(const int voxels[3])
 {
-    return (uint64_t)voxel_count(voxels) * 16;
+    return (uint64_t)voxel_count(voxels) * 12;
 }
 
 status blocks_create(struct gpu *gpu, const int voxels[3], struct blocks *b)
 {
     status st = OK;
     *b = (struct blocks){0};
-    TRY(gpu_buffer_create(gpu, "voxel fill", voxel_count(voxels), 4, &b->fill));
     TRY(gpu_buffer_create(gpu, "solid voxels", voxel_count(voxels), 4, &b->solid));
     TRY(gpu_buffer_create(gpu, "block pointers", voxel_count(voxels), 4, &b->pointer));
     TRY(gpu_buffer_create(gpu, "block pointers (other)", voxel_count(voxels), 4, &b->other));
@@ -26,7 +25,6 @@ done:
 
 void blocks_destroy(struct gpu *gpu, struct blocks *b)
 {
-    gpu_buffer_destroy(gpu, &b->fill);
     gpu_buffer_destroy(gpu, &b->solid);
     gpu_buffer_destroy(gpu, &b->pointer);
     gpu_buffer_destroy(gpu, &b->other);
@@ -39,8 +37,8 @@ status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
     struct voxel_params k = particles_params(p, n);
     struct gpu_buffer *counts = gpu_work_words(work);
     uint32_t changed = 1;
-    GPU_RUN(gpu, blocks_fill, n, k, p->start, p->field[ROCK_viability], b->fill);
-    GPU_RUN(gpu, blocks_solid, n, k, b->fill, b->solid);
+    particles_fill(gpu, p);
+    GPU_RUN(gpu, blocks_solid, n, k, p->fill, b->solid);
     k.n = (uint)columns;
     GPU_RUN(gpu, blocks_column, columns, k, b->solid, b->pointer);
     k.n = (uint)n;

@@ -11,7 +11,6 @@
 #include "particles/particles.h"
 
 struct blocks {
-    struct gpu_buffer *fill;            /* float [voxels]: rock in each */
     struct gpu_buffer *solid;           /* uint [voxels]: 1 inside the surface */
     struct gpu_buffer *pointer, *other; /* uint [voxels]: towards a block's lowest voxel */
 };

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much rock each voxel holds: the viability of its particles.
+// How much of each voxel is rock: the viability of its particles.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -18,5 +18,5 @@ void main()
     float sum = 0.0;
     for (uint j = LOAD_U(start, v); j < end; j++)
         sum += LOAD_F(viability, j);
-    AT(fill, v) = sum;
+    AT(fill, v) = min(sum, 1.0);
 }
