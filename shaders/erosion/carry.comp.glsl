@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the particles in front left of their step goes on into those they bared, so that the retreat does not depend on the step.
-// A particle keeps a sliver: it is counted out when it is at the surface.
+// What the particles in front left of their step goes on into those they bared, so that the retreat does not
+// depend on the step. A particle keeps a sliver: it is counted out when it is at the surface.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Viability of the surface falls by erodibility times intensity (Arenite eqs. 1, 7, 8, 12), in retreat over the spacing.
+// Viability of the surface falls by erodibility times intensity (Arenite eqs. 1, 7, 8, 12), in retreat over
+// the spacing.
 //
-// Rock vanishes voxel by voxel over its faces, so that a slanted front would retreat at max |n_i| of the rate: the division
-// by it makes the retreat the same in every direction. What a particle did not need of its step is left in `unspent` for
-// those behind it (erosion/carry).
+// Rock vanishes voxel by voxel over its faces, so that a slanted front would retreat at max |n_i| of the
+// rate: the division by it makes the retreat the same in every direction. What a particle did not need of its
+// step is left in `unspent` for those behind it (erosion/carry).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -26,7 +27,8 @@ float deflation(float t)
     return k.deflation * exp(-(pull * pull - k.cohesion * k.cohesion) / (2.0 * k.strength * k.strength));
 }
 
-// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the particle's own bump.
+// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
+// particle's own bump.
 float reached_by_wind(vec3 x, vec3 n)
 {
     vec3 wind = vec3(k.wind_x, k.wind_y, k.wind_z), at = x + 1.5 * k.h * n - 0.5 * k.h * wind;

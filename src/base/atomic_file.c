@@ -28,7 +28,8 @@ static status fsync_folder_of(const char *path)
     int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0)
         return fail(E_OUTPUT, "%s: cannot open the folder: %s", folder, strerror(errno));
-    /* Some network file systems refuse fsync on folders (EINVAL); there is nothing more to be had from those. */
+    /* Some network file systems refuse fsync on folders (EINVAL); there is nothing more to be had from those.
+     * */
     int bad = fsync(fd) != 0 && errno != EINVAL ? errno : 0;
     close(fd);
     return bad ? fail(E_OUTPUT, "%s: cannot fsync the folder: %s", folder, strerror(bad)) : OK;
@@ -122,7 +123,8 @@ status file_read(const char *path, size_t limit, void *bytes, size_t *n)
         goto done;
     }
     if ((size_t)info.st_size > limit) {
-        st = fail(E_INPUT, "%s: %lld bytes, more than the %zu allowed here", path, (long long)info.st_size, limit);
+        st = fail(E_INPUT, "%s: %lld bytes, more than the %zu allowed here", path, (long long)info.st_size,
+                  limit);
         goto done;
     }
     size = (size_t)info.st_size;
@@ -132,7 +134,8 @@ status file_read(const char *path, size_t limit, void *bytes, size_t *n)
         if (k < 0 && errno == EINTR)
             continue;
         if (k <= 0) {
-            st = fail(E_INPUT, "%s: read %zu of %zu bytes: %s", path, got, size, k < 0 ? strerror(errno) : "it shrank");
+            st = fail(E_INPUT, "%s: read %zu of %zu bytes: %s", path, got, size,
+                      k < 0 ? strerror(errno) : "it shrank");
             goto done;
         }
         got += (size_t)k;

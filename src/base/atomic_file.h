@@ -1,7 +1,8 @@
 /* Files that are either whole or absent.
  *
- * The bytes go to a unique temporary name beside `path`, are flushed and fsynced, renamed over `path`, and the folder
- * is fsynced. On any error the temporary file is removed and what stood at `path` before is untouched.
+ * The bytes go to a unique temporary name beside `path`, are flushed and fsynced, renamed over `path`, and
+ * the folder is fsynced. On any error the temporary file is removed and what stood at `path` before is
+ * untouched.
  */
 #ifndef HOODOO_ATOMIC_FILE_H
 #define HOODOO_ATOMIC_FILE_H
@@ -19,8 +20,8 @@ MUST_USE status folder_make(const char *path);
 /* Removes temporary files a killed process left in `folder`. Never fails: what cannot be removed stays. */
 void atomic_file_sweep(const char *folder);
 
-/* The whole file in *bytes (freed with free(); a NUL follows the content). E_INPUT if missing, not a regular file,
- * or larger than `limit` bytes. */
+/* The whole file in *bytes (freed with free(); a NUL follows the content). E_INPUT if missing, not a regular
+ * file, or larger than `limit` bytes. */
 MUST_USE status file_read(const char *path, size_t limit, void *bytes, size_t *n);
 
 #endif
