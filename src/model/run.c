@@ -149,7 +149,7 @@ static status check_provenance(const struct run *r, const struct checkpoint *c, 
                 "for bit", path, c->device, c->driver, here.device, here.driver);
 }
 
-/* The newest sound checkpoint before the first missing frame, or *found = false. Damaged ones are reported and passed over. */
+/* The newest sound checkpoint up to the first missing frame, or *found = false. Damaged ones are reported and passed over. */
 static status find_checkpoint(const struct run *r, struct checkpoint *c, bool *found)
 {
     status st = OK;
@@ -159,7 +159,7 @@ static status find_checkpoint(const struct run *r, struct checkpoint *c, bool *f
     *found = false;
     TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
     for (size_t i = 0; i < n && !*found; i++) {
-        if (frames[i] >= r->first_missing)
+        if (frames[i] > r->first_missing)
             continue;
         TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
         st = checkpoint_read(path, c);
@@ -269,7 +269,7 @@ static status begin(struct run *r)
     bool found;
     TRY(find_checkpoint(r, &c, &found));
     if (!found && r->options->resume == RUN_REQUIRE) {
-        st = fail(E_CHECKPOINT, "%s holds no usable checkpoint before frame %d, and --resume require was given",
+        st = fail(E_CHECKPOINT, "%s holds no usable checkpoint up to frame %d, and --resume require was given",
                   r->options->root, r->first_missing);
         goto done;
     }
@@ -309,17 +309,21 @@ static status simulate(struct run *r)
 {
     status st = OK;
     int last = r->frames.last;
-    bool fresh = r->type->frame(r->model) == r->job->frames.first;
+    /* A checkpoint's own frame may be the first one missing. */
+    bool fresh = r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
     for (;;) {
         int number = r->type->frame(r->model);
+        /* The last frame says that all is done: what the next block begins from is there before it. */
+        if (fresh && number >= last)
+            TRY(save(r));
         if (fresh)
             TRY(finish_frame(r));
-        bool stop = r->options->stop && r->options->stop();
-        bool due = (number - r->job->frames.first) % (int)r->job->checkpoint.every == 0 || number >= last;
-        if (fresh && (due || stop))
-            TRY(save(r));
         if (number >= last)
             break;
+        bool stop = r->options->stop && r->options->stop();
+        bool due = (number - r->job->frames.first) % (int)r->job->checkpoint.every == 0;
+        if (fresh && (due || stop))
+            TRY(save(r));
         if (stop) {
             TRY(writer_finish(&r->writer));
             st = fail(STOPPED, "stopped after frame %d, with its checkpoint saved; run the same command again to go on", number);
