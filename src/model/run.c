@@ -381,7 +381,7 @@ done:
         /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
         char message[2048];
         snprintf(message, sizeof message, "%s", status_message());
-        if (writer_finish(&r.writer) != OK)
+        if (writer_finish(&r.writer) != OK && strcmp(status_message(), message) != 0)
             log_warn("%s", status_message());
         fail(st, "%s", message);
     }
