@@ -282,6 +282,7 @@ static status begin(struct run *r)
         log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
                  range_count(r->frames));
     TRY(r->type->create(r->gpu, r->job, found ? &c : NULL, &r->model));
+    TRY(write_papers(r)); /* not before: a scene that is refused does not claim the folder */
     TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
 done:
     checkpoint_free(&c);
@@ -372,7 +373,6 @@ status run_job(const struct job *job, const struct run_options *options)
     }
     TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
     TRY(check_memory(&r));
-    TRY(write_papers(&r));
     TRY(begin(&r));
     TRY(simulate(&r));
     log_times(r.gpu);
