@@ -48,4 +48,11 @@ code, said = run("steps", "--frames", "1001-1012x3")
 got = sorted(os.listdir("steps/frames"))
 ok(code == 0 and got == [f"twelve.{f}.json" for f in range(1001, 1013, 3)] and
    all(digest(f"steps/frames/{name}") == truth.whole[f"frames/{name}"] for name in got), "every third frame: those, the same", said, got)
+
+below = ("--set", "frames=-4-3")
+run("below", *below)
+for block in ("-4--1", "0-3"):
+    code, said = run("below-blocks", *below, "--frames", block)
+    ok(code == 0 and (block == "-4--1" or "checkpoint of frame -1" in said), f"frames below zero, block {block}", said)
+ok(tree("below") == tree("below-blocks"), "frames below zero: blocks are the whole")
 finish()
