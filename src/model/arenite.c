@@ -110,21 +110,28 @@ done:
 
 /* ---- what a frame shows */
 
+static double volume_of(const struct job *job, const struct rock *rock)
+{
+    double volume = 0;
+    for (size_t i = 0; i < rock->n; i++)
+        volume += (double)rock->viability[i];
+    return volume * pow(job->domain.spacing_m, 3);
+}
+
 static status measure(const struct model *m, struct frame *out)
 {
     const struct rock *rock = &out->rock;
-    double volume = 0, most = 0;
+    double most = 0;
     for (size_t i = 0; i < rock->n; i++) {
         double stress = fabs((double)rock->stress[i]), viability = (double)rock->viability[i];
         if (!isfinite(stress) || !isfinite(viability))
             return fail(E_NUMERIC,
                         "frame %d: particle %u has stress %g Pa and viability %g; stopped before writing it",
                         m->frame, (unsigned)rock->id[i], (double)rock->stress[i], viability);
-        volume += viability;
         most = fmax(most, stress);
     }
-    out->volume_m3 = volume * pow(m->job->domain.spacing_m, 3);
-    out->start_volume_m3 = m->start_volume > 0 ? m->start_volume : out->volume_m3;
+    out->volume_m3 = volume_of(m->job, rock);
+    out->start_volume_m3 = m->start_volume;
     out->max_stress_Pa = most;
     return OK;
 }
@@ -141,7 +148,6 @@ static status output(struct model *m, struct frame *out)
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
-    m->start_volume = out->start_volume_m3;
     TRY(field_download(m->gpu, &m->field, &out->grids));
     gpu_stage(m->gpu, "pictures");
     TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
@@ -249,6 +255,9 @@ static status begin(struct model *m, const int voxels[3])
     if (m->ledger.fallen)
         log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out",
                  m->frame, (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start);
+    rock_free(&rock);
+    TRY(particles_download(m->gpu, &m->particles, STATE, &rock));
+    m->start_volume = volume_of(m->job, &rock);
 done:
     rock_free(&rock);
     return st;

@@ -160,8 +160,8 @@ static status check_provenance(const struct run *r, const struct checkpoint *c, 
         path, c->device, c->driver, here.device, here.driver);
 }
 
-/* The newest sound checkpoint before the first missing frame, or *found = false. Damaged ones are reported
- * and passed over. */
+/* The newest sound checkpoint up to the first missing frame, or *found = false. Damaged ones are reported and
+ * passed over. */
 static status find_checkpoint(const struct run *r, struct checkpoint *c, bool *found)
 {
     status st = OK;
@@ -171,7 +171,7 @@ static status find_checkpoint(const struct run *r, struct checkpoint *c, bool *f
     *found = false;
     TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
     for (size_t i = 0; i < n && !*found; i++) {
-        if (frames[i] >= r->first_missing)
+        if (frames[i] > r->first_missing)
             continue;
         TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
         st = checkpoint_read(path, c);
@@ -284,9 +284,9 @@ static status begin(struct run *r)
     bool found;
     TRY(find_checkpoint(r, &c, &found));
     if (!found && r->options->resume == RUN_REQUIRE) {
-        st = fail(E_CHECKPOINT,
-                  "%s holds no usable checkpoint before frame %d, and --resume require was given",
-                  r->options->root, r->first_missing);
+        st =
+            fail(E_CHECKPOINT, "%s holds no usable checkpoint up to frame %d, and --resume require was given",
+                 r->options->root, r->first_missing);
         goto done;
     }
     if (!found && r->frames.first != r->job->frames.first) {
@@ -300,6 +300,7 @@ static status begin(struct run *r)
         log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
                  range_count(r->frames));
     TRY(r->type->create(r->gpu, r->job, found ? &c : NULL, &r->model));
+    TRY(write_papers(r)); /* not before: a scene that is refused does not claim the folder */
     TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
 done:
     checkpoint_free(&c);
@@ -327,17 +328,22 @@ static status simulate(struct run *r)
 {
     status st = OK;
     int last = r->frames.last;
-    bool fresh = r->type->frame(r->model) == r->job->frames.first;
+    /* A checkpoint's own frame may be the first one missing. */
+    bool fresh =
+        r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
     for (;;) {
         int number = r->type->frame(r->model);
+        /* The last frame says that all is done: what the next block begins from is there before it. */
+        if (fresh && number >= last)
+            TRY(save(r));
         if (fresh)
             TRY(finish_frame(r));
-        bool stop = r->options->stop && r->options->stop();
-        bool due = (number - r->job->frames.first) % (int)r->job->checkpoint.every == 0 || number >= last;
-        if (fresh && (due || stop))
-            TRY(save(r));
         if (number >= last)
             break;
+        bool stop = r->options->stop && r->options->stop();
+        bool due = (number - r->job->frames.first) % (int)r->job->checkpoint.every == 0;
+        if (fresh && (due || stop))
+            TRY(save(r));
         if (stop) {
             TRY(writer_finish(&r->writer));
             st =
@@ -390,7 +396,6 @@ status run_job(const struct job *job, const struct run_options *options)
     }
     TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
     TRY(check_memory(&r));
-    TRY(write_papers(&r));
     TRY(begin(&r));
     TRY(simulate(&r));
     log_times(r.gpu);
@@ -399,7 +404,7 @@ done:
         /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
         char message[2048];
         snprintf(message, sizeof message, "%s", status_message());
-        if (writer_finish(&r.writer) != OK)
+        if (writer_finish(&r.writer) != OK && strcmp(status_message(), message) != 0)
             log_warn("%s", status_message());
         fail(st, "%s", message);
     }

@@ -2,7 +2,7 @@
  *
  * Done        A frame is done when its manifest is there, is of this job, and its files have the sizes it
  *             says.
- * Resume      The first frame that is not done is where work begins: from the newest sound checkpoint before
+ * Resume      The first frame that is not done is where work begins: from the newest sound checkpoint up to
  *             it, or from the job's first frame. Frames simulated on the way that are done already are not
  *             written again.
  * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or
