@@ -4,7 +4,7 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, start)
+READ_U(0, solid)
 WRITE_U(1, pointer)
 PARAMS(voxel_params)
 
@@ -17,7 +17,7 @@ void main()
     bool inside = false;
     for (uint z = 0u; z < k.nz; z++) {
         uint v = z * layer + column;
-        bool rock = LOAD_U(start, v) != LOAD_U(start, v + 1u);
+        bool rock = LOAD_U(solid, v) != 0u;
         if (!rock || !inside)
             lowest = v;
         AT(pointer, v) = lowest;

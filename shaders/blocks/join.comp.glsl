@@ -6,7 +6,7 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, start)
+READ_U(0, solid)
 READ_U(1, root)
 WRITE_U(2, pointer)
 WRITE_U(3, counts)
@@ -14,7 +14,7 @@ PARAMS(voxel_params)
 
 bool rock(uint v)
 {
-    return LOAD_U(start, v) != LOAD_U(start, v + 1u);
+    return LOAD_U(solid, v) != 0u;
 }
 
 void main()

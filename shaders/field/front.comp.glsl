@@ -29,5 +29,5 @@ void main()
             inverse += 1.0 / max(nearest * nearest, 1e-6);
     }
     float away = inverse > 0.0 ? inversesqrt(inverse) : 3.0;
-    AT(distance_out, i) = (own > 0.0 ? away : -away) * k.voxel;
+    AT(distance_out, i) = (own > 0.0 ? away : -away) * k.h;
 }

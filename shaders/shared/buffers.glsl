@@ -43,11 +43,11 @@ layout(local_size_x = 64) in;
 layout(std140, binding = 0) uniform addresses_block { uvec4 address[16]; };
 #define REFERENCE_(b, name, type, size)                                                         \
     layout(buffer_reference, std430, buffer_reference_align = size) buffer name##_ref { type d[]; }; \
-    const uint name##_at = b;
+    const uint name##_binding = b;
 #define READ_F(b, name) REFERENCE_(b, name, float, 4)
 #define READ_V(b, name) REFERENCE_(b, name, vec4, 16)
 #define READ_U(b, name) REFERENCE_(b, name, uint, 4)
-#define AT(name, i) name##_ref(address[name##_at].xy).d[i]
+#define AT(name, i) name##_ref(address[name##_binding].xy).d[i]
 #define LOAD_F(name, i) AT(name, i)
 #define LOAD_V(name, i) AT(name, i)
 #define LOAD_U(name, i) AT(name, i)

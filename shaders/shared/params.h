@@ -56,6 +56,13 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
+/* The share of space that is rock around a voxel's middle, from its own fill, its 6 face and its 12 edge neighbours': the surface is
+ * where this is 1/2. The weights are those of (1 - r^2 / 4 h^2)^3, rounded so that they add up to 1; on a plane face the surface
+ * lies exactly where the fill puts it. */
+#define SHARE_SELF 0.2f
+#define SHARE_FACE (1.0f / 12.0f)
+#define SHARE_EDGE 0.025f
+
 /* ---- stress: hexahedra of 2 h; nodes and cells have a margin of one empty cell on every side */
 
 #define STRESS_FILL_FLOOR 0.05f
@@ -117,12 +124,10 @@ struct field_params {
     uint n;
     uint nx, ny, nz; /* voxels of the domain (particle index) */
     float h;         /* m */
-    uint fx, fy, fz; /* voxels of the field */
-    float voxel;     /* m: of the field */
-    float origin_x, origin_y, origin_z; /* m: centre of its voxel 0 */
-    float radius;    /* m: of the kernel */
+    uint fx, fy, fz; /* samples of the field: the voxels and a margin */
+    uint margin;     /* voxels */
 };
-SHARED_SIZE(field_params, 52)
+SHARED_SIZE(field_params, 36)
 
 struct march_params {
     uint n;

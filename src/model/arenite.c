@@ -288,7 +288,7 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
-    TRY(field_create(gpu, voxels, h, job->output.voxel_m, &m->field));
+    TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(from ? restore(m, from, voxels) : begin(m, voxels));
@@ -304,14 +304,13 @@ done:
 static status estimate(const struct job *job, struct model_estimate *out)
 {
     status st = OK;
-    double h = job->domain.spacing_m;
     size_t pixels = aov_pixels(job), n;
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
     TRY(scene_estimate(job, &out->n_particles));
     n = out->n_particles;
     size_t voxels = voxel_count(out->voxels);
-    uint64_t rock = 0, field = field_bytes(out->voxels, h, job->output.voxel_m);
+    uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) + elastic_bytes(out->voxels) +

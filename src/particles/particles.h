@@ -16,6 +16,7 @@ struct particles {
     double h;                              /* m: spacing, and a voxel's size */
     struct gpu_buffer *field[ROCK_FIELDS]; /* n_max items each */
     struct gpu_buffer *start;              /* uint [voxels + 1] */
+    struct gpu_buffer *fill;               /* float [voxels]: how much of each is rock, as of particles_fill() */
     struct gpu_buffer *surface;            /* uint [n_surface]: the particles with a bare face, ascending */
     size_t n_surface;
     struct gpu_buffer *flags, *place;      /* scratch, uint [n_max] */
@@ -33,13 +34,16 @@ void particles_destroy(struct gpu *gpu, struct particles *p);
 /* Drops particles of which nothing is left and restores the order. DERIVED fields are stale after it. Waits. */
 MUST_USE status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p);
 
+/* Takes the particles' viability into the voxels' fill. Records only. */
+void particles_fill(struct gpu *gpu, struct particles *p);
+
 /* Finds the surface and its normals (field N; 0 inside). Waits. */
 MUST_USE status particles_surface(struct gpu *gpu, struct gpu_work *work, struct particles *p);
 
 /* All fields into a rock allocated here. */
 MUST_USE status particles_download(struct gpu *gpu, const struct particles *p, int keep, struct rock *out);
 
-/* Scratch that particles_index() leaves free between calls, for passes with a word per particle or voxel. */
+/* The parameters of a kernel over n items that walks voxels. */
 struct voxel_params particles_params(const struct particles *p, size_t n);
 
 #endif
