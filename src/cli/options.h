@@ -10,8 +10,8 @@
  *     struct words operands = {0};
  *     bool help = false;
  *     const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c)};
- *     TRY(options_parse(&usage_status, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
- *     if (help)
+ *     TRY(options_parse(&usage_status, options, sizeof options / sizeof *options, argc, argv, &operands,
+ *     &help)); if (help)
  *         goto done;
  */
 #ifndef HOODOO_OPTIONS_H

@@ -110,8 +110,8 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
     GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
             p->field[ROCK_stress], p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent,
             counts);
-    GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->start, p->field[ROCK_erodibility], p->flags,
-            e->unspent, p->field[ROCK_viability]);
+    GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->field[ROCK_N], p->start,
+            p->field[ROCK_erodibility], e->unspent, p->field[ROCK_viability]);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
 done:
     return st;
