@@ -106,7 +106,8 @@ static void add_mesh(struct text *out, const struct scene *s)
     text_add(out, "\n#declare Rock = mesh2 {\nvertex_vectors { %zu", m->n_vertices);
     for (size_t i = 0; i < m->n_vertices; i++) {
         const float *v = m->vertex + 3 * i;
-        text_add(out, ",\n<%.*f,%.*f,%.*f>", digits, (double)v[0], digits, (double)v[1], digits, (double)v[2]);
+        text_add(out, ",\n<%.*f,%.*f,%.*f>", digits, (double)v[0], digits, (double)v[1], digits,
+                 (double)v[2]);
     }
     text_add(out, "}\nnormal_vectors { %zu", m->n_vertices);
     for (size_t i = 0; i < m->n_vertices; i++) {
@@ -140,7 +141,8 @@ status scene_write(const struct scene *s, struct text *out)
     text_add(out, "#version 3.7;\n#declare Quality = %d; // 0 draft, 1 preview, 2 final\n", (int)s->preset);
     text_add(out, "global_settings {\n    assumed_gamma 1.0\n    max_trace_level 4\n");
     if (s->preset == PRESET_FINAL)
-        text_add(out, "    radiosity { pretrace_start 0.04 pretrace_end 0.01 count 80 error_bound 0.6 recursion_limit 1 }\n");
+        text_add(out, "    radiosity { pretrace_start 0.04 pretrace_end 0.01 count 80 error_bound 0.6 "
+                      "recursion_limit 1 }\n");
     text_add(out, "}\n#ifndef (View) #declare View = 0; #end\n\n");
     add_vectors(out, "Eye", s, offsetof(struct camera, eye));
     add_vectors(out, "Ahead", s, offsetof(struct camera, ahead));

@@ -12,9 +12,9 @@ struct scene {
     const struct job *job;
     int frame;
     const struct vdb_mesh *mesh;
-    double low[3], high[3];       /* m: the mesh's bounds */
-    const struct camera *camera;  /* one a view: povray's Declare=View=2 takes the third */
-    size_t n_cameras; /* >= 1 */
+    double low[3], high[3];      /* m: the mesh's bounds */
+    const struct camera *camera; /* one a view: povray's Declare=View=2 takes the third */
+    size_t n_cameras;            /* >= 1 */
     enum preset preset;
 };
 
