@@ -1,5 +1,6 @@
-/* The validation layer sees wrong use and a missing barrier here, so that its silence in tests/cli/validation.sh means something. With an
- * argument: does both without listening, for that script to find on this program's output. */
+/* The validation layer sees wrong use and a missing barrier here, so that its silence in
+ * tests/cli/validation.sh means something. With an argument: does both without listening, for that script to
+ * find on this program's output. */
 #include "check.h"
 
 #include <stdbool.h>
@@ -35,7 +36,8 @@ static VkInstance make_instance(struct seen *seen)
         .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
         .pfnUserCallback = on_message,
         .pUserData = seen};
-    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_2};
+    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                     .apiVersion = VK_API_VERSION_1_2};
     VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                  .pApplicationInfo = &application,
                                  .enabledLayerCount = 1,
@@ -48,7 +50,8 @@ static VkInstance make_instance(struct seen *seen)
     VkDebugUtilsMessengerEXT handle;
     PFN_vkVoidFunction make = vkGetInstanceProcAddr(instance, "vkCreateDebugUtilsMessengerEXT");
     assert_non_null(make);
-    assert_int_equal(((PFN_vkCreateDebugUtilsMessengerEXT)make)(instance, &messenger, NULL, &handle), VK_SUCCESS);
+    assert_int_equal(((PFN_vkCreateDebugUtilsMessengerEXT)make)(instance, &messenger, NULL, &handle),
+                     VK_SUCCESS);
     return instance; /* and its messenger: they live as long as this program */
 }
 
@@ -59,8 +62,11 @@ static VkDevice make_device(VkInstance instance, VkPhysicalDevice *physical)
     const float priority = 1;
     assert_true(vkEnumeratePhysicalDevices(instance, &n, physical) >= 0);
     assert_int_equal(n, 1);
-    VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
-    VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .queueCreateInfoCount = 1, .pQueueCreateInfos = &queue};
+    VkDeviceQueueCreateInfo queue = {
+        .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
+    VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                               .queueCreateInfoCount = 1,
+                               .pQueueCreateInfos = &queue};
     assert_int_equal(vkCreateDevice(*physical, &info, NULL, &device), VK_SUCCESS);
     return device;
 }
@@ -72,14 +78,17 @@ static VkBuffer make_buffer(VkPhysicalDevice physical, VkDevice device)
     VkMemoryRequirements need;
     VkPhysicalDeviceMemoryProperties types;
     uint32_t type = 0;
-    VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 256, .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
+    VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
+                               .size = 256,
+                               .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     assert_int_equal(vkCreateBuffer(device, &info, NULL, &buffer), VK_SUCCESS);
     vkGetBufferMemoryRequirements(device, buffer, &need);
     vkGetPhysicalDeviceMemoryProperties(physical, &types);
     while (type < types.memoryTypeCount && !(need.memoryTypeBits & 1u << type))
         type++;
-    VkMemoryAllocateInfo allocate = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = need.size, .memoryTypeIndex = type};
+    VkMemoryAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                     .allocationSize = need.size,
+                                     .memoryTypeIndex = type};
     assert_int_equal(vkAllocateMemory(device, &allocate, NULL, &memory), VK_SUCCESS);
     assert_int_equal(vkBindBufferMemory(device, buffer, memory, 0), VK_SUCCESS);
     return buffer;
@@ -103,7 +112,8 @@ static void two_fills(VkDevice device, VkBuffer buffer, bool barrier)
                                .srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
                                .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT};
     if (barrier)
-        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &between, 0, NULL, 0, NULL);
+        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1,
+                             &between, 0, NULL, 0, NULL);
     vkCmdFillBuffer(commands, buffer, 0, 256, 2);
     assert_int_equal(vkEndCommandBuffer(commands), VK_SUCCESS);
 }

@@ -1,5 +1,5 @@
-/* A small job in every kernel variant, and with buffers beyond what a device binds: the same state and the same pictures, bit for bit. Which
- * variant a device gets, or how large a job is, may not change the rock. */
+/* A small job in every kernel variant, and with buffers beyond what a device binds: the same state and the
+ * same pictures, bit for bit. Which variant a device gets, or how large a job is, may not change the rock. */
 #include "check.h"
 
 #include <stdio.h>
@@ -55,7 +55,8 @@ static void add_frame(struct trace *t, const struct model_type *type, struct mod
     const struct aov_image *image = &f.image[0];
     for (size_t i = 0; i < image->n_channels; i++) {
         const struct aov_channel *channel = &image->channel[i];
-        add(t, channel->value ? (const void *)channel->value : channel->id, (size_t)image->width * (size_t)image->height * 4);
+        add(t, channel->value ? (const void *)channel->value : channel->id,
+            (size_t)image->width * (size_t)image->height * 4);
     }
     frame_free(&f);
 }
@@ -137,10 +138,18 @@ int main(void)
     static struct gpu_options wide = {.device = "auto", .variant = VARIANT_WIDE + 1};
     static struct gpu_options nothing_fits = {.device = "auto", .range_limit = 1};
     static struct gpu_options some_fit = {.device = "auto", .range_limit = 20000};
-#define WITH(options) {"same_bits (" #options ")", same_bits, NULL, NULL, &options}
+#define WITH(options)                                                                                        \
+    {                                                                                                        \
+        "same_bits (" #options ")", same_bits, NULL, NULL, &options                                          \
+    }
     const struct CMUnitTest tests[] = {
         {"the_rock_changes", the_rock_changes, NULL, NULL, &own},
-        WITH(own), WITH(texel), WITH(storage), WITH(wide), WITH(nothing_fits), WITH(some_fit),
+        WITH(own),
+        WITH(texel),
+        WITH(storage),
+        WITH(wide),
+        WITH(nothing_fits),
+        WITH(some_fit),
     };
     return cmocka_run_group_tests_name("variants", tests, begin, end);
 }
