@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each column's runs of rock are blocks to begin with: their voxels point to the lowest. Empty voxels point to themselves.
+// Each column's runs of rock are blocks to begin with: their voxels point to the lowest. Empty voxels point
+// to themselves.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

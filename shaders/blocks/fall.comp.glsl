@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A particle stays if its voxel, or one across a face of it, belongs to a block that stands on the ground. The others are taken out.
+// A particle stays if its voxel, or one across a face of it, belongs to a block that stands on the ground.
+// The others are taken out.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What was left of the step when a particle was gone, its neighbours weather on through the faces it bared, so that the retreat does
-// not depend on the step. A particle keeps a sliver: it is counted out when it is at the surface.
+// What was left of the step when a particle was gone, its neighbours weather on through the faces it bared,
+// so that the retreat does not depend on the step. A particle keeps a sliver: it is counted out when it is at
+// the surface.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

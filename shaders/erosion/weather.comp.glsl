@@ -1,10 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Viability of the surface falls by erodibility times intensity (Arenite eqs. 1, 7, 8, 12), in retreat over the spacing.
+// Viability of the surface falls by erodibility times intensity (Arenite eqs. 1, 7, 8, 12), in retreat over
+// the spacing.
 //
-// A bare face of a voxel stands for |n_i| h^2 of the surface, n being the surface's normal and i the face's axis: over any plane these
-// add up to its area, so that a front loses its rate times its area whatever its direction and however rough the voxels make it.
-// What was left of the step when a particle was gone goes to `unspent`, for its neighbours (erosion/carry).
+// A bare face of a voxel stands for |n_i| h^2 of the surface, n being the surface's normal and i the face's
+// axis: over any plane these add up to its area, so that a front loses its rate times its area whatever its
+// direction and however rough the voxels make it. What was left of the step when a particle was gone goes to
+// `unspent`, for its neighbours (erosion/carry).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -27,7 +29,8 @@ float deflation(float t)
     return k.deflation * exp(-(pull * pull - k.cohesion * k.cohesion) / (2.0 * k.strength * k.strength));
 }
 
-// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the particle's own bump.
+// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
+// particle's own bump.
 float reached_by_wind(vec3 x, vec3 n)
 {
     vec3 wind = vec3(k.wind_x, k.wind_y, k.wind_z), at = x + 1.5 * k.h * n - 0.5 * k.h * wind;

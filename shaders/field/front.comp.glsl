@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Signed distance of the samples beside the surface, where the rock's share is 1/2: along each axis that crosses it by linear
-// interpolation, and from those to the plane through the crossings. All others are 3 voxels away until field/distance says more.
+// Signed distance of the samples beside the surface, where the rock's share is 1/2: along each axis that
+// crosses it by linear interpolation, and from those to the plane through the crossings. All others are 3
+// voxels away until field/distance says more.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

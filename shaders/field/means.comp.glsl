@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the rock around a sample carries: means of stress, von Mises stress and viability over the particles of the sample's voxel and its
-// neighbours, weighted as in the rock's share; 0 where there are none.
+// What the rock around a sample carries: means of stress, von Mises stress and viability over the particles
+// of the sample's voxel and its neighbours, weighted as in the rock's share; 0 where there are none.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

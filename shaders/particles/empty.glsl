@@ -1,4 +1,5 @@
-// Is there no rock in a voxel? Outside the domain there is none; below the ground there is. Needs READ_U(start) and particles/voxel.glsl.
+// Is there no rock in a voxel? Outside the domain there is none; below the ground there is. Needs
+// READ_U(start) and particles/voxel.glsl.
 
 bool voxel_empty(ivec3 v)
 {

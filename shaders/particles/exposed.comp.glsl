@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Surface particles are those with an empty voxel at a face of theirs (Arenite 5.1). Below the ground is not empty.
+// Surface particles are those with an empty voxel at a face of theirs (Arenite 5.1). Below the ground is not
+// empty.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

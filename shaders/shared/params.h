@@ -1,5 +1,5 @@
-/* Parameters of the kernels, read by both languages. Scalars only, so that layouts cannot differ. At most 128 bytes.
- * `n` is always the number of invocations that work. */
+/* Parameters of the kernels, read by both languages. Scalars only, so that layouts cannot differ. At most 128
+ * bytes. `n` is always the number of invocations that work. */
 #ifndef HOODOO_PARAMS_H
 #define HOODOO_PARAMS_H
 
@@ -56,9 +56,9 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
-/* The share of space that is rock around a voxel's middle, from its own fill, its 6 face and its 12 edge neighbours': the surface is
- * where this is 1/2. The weights are those of (1 - r^2 / 4 h^2)^3, rounded so that they add up to 1; on a plane face the surface
- * lies exactly where the fill puts it. */
+/* The share of space that is rock around a voxel's middle, from its own fill, its 6 face and its 12 edge
+ * neighbours': the surface is where this is 1/2. The weights are those of (1 - r^2 / 4 h^2)^3, rounded so
+ * that they add up to 1; on a plane face the surface lies exactly where the fill puts it. */
 #define SHARE_SELF 0.2f
 #define SHARE_FACE (1.0f / 12.0f)
 #define SHARE_EDGE 0.025f
@@ -76,7 +76,8 @@ struct stress_params {
 };
 SHARED_SIZE(stress_params, 32)
 
-/* Words of the solver's scalar buffer; the energy that each iteration took out of the error begins at CG_ENERGY. */
+/* Words of the solver's scalar buffer; the energy that each iteration took out of the error begins at
+ * CG_ENERGY. */
 #define CG_RZ 0u
 #define CG_ALPHA 1u
 #define CG_BETA 2u

@@ -30,7 +30,8 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b)
     gpu_buffer_destroy(gpu, &b->other);
 }
 
-status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p, uint32_t *n_fallen)
+status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
+                   uint32_t *n_fallen)
 {
     status st = OK;
     size_t n = voxel_count(p->voxels), columns = n / (size_t)p->voxels[2];
@@ -51,7 +52,8 @@ status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
             TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
     }
     k.n = (uint)p->n;
-    GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->field[ROCK_viability], counts);
+    GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->field[ROCK_viability],
+            counts);
     TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_fallen, 1));
 done:
     return st;

@@ -1,7 +1,8 @@
 /* Blocks that nothing holds: parts of the rock with no face path to the ground.
  *
- * Rock holds where it can be seen: a path goes through voxels whose middle lies inside the surface field. Particles that no such voxel
- * on the ground's side touches fall, threads and crumbs below the resolution among them.
+ * Rock holds where it can be seen: a path goes through voxels whose middle lies inside the surface field.
+ * Particles that no such voxel on the ground's side touches fall, threads and crumbs below the resolution
+ * among them.
  */
 #ifndef HOODOO_BLOCKS_H
 #define HOODOO_BLOCKS_H

@@ -12,11 +12,16 @@
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
 
-/* root/checkpoint/NAME.FRAME.SUFFIX, frames with at least four digits as everywhere in the output folder. */
+/* Frames have at least four digits, as everywhere in the output folder: NAME.0007.ckpt, NAME.-0012.ckpt. */
+static const char *sign(int frame)
+{
+    return frame < 0 ? "-" : "";
+}
+
 static status checkpoint_path(char out[4096], const char *root, const char *name, int frame,
                               const char *suffix)
 {
-    int n = snprintf(out, 4096, "%s/checkpoint/%s.%04d.%s", root, name, frame, suffix);
+    int n = snprintf(out, 4096, "%s/checkpoint/%s.%s%04d.%s", root, name, sign(frame), abs(frame), suffix);
     return n < 0 || n >= 4096 ? fail(E_OUTPUT, "%.200s...: the path is too long", root) : OK;
 }
 
@@ -38,7 +43,7 @@ static bool is_checkpoint(const char *file, const char *name, int *frame)
     if (errno || number < -999999 || number > 9999999)
         return false;
     *frame = (int)number;
-    int length = snprintf(again, sizeof again, "%s.%04d.ckpt", name, *frame);
+    int length = snprintf(again, sizeof again, "%s.%s%04d.ckpt", name, sign(*frame), abs(*frame));
     return length > 0 && (size_t)length < sizeof again && strcmp(file, again) == 0;
 }
 

@@ -78,8 +78,10 @@ void field_build(struct gpu *gpu, struct field *f, struct particles *p)
 status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out)
 {
     static const struct frame_grid kinds[] = {
-        {.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET}, {.name = "density", .unit = "", .kind = GRID_FOG},
-        {.name = "stress", .unit = "Pa", .kind = GRID_PLAIN},     {.name = "von_mises", .unit = "Pa", .kind = GRID_PLAIN},
+        {.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET},
+        {.name = "density", .unit = "", .kind = GRID_FOG},
+        {.name = "stress", .unit = "Pa", .kind = GRID_PLAIN},
+        {.name = "von_mises", .unit = "Pa", .kind = GRID_PLAIN},
         {.name = "viability", .unit = "", .kind = GRID_PLAIN},
     };
     status st = OK;

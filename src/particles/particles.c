@@ -15,18 +15,22 @@ uint64_t particles_bytes(size_t n, const int voxels[3])
 
 struct voxel_params particles_params(const struct particles *p, size_t n)
 {
-    return (struct voxel_params){
-        .n = (uint)n, .nx = (uint)p->voxels[0], .ny = (uint)p->voxels[1], .nz = (uint)p->voxels[2], .h = (float)p->h};
+    return (struct voxel_params){.n = (uint)n,
+                                 .nx = (uint)p->voxels[0],
+                                 .ny = (uint)p->voxels[1],
+                                 .nz = (uint)p->voxels[2],
+                                 .h = (float)p->h};
 }
 
-status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, const int voxels[3], double h,
-                        struct particles *p)
+status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, const int voxels[3],
+                        double h, struct particles *p)
 {
     status st = OK;
     *p = (struct particles){
         .n = rock->n, .n_max = rock->n, .voxels = {voxels[0], voxels[1], voxels[2]}, .h = h};
     for (int f = 0; f < ROCK_FIELDS; f++) {
-        TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f), &p->field[f]));
+        TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f),
+                              &p->field[f]));
         if (rock_field_table[f].keep == STATE)
             TRY(gpu_upload(gpu, p->field[f], 0, rock->field[f], rock->n));
     }
@@ -81,7 +85,8 @@ status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles 
     for (int f = 0; f < ROCK_FIELDS; f++) {
         if (rock_field_table[f].keep != STATE)
             continue;
-        struct gpu_buffer **spare = rock_field_size((enum rock_field)f) == 16 ? &p->spare_vector : &p->spare_word;
+        struct gpu_buffer **spare =
+            rock_field_size((enum rock_field)f) == 16 ? &p->spare_vector : &p->spare_word;
         struct gpu_buffer *old = p->field[f];
         gpu_gather(gpu, p->surface, old, *spare, alive);
         p->field[f] = *spare;

@@ -24,9 +24,11 @@ static inline struct shape shape_inside(const struct frame_grids *grids, int mar
     for (int k = 0; k < s.n[2]; k++)
         for (int j = 0; j < s.n[1]; j++)
             for (int i = 0; i < s.n[0]; i++) {
-                size_t from = ((size_t)(k + margin) * (size_t)grids->n[1] + (size_t)(j + margin)) * (size_t)grids->n[0] +
+                size_t from = ((size_t)(k + margin) * (size_t)grids->n[1] + (size_t)(j + margin)) *
+                                  (size_t)grids->n[0] +
                               (size_t)(i + margin);
-                s.rock[((size_t)k * (size_t)s.n[1] + (size_t)j) * (size_t)s.n[0] + (size_t)i] = grids->grid[0].value[from] < 0;
+                s.rock[((size_t)k * (size_t)s.n[1] + (size_t)j) * (size_t)s.n[0] + (size_t)i] =
+                    grids->grid[0].value[from] < 0;
             }
     return s;
 }
@@ -38,7 +40,8 @@ static inline void shape_free(struct shape *s)
 }
 
 /* Marks with 2 what is face-connected to voxels equal to `what` in the box [low, high); returns how many. */
-static inline size_t shape_flood(const struct shape *s, uint8_t *mark, uint8_t what, const int low[3], const int high[3])
+static inline size_t shape_flood(const struct shape *s, uint8_t *mark, uint8_t what, const int low[3],
+                                 const int high[3])
 {
     size_t n = (size_t)s->n[0] * (size_t)s->n[1] * (size_t)s->n[2], count = 0, top = 0;
     size_t stride[3] = {1, (size_t)s->n[0], (size_t)s->n[0] * (size_t)s->n[1]};
@@ -121,7 +124,8 @@ static inline double shape_window(const struct shape *s, double floor_m)
         for (int i = 0; i < s->n[0]; i++) {
             uint8_t any = 0;
             for (int j = 0; j < s->n[1]; j++)
-                any |= s->rock[((size_t)(k + low) * (size_t)s->n[1] + (size_t)j) * (size_t)s->n[0] + (size_t)i];
+                any |=
+                    s->rock[((size_t)(k + low) * (size_t)s->n[1] + (size_t)j) * (size_t)s->n[0] + (size_t)i];
             front.rock[(size_t)k * (size_t)s->n[0] + (size_t)i] = any;
             free_of_rock += !any;
         }

@@ -1,16 +1,17 @@
 /* The demo at half its resolution: an arch emerges and stands, because its rock interlocks; and nothing pops. */
-#include "model_help.h"
 #include "field/field.h"
+#include "model_help.h"
 #include "shape.h"
 
 #include <string.h>
 
 enum { FRAMES_MAX = 512, LAYERS_MAX = 16, SETS_MAX = LAYERS_MAX + 2 };
-static const double supports = 6; /* m: the top of the demo's supports, between which it is open from the start */
+static const double supports =
+    6; /* m: the top of the demo's supports, between which it is open from the start */
 
 struct history {
     int n_frames;
-    double volume[FRAMES_MAX]; /* m3 */
+    double volume[FRAMES_MAX];   /* m3 */
     double start_window, window; /* m2: the sky seen through the rock */
     int parts, spans;
     size_t n_largest, n_all; /* voxels */
@@ -59,9 +60,10 @@ static struct history erode(double interlock_MPa)
         assert_ok(s.type->step(s.model));
     }
     sim_end(&s);
-    print_message("# I = %g MPa: %.1f %% of the rock left after %d frames, in %d parts%s, a window of %.0f m2\n",
-                  interlock_MPa > 0 ? interlock_MPa : NAN, 100 * out.volume[out.n_frames - 1] / out.volume[0], out.n_frames - 1,
-                  out.parts, out.spans ? ", which span from side to side" : "", out.window);
+    print_message(
+        "# I = %g MPa: %.1f %% of the rock left after %d frames, in %d parts%s, a window of %.0f m2\n",
+        interlock_MPa > 0 ? interlock_MPa : NAN, 100 * out.volume[out.n_frames - 1] / out.volume[0],
+        out.n_frames - 1, out.parts, out.spans ? ", which span from side to side" : "", out.window);
     return out;
 }
 

@@ -5,15 +5,15 @@
 #include <string.h>
 
 struct wall {
-    double h, normal[3];     /* normal: any length */
+    double h, normal[3]; /* normal: any length */
     double years_per_frame;
     int frames;
-    double abrasion;         /* 0: no wind */
+    double abrasion; /* 0: no wind */
     double wind[3];
-    int screen;              /* a screen of inert rock stands upwind */
+    int screen; /* a screen of inert rock stands upwind */
 };
 
-enum { SIZE = 18 };          /* m, the domain's edges */
+enum { SIZE = 18 };              /* m, the domain's edges */
 static const double patch = 3.5; /* m: half the patch that counts */
 static const double middle = 9;
 
@@ -21,7 +21,8 @@ static const double middle = 9;
 static double retreat(const struct wall *w)
 {
     char text[2048];
-    double n[3], length = sqrt(w->normal[0] * w->normal[0] + w->normal[1] * w->normal[1] + w->normal[2] * w->normal[2]);
+    double n[3], length = sqrt(w->normal[0] * w->normal[0] + w->normal[1] * w->normal[1] +
+                               w->normal[2] * w->normal[2]);
     for (int a = 0; a < 3; a++)
         n[a] = w->normal[a] / length;
     snprintf(text, sizeof text,
@@ -37,12 +38,13 @@ static double retreat(const struct wall *w)
              "%s"
              "strata: [{weak_m_per_kyr: 0.2, strong_m_per_kyr: 0.002}]\n"
              "paint:\n" /* The domain's own sides do not erode. */
-             "  - {shape: {difference: [box: {min_m: [-1, -1, -1], max_m: [19, 19, 19]}, box: {min_m: [1.5, 1.5, 1.5], "
+             "  - {shape: {difference: [box: {min_m: [-1, -1, -1], max_m: [19, 19, 19]}, box: {min_m: [1.5, "
+             "1.5, 1.5], "
              "max_m: [16.5, 16.5, 16.5]}]}, inert: true}\n"
              "wind: {direction: [%g, %g, %g], abrasion: %g}\n",
-             w->frames + 1, w->years_per_frame, SIZE, SIZE, SIZE, w->h, middle, middle, middle, n[0], n[1], n[2],
-             w->screen ? "    - box: {min_m: [16, 0, 0], max_m: [17, 18, 18], inert: true}\n" : "", w->wind[0], w->wind[1],
-             w->wind[2], w->abrasion);
+             w->frames + 1, w->years_per_frame, SIZE, SIZE, SIZE, w->h, middle, middle, middle, n[0], n[1],
+             n[2], w->screen ? "    - box: {min_m: [16, 0, 0], max_m: [17, 18, 18], inert: true}\n" : "",
+             w->wind[0], w->wind[1], w->wind[2], w->abrasion);
     struct sim s = sim_begin(text);
     struct frame first = sim_output(&s);
     for (int f = 0; f < w->frames; f++)
@@ -70,7 +72,8 @@ static double retreat(const struct wall *w)
     for (size_t i = 0; i < first.rock.n; i++) {
         const float *P = &first.rock.P[4 * i];
         double x[3] = {(double)P[0] - middle, (double)P[1] - middle, (double)P[2] - middle};
-        double along_t = x[0] * t[0] + x[1] * t[1] + x[2] * t[2], along_u = x[0] * u[0] + x[1] * u[1] + x[2] * u[2];
+        double along_t = x[0] * t[0] + x[1] * t[1] + x[2] * t[2],
+               along_u = x[0] * u[0] + x[1] * u[1] + x[2] * u[2];
         if (fabs(along_t) < patch && fabs(along_u) < patch && first.rock.rate_factor[i] > 0)
             lost += (double)(first.rock.viability[i] - left[first.rock.id[i]]);
     }
@@ -110,12 +113,16 @@ static void walls_lose_two_metres_in_ten_thousand_years(void **state)
                 int frames;
             } clock[] = {{500, 20}, {2500, 4}};
             for (size_t c = 0; c < 2; c++) {
-                struct wall w = {.h = spacing[h], .years_per_frame = clock[c].years, .frames = clock[c].frames, .wind = {1, 0, 0}};
+                struct wall w = {.h = spacing[h],
+                                 .years_per_frame = clock[c].years,
+                                 .frames = clock[c].frames,
+                                 .wind = {1, 0, 0}};
                 memcpy(w.normal, faces[f].normal, sizeof w.normal);
                 char what[128];
                 if ((c == 1 && h != 1) || (h == 2 && f > 1))
                     continue;
-                snprintf(what, sizeof what, "%s, spacing %.3f m, %g years a frame", faces[f].name, w.h, w.years_per_frame);
+                snprintf(what, sizeof what, "%s, spacing %.3f m, %g years a frame", faces[f].name, w.h,
+                         w.years_per_frame);
                 right &= expect(what, retreat(&w), 2.0);
             }
         }
@@ -125,7 +132,12 @@ static void walls_lose_two_metres_in_ten_thousand_years(void **state)
 static void wind_takes_more_from_the_faces_it_meets(void **state)
 {
     const double k = 0.75;
-    struct wall w = {.h = 0.5, .normal = {1, 0, 0}, .years_per_frame = 500, .frames = 10, .abrasion = k, .wind = {-1, 0, 0}};
+    struct wall w = {.h = 0.5,
+                     .normal = {1, 0, 0},
+                     .years_per_frame = 500,
+                     .frames = 10,
+                     .abrasion = k,
+                     .wind = {-1, 0, 0}};
     int right = 1;
     (void)state;
     right &= expect("across the wind", retreat(&w), 1.0 * (1 + k));

@@ -1,0 +1,50 @@
+#!/bin/sh
+# A disk that fills: exit code 4, one line that names the file, nothing half-written under a final name; with room, the same
+# command finishes with the same bytes. Needs root, for a small tmpfs.
+set -u
+job=$HOODOO_TOP/tests/restart/twelve.yaml
+ok() { echo "ok $1"; }
+not_ok() {
+    echo "not ok $1"
+    sed 's/^/# /' err | tail -n 5
+}
+check() {
+    name=$1
+    shift
+    if "$@"; then ok "$name"; else not_ok "$name"; fi
+}
+tree() {
+    (cd "$1" && find . -type f ! -path './log/*' -exec sha256sum {} + | sort -k 2)
+}
+
+mkdir -p disk
+if ! mount -t tmpfs -o size=4k tmpfs disk 2>/dev/null; then
+    echo "ok a full disk # skipped: no tmpfs can be mounted here"
+    exit 0
+fi
+trap 'umount disk' EXIT
+"$HOODOO" run "$job" --out whole --progress none 2>err || { not_ok "an uninterrupted run"; exit 1; }
+tree whole >whole.sums
+
+for kb in 40 80 300 900 1700 2900 3900; do
+    umount disk
+    mount -t tmpfs -o "size=${kb}k" tmpfs disk
+    "$HOODOO" run "$job" --out disk/out --progress none 2>err
+    code=$?
+    grep -vE '^hoodoo: (about|continuing|device time) ' err >errors
+    check "$kb kB: exit code 4" [ $code = 4 ]
+    check "$kb kB: one line" [ "$(wc -l <errors)" = 1 ]
+    check "$kb kB: it names the file and says why" grep -qE '^hoodoo: disk/out/[^ :]*: .*No space left on device' errors
+    cp errors "errors.$kb"
+    tree disk/out >part.sums
+    # Whatever has its final name is what it is in the whole run, or a checkpoint that the whole run has removed since.
+    check "$kb kB: nothing half-written" [ -z "$(grep -vxFf whole.sums part.sums | grep -v ' ./checkpoint/twelve\.10[01][0-9]\.ckpt$')" ]
+    for c in disk/out/checkpoint/*.ckpt; do
+        [ ! -e "$c" ] || check "$kb kB: $(basename "$c") is sound" sh -c '"$1" inspect "$2" >/dev/null 2>err' - "$HOODOO" "$c"
+    done
+    mount -o remount,size=16m disk
+    "$HOODOO" run "$job" --out disk/out --progress none 2>err
+    check "$kb kB, then room: it finishes" [ $? = 0 ]
+    tree disk/out >part.sums
+    check "$kb kB, then room: the same bytes" cmp -s whole.sums part.sums
+done

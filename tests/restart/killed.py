@@ -1,0 +1,75 @@
+"""kill -9 at every frame and at random moments, then the same command again: the same bytes, and nothing half-written left."""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import sys
+import time
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from twelve import *
+
+SEED = int(os.environ.get("SEED", "1"))
+MOMENTS = int(sys.argv[1]) if len(sys.argv) > 1 else 6
+truth = Truth()
+
+
+def whole_frames(out):
+    """Every manifest there is must vouch for what lies beside it, right after the kill."""
+    frames = [name for name in os.listdir(os.path.join(out, "frames")) if name.endswith(".json")] if os.path.isdir(
+        os.path.join(out, "frames")) else []
+    here = tree(out)
+    for name in frames:
+        number = name.split(".")[1]
+        for path in truth.whole:
+            if number in path and not path.startswith("checkpoint/") and here.get(path) != truth.whole[path]:
+                return f"{path} is not whole though frame {number} counts as done"
+    return ""
+
+
+def go_on(name, notes=""):
+    code, said = run("killed")
+    return ok(code == 0 and truth.differences("killed") == "", name, code, truth.differences("killed"), notes, said)
+
+
+for frame in range(FIRST, LAST + 1):
+    shutil.rmtree("killed", ignore_errors=True)
+    held = Held("killed")
+    held.hold_at(frame)
+    held.kill(signal.SIGKILL)
+    code, _ = held.end()
+    bad = whole_frames("killed")
+    ok(code == -signal.SIGKILL and bad == "" and os.path.exists(manifest("killed", frame)), f"killed after frame {frame}: it is whole", code, bad)
+    go_on(f"killed after frame {frame}: run again, the same bytes")
+
+
+def kill_after(seconds):
+    child = subprocess.Popen(command("killed"), stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+    time.sleep(seconds)
+    child.kill()
+    return child.wait(PATIENCE)
+
+
+# Moments over the whole length of a run, each on what the one before left: some fall in the middle of a write.
+start = time.monotonic()
+shutil.rmtree("killed")
+run("killed")
+length = time.monotonic() - start
+moments = random.Random(SEED)
+killed = temporary = 0
+for i in range(MOMENTS):
+    shutil.rmtree("killed")
+    seconds = [moments.uniform(0, length) for _ in range(3)]
+    for s in seconds:
+        killed += kill_after(s) == -signal.SIGKILL
+        temporary += any(".tmp-" in path for path in tree("killed")) if os.path.isdir("killed") else 0
+        bad = whole_frames("killed") if os.path.isdir("killed") else ""
+        if bad:
+            break
+    ok(bad == "", f"killed after {', '.join(f'{s:.3f}' for s in seconds)} s (seed {SEED}): frames that count are whole", bad)
+    go_on("and run again, the same bytes")
+print(f"# {killed} of {3 * MOMENTS} runs were killed before their end, {temporary} while they wrote a file")
+finish()

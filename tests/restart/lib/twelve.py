@@ -1,0 +1,168 @@
+"""Runs of twelve.yaml (12 frames), stopped where a test wants them stopped, and comparisons of what they leave."""
+
+import fcntl
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import time
+
+HOODOO = os.environ["HOODOO"]
+JOB = os.path.join(os.environ["HOODOO_TOP"], "tests/restart/twelve.yaml")
+FIRST, LAST = 1001, 1012
+STOPPED, CHECKPOINT, OUTPUT = 85, 7, 4
+PATIENCE = 120  # seconds for anything that takes one or two
+
+
+def command(out, *options):
+    return [HOODOO, "run", JOB, "--out", out, "--progress", "plain", *options]
+
+
+def run(out, *options, env=None):
+    """To its end: exit code and stderr."""
+    done = subprocess.run(command(out, *options), stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True,
+                          timeout=PATIENCE, env={**os.environ, **env} if env else None)
+    return done.returncode, done.stderr
+
+
+def manifest(out, frame):
+    return os.path.join(out, "frames", f"twelve.{frame}.json")
+
+
+def checkpoint(out, frame):
+    return os.path.join(out, "checkpoint", f"twelve.{frame}.ckpt")
+
+
+def checkpoints(out):
+    """Frames, oldest first."""
+    return sorted(int(name.split(".")[1]) for name in os.listdir(os.path.join(out, "checkpoint")) if name.endswith(".ckpt"))
+
+
+class Held:
+    """A run that says its lines into a pipe that holds one: it cannot go past a line before the one before it is read."""
+
+    def __init__(self, out, *options):
+        read, write = os.pipe2(os.O_DIRECT)  # packets: lines do not share the pipe's only page
+        fcntl.fcntl(write, fcntl.F_SETPIPE_SZ, 4096)
+        self.child = subprocess.Popen(command(out, *options), stderr=write, stdin=subprocess.DEVNULL)
+        os.close(write)
+        self.read, self.out, self.said = read, out, []
+
+    def line(self):
+        """The next one; "" at the end."""
+        packet = os.read(self.read, 4096).decode()
+        self.said.append(packet)
+        return packet
+
+    def line_of(self, start):
+        """Reads until a line that starts so."""
+        while not self.line().startswith(start):
+            if self.said[-1] == "":
+                raise RuntimeError(f"it ended before it said '{start}': {self.said}")
+
+    def hold_at(self, frame):
+        """Returns when `frame` is written and the run waits to say so: it has not yet looked for a signal."""
+        before = {FIRST: "hoodoo: frames ", FIRST + 1: "hoodoo: about "}
+        self.line_of(before.get(frame, f"hoodoo: frame {frame - 2},"))
+        for _ in range(PATIENCE * 500):
+            if os.path.exists(manifest(self.out, frame)):
+                return
+            time.sleep(0.002)
+        raise RuntimeError(f"no frame {frame}")
+
+    def kill(self, number):
+        self.child.send_signal(number)
+
+    def end(self):
+        """Lets it run: exit code and all it said."""
+        while self.line():
+            pass
+        os.close(self.read)
+        return self.child.wait(PATIENCE), "".join(self.said)
+
+
+def digest(path):
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).digest()
+
+
+def tree(out):
+    """Every file but the log's, with its digest."""
+    found = {}
+    for folder, _, names in os.walk(out):
+        for name in names:
+            path = os.path.relpath(os.path.join(folder, name), out)
+            if not path.startswith("log/"):
+                found[path] = digest(os.path.join(out, path))
+    return found
+
+
+class Truth:
+    """What an uninterrupted run leaves, and the checkpoint of every frame."""
+
+    def __init__(self):
+        for out, options in (("whole", ()), ("every", ("--set", "checkpoint.every=1", "--set", "checkpoint.keep=99"))):
+            code, said = run(out, *options)
+            if code:
+                sys.exit(f"not ok an uninterrupted run: exit code {code}\n{said}")
+        self.whole = tree("whole")
+        self.checkpoint = {frame: digest(checkpoint("every", frame)) for frame in checkpoints("every")}
+
+    def differences(self, out):
+        """"" if the folder is what an uninterrupted run leaves. A stop may have left a checkpoint of another frame among those
+        kept: it has to be the one that frame has in any run."""
+        here = tree(out)
+        bad = []
+        kept = checkpoints(out)
+        if len(kept) != 2 or kept[-1] != LAST:
+            bad.append(f"checkpoints {kept}")
+        for frame in kept:
+            path = f"checkpoint/twelve.{frame}.ckpt"
+            if here.pop(path) != self.checkpoint[frame]:
+                bad.append(f"{path} differs")
+        whole = {path: value for path, value in self.whole.items() if not path.startswith("checkpoint/")}
+        for path in sorted(whole.keys() | here.keys()):
+            if path not in here:
+                bad.append(f"{path} is missing")
+            elif path not in whole:
+                bad.append(f"{path} is too much")
+            elif whole[path] != here[path]:
+                bad.append(f"{path} differs")
+        return "; ".join(bad)
+
+
+failures = 0
+
+
+def ok(good, name, *notes):
+    global failures
+    print("ok" if good else "not ok", name, flush=True)
+    if not good:
+        failures += 1
+        for note in notes:
+            for line in str(note).splitlines():
+                print("#", line, flush=True)
+    return good
+
+
+def stop(out, frame, number, times=1):
+    """A run stopped by a signal once `frame` is written: exit code and what it said."""
+    held = Held(out)
+    held.hold_at(frame)
+    for _ in range(times):
+        held.kill(number)
+    return held.end()
+
+
+def errors(said):
+    """The lines that are neither progress nor information nor warnings: those after the last of them."""
+    return [line for line in said.splitlines() if not line.startswith(
+        ("hoodoo: frame", "hoodoo: about ", "hoodoo: continuing ", "hoodoo: device time", "hoodoo: warning: ", "hoodoo: all "))]
+
+
+def finish():
+    sys.exit(1 if failures else 0)
+
+
+SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1)
