@@ -13,12 +13,12 @@
 #include "base/status.h"
 
 /* The call succeeds; otherwise the test fails with its sentence. */
-#define assert_ok(call)                                                                                        \
-    do {                                                                                                       \
-        if ((call) != OK) {                                                                                    \
-            print_error("%s: %s\n", #call, status_message());                                                  \
-            _fail(__FILE__, __LINE__);                                                                         \
-        }                                                                                                      \
+#define assert_ok(call)                                                                                      \
+    do {                                                                                                     \
+        if ((call) != OK) {                                                                                  \
+            print_error("%s: %s\n", #call, status_message());                                                \
+            _fail(__FILE__, __LINE__);                                                                       \
+        }                                                                                                    \
     } while (0)
 
 #endif

@@ -1,5 +1,5 @@
-// The rate at which bare rock of a layer retreats at unit intensity, m/kyr: weak until its grains interlock (Arenite eq. 2).
-// layers[l] = (weak, strong, I in Pa, 0).
+// The rate at which bare rock of a layer retreats at unit intensity, m/kyr: weak until its grains interlock
+// (Arenite eq. 2). layers[l] = (weak, strong, I in Pa, 0).
 
 float retreat(vec4 layer, float rate_factor, float interlock_factor, float stress, float band)
 {

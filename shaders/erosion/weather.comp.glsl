@@ -1,10 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Viability of the surface falls by erodibility times intensity (Arenite eqs. 1, 7, 8, 12), in retreat over the spacing.
+// Viability of the surface falls by erodibility times intensity (Arenite eqs. 1, 7, 8, 12), in retreat over
+// the spacing.
 //
-// Rock vanishes voxel by voxel over its faces, so that a slanted front would retreat at max |n_i| of the rate: the division
-// by it makes the retreat the same in every direction. What a particle did not need of its step is left in `unspent` for
-// those behind it (erosion/carry).
+// A bare face of a voxel stands for |n_i| h^2 of the surface, n being the surface's normal and i the face's
+// axis: over any plane these add up to its area, so that a front loses its rate times its area whatever its
+// direction and however rough the voxels make it. What was left of the step when a particle was gone goes to
+// `unspent`, for its neighbours (erosion/carry).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -19,6 +21,7 @@ WRITE_F(7, unspent)
 WRITE_U(8, counts)
 PARAMS(erosion_params)
 #include "particles/voxel.glsl"
+#include "particles/empty.glsl"
 
 float deflation(float t)
 {
@@ -26,7 +29,8 @@ float deflation(float t)
     return k.deflation * exp(-(pull * pull - k.cohesion * k.cohesion) / (2.0 * k.strength * k.strength));
 }
 
-// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the particle's own bump.
+// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
+// particle's own bump.
 float reached_by_wind(vec3 x, vec3 n)
 {
     vec3 wind = vec3(k.wind_x, k.wind_y, k.wind_z), at = x + 1.5 * k.h * n - 0.5 * k.h * wind;
@@ -35,12 +39,19 @@ float reached_by_wind(vec3 x, vec3 n)
         ivec3 v = ivec3(floor(at / k.h));
         if (!voxel_inside(v))
             return v.z < 0 ? 0.0 : 1.0;
-        uint c = voxel_index(v);
-        if (LOAD_U(start, c) != LOAD_U(start, c + 1u))
+        if (!voxel_empty(v))
             return 0.0;
         at -= k.h * wind;
     }
     return 1.0;
+}
+
+// The surface a voxel's bare faces stand for, in units of h^2.
+float bare_area(ivec3 v, vec3 n)
+{
+    return dot(abs(n), vec3(float(voxel_empty(v + ivec3(1, 0, 0))) + float(voxel_empty(v - ivec3(1, 0, 0))),
+                            float(voxel_empty(v + ivec3(0, 1, 0))) + float(voxel_empty(v - ivec3(0, 1, 0))),
+                            float(voxel_empty(v + ivec3(0, 0, 1))) + float(voxel_empty(v - ivec3(0, 0, 1)))));
 }
 
 void main()
@@ -52,13 +63,13 @@ void main()
     float rate = LOAD_F(erodibility, self);
     if (rate <= 0.0)
         return;
-    vec3 n = LOAD_V(normal, self).xyz;
+    vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
     float against = -dot(n, vec3(k.wind_x, k.wind_y, k.wind_z));
     float intensity = deflation(LOAD_F(stress, self));
     if (k.abrasion > 0.0 && against > 0.0)
-        intensity += k.abrasion * against * reached_by_wind(LOAD_V(position, self).xyz, n);
-    float step = intensity * k.dt / (k.h * max(abs(n.x), max(abs(n.y), abs(n.z))));
-    float before = AT(viability, self), after = before - rate * step;
+        intensity += k.abrasion * against * reached_by_wind(x, n);
+    float step = intensity * k.dt / k.h;
+    float before = AT(viability, self), after = before - rate * step * bare_area(voxel_of(x), n);
     if (after <= 0.0) {
         AT(unspent, self) = step * (-after / (before - after));
         atomicAdd(AT(counts, COUNT_ERODED), 1u);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One sweep of the distance outwards from the surface: |grad phi| = 1, upwind (Rouy and Tourin 1992). Samples beside the surface
-// keep what field/front gave them.
+// One sweep of the distance outwards from the surface: |grad phi| = 1, upwind (Rouy and Tourin 1992). Samples
+// beside the surface keep what field/front gave them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -16,7 +16,7 @@ void main()
     if (i >= k.n)
         return;
     ivec3 c = lattice_of(i), last = ivec3(k.fx, k.fy, k.fz) - 1;
-    float own = LOAD_F(before, i), sign_own = own > 0.0 ? 1.0 : -1.0, far = 3.0 * k.voxel;
+    float own = LOAD_F(before, i), sign_own = own > 0.0 ? 1.0 : -1.0, far = 3.0 * k.h;
     vec3 near;
     bool beside = false;
     for (int axis = 0; axis < 3; axis++) {
@@ -28,7 +28,7 @@ void main()
     }
     if (!beside) {
         float a = min(near.x, min(near.y, near.z)), e = max(near.x, max(near.y, near.z));
-        float b = near.x + near.y + near.z - a - e, h = k.voxel;
+        float b = near.x + near.y + near.z - a - e, h = k.h;
         float d = a + h;
         if (d > b) {
             d = 0.5 * (a + b + sqrt(max(2.0 * h * h - (a - b) * (a - b), 0.0)));

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Signed distance of the samples beside the surface, where the rock's share is 1/2: along each axis that crosses it by linear
-// interpolation, and from those to the plane through the crossings. All others are 3 voxels away until field/distance says more.
+// Signed distance of the samples beside the surface, where the rock's share is 1/2: along each axis that
+// crosses it by linear interpolation, and from those to the plane through the crossings. All others are 3
+// voxels away until field/distance says more.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -29,5 +30,5 @@ void main()
             inverse += 1.0 / max(nearest * nearest, 1e-6);
     }
     float away = inverse > 0.0 ? inversesqrt(inverse) : 3.0;
-    AT(distance_out, i) = (own > 0.0 ? away : -away) * k.voxel;
+    AT(distance_out, i) = (own > 0.0 ? away : -away) * k.h;
 }

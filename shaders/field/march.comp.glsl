@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One ray a pixel into the distance field: where it meets the rock, the normal there, and whether the sun does.
-// hit = (P, camera-plane depth or -1); facing = (N, sunlit 0 or 1).
+// One ray a pixel into the distance field: where it meets the rock, the normal there, and whether the sun
+// does. hit = (P, camera-plane depth or -1); facing = (N, sunlit 0 or 1).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What lies under each pixel: the fields there, and the stone's colour under sun and sky.
-// fields = (stress, von Mises, viability, erodibility); color = linear RGB and alpha; ids = layer, phase of the nearest particle.
+// fields = (stress, von Mises, viability, erodibility); color = linear RGB and alpha; ids = layer, phase of
+// the nearest particle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// REDUCE_THREADS partial sums of floats, each over every REDUCE_THREADS-th value: the same tree on every device.
+// REDUCE_THREADS partial sums of floats, each over every REDUCE_THREADS-th value: the same tree on every
+// device.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

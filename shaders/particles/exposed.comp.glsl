@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Surface particles are those with an empty voxel at a face of theirs (Arenite 5.1). Below the ground is not empty.
+// Surface particles are those with an empty voxel at a face of theirs (Arenite 5.1). Below the ground is not
+// empty.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -9,16 +10,7 @@ READ_U(1, start)
 WRITE_U(2, exposed)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
-
-bool empty(ivec3 v)
-{
-    if (v.z < 0)
-        return false;
-    if (!voxel_inside(v))
-        return true;
-    uint c = voxel_index(v);
-    return LOAD_U(start, c) == LOAD_U(start, c + 1u);
-}
+#include "particles/empty.glsl"
 
 void main()
 {
@@ -26,7 +18,7 @@ void main()
     if (i >= k.n)
         return;
     ivec3 v = voxel_of(LOAD_V(position, i).xyz);
-    bool bare = empty(v + ivec3(1, 0, 0)) || empty(v - ivec3(1, 0, 0)) || empty(v + ivec3(0, 1, 0)) ||
-                empty(v - ivec3(0, 1, 0)) || empty(v + ivec3(0, 0, 1)) || empty(v - ivec3(0, 0, 1));
+    bool bare = voxel_empty(v + ivec3(1, 0, 0)) || voxel_empty(v - ivec3(1, 0, 0)) || voxel_empty(v + ivec3(0, 1, 0)) ||
+                voxel_empty(v - ivec3(0, 1, 0)) || voxel_empty(v + ivec3(0, 0, 1)) || voxel_empty(v - ivec3(0, 0, 1));
     AT(exposed, i) = bare ? 1u : 0u;
 }

@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Normals of surface particles: the direction in which their 20 nearest neighbours spread least (Arenite 5.1, after
-// Hoppe et al. 1992), pointing away from the rock around. Neighbours are looked for in the 5^3 voxels around.
+// Normals of surface particles: the direction in which their 20 nearest neighbours spread least (Arenite 5.1,
+// after Hoppe et al. 1992), pointing away from the rock around. Neighbours are looked for in the 5^3 voxels
+// around.
 //
-// The distance of the 20th neighbour is found by counting into 16 bins, then into 16 parts of the bin it falls in: exact
-// to 0.025 h^2, without a list to sort.
+// The distance of the 20th neighbour is found by counting into 16 bins, then into 16 parts of the bin it
+// falls in: exact to 0.025 h^2, without a list to sort.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -54,7 +55,8 @@ uint reached(uvec4 bins, inout uint before)
     return found;
 }
 
-// Unit eigenvector of the smallest eigenvalue of [a.x b.x b.y; b.x a.y b.z; b.y b.z a.z]; 0 if it is not unique.
+// Unit eigenvector of the smallest eigenvalue of [a.x b.x b.y; b.x a.y b.z; b.y b.z a.z]; 0 if it is not
+// unique.
 vec3 least_spread(vec3 a, vec3 b)
 {
     float q = (a.x + a.y + a.z) / 3.0;

@@ -3,11 +3,12 @@
 //   READ_F(0, mass)       a buffer of floats that this kernel reads      LOAD_F(mass, i)
 //   READ_V(1, position)   of vec4                                         LOAD_V(position, i)
 //   READ_U(2, start)      of uint                                         LOAD_U(start, i)
-//   WRITE_F(3, sum)       one that it writes (_V and _U likewise)         AT(sum, i) = x; atomicAdd(AT(count, i), 1u)
+//   WRITE_F(3, sum)       one that it writes (_V and _U likewise)         AT(sum, i) = x; atomicAdd(AT(count,
+//   i), 1u)
 //
-// One declaration a line: the build reads them too. lavapipe gathers from texel buffers three to seven times faster
-// than it loads from storage buffers; other devices do not care. A buffer may be bound both ways in one dispatch only if
-// each invocation touches no element but its own.
+// One declaration a line: the build reads them too. lavapipe gathers from texel buffers three to seven times
+// faster than it loads from storage buffers; other devices do not care. A buffer may be bound both ways in
+// one dispatch only if each invocation touches no element but its own.
 
 #extension GL_EXT_scalar_block_layout : require
 
@@ -43,11 +44,11 @@ layout(local_size_x = 64) in;
 layout(std140, binding = 0) uniform addresses_block { uvec4 address[16]; };
 #define REFERENCE_(b, name, type, size)                                                         \
     layout(buffer_reference, std430, buffer_reference_align = size) buffer name##_ref { type d[]; }; \
-    const uint name##_at = b;
+    const uint name##_binding = b;
 #define READ_F(b, name) REFERENCE_(b, name, float, 4)
 #define READ_V(b, name) REFERENCE_(b, name, vec4, 16)
 #define READ_U(b, name) REFERENCE_(b, name, uint, 4)
-#define AT(name, i) name##_ref(address[name##_at].xy).d[i]
+#define AT(name, i) name##_ref(address[name##_binding].xy).d[i]
 #define LOAD_F(name, i) AT(name, i)
 #define LOAD_V(name, i) AT(name, i)
 #define LOAD_U(name, i) AT(name, i)
@@ -62,7 +63,8 @@ layout(std140, binding = 0) uniform addresses_block { uvec4 address[16]; };
 #define WRITE_V(b, name) WRITE_(b, name, vec4)
 #define WRITE_U(b, name) WRITE_(b, name, uint)
 
-// The kernel's parameters, a struct of shared/params.h whose first member is n, the number of invocations that work.
+// The kernel's parameters, a struct of shared/params.h whose first member is n, the number of invocations
+// that work.
 #define PARAMS(type) layout(push_constant, scalar) uniform params_block { type k; };
 
 // This invocation's number. Grids are two-dimensional past 65535 groups.

@@ -1,5 +1,5 @@
-/* Parameters of the kernels, read by both languages. Scalars only, so that layouts cannot differ. At most 128 bytes.
- * `n` is always the number of invocations that work. */
+/* Parameters of the kernels, read by both languages. Scalars only, so that layouts cannot differ. At most 128
+ * bytes. `n` is always the number of invocations that work. */
 #ifndef HOODOO_PARAMS_H
 #define HOODOO_PARAMS_H
 
@@ -56,6 +56,13 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
+/* The share of space that is rock around a voxel's middle, from its own fill, its 6 face and its 12 edge
+ * neighbours': the surface is where this is 1/2. The weights are those of (1 - r^2 / 4 h^2)^3, rounded so
+ * that they add up to 1; on a plane face the surface lies exactly where the fill puts it. */
+#define SHARE_SELF 0.2f
+#define SHARE_FACE (1.0f / 12.0f)
+#define SHARE_EDGE 0.025f
+
 /* ---- stress: hexahedra of 2 h; nodes and cells have a margin of one empty cell on every side */
 
 #define STRESS_FILL_FLOOR 0.05f
@@ -69,7 +76,8 @@ struct stress_params {
 };
 SHARED_SIZE(stress_params, 32)
 
-/* Words of the solver's scalar buffer; the energy that each iteration took out of the error begins at CG_ENERGY. */
+/* Words of the solver's scalar buffer; the energy that each iteration took out of the error begins at
+ * CG_ENERGY. */
 #define CG_RZ 0u
 #define CG_ALPHA 1u
 #define CG_BETA 2u
@@ -117,12 +125,10 @@ struct field_params {
     uint n;
     uint nx, ny, nz; /* voxels of the domain (particle index) */
     float h;         /* m */
-    uint fx, fy, fz; /* voxels of the field */
-    float voxel;     /* m: of the field */
-    float origin_x, origin_y, origin_z; /* m: centre of its voxel 0 */
-    float radius;    /* m: of the kernel */
+    uint fx, fy, fz; /* samples of the field: the voxels and a margin */
+    uint margin;     /* voxels */
 };
-SHARED_SIZE(field_params, 52)
+SHARED_SIZE(field_params, 36)
 
 struct march_params {
     uint n;

@@ -1,10 +1,11 @@
-// K u at a node: linear elasticity on trilinear hexahedra, one element matrix for all cells, scaled by their stiffness.
+// K u at a node: linear elasticity on trilinear hexahedra, one element matrix for all cells, scaled by their
+// stiffness.
 //
 // With N_a the product of (1 -+ x) / 2 along the axes, the blocks of the element matrix are
 //   K_ab^ii = (lambda + 2 mu) s_i m_j m_k + mu (s_j m_i m_k + s_k m_i m_j)
 //   K_ab^ij = (lambda g_ai g_bj + mu g_aj g_bi) m_k / 4
-// where along each axis s = 1, m = 1/3 if a and b agree, s = -1, m = 1/6 if not, and g = -1 at the low end, 1 at the high end. These
-// have ten distinct magnitudes; everything else below is a constant once unrolled.
+// where along each axis s = 1, m = 1/3 if a and b agree, s = -1, m = 1/6 if not, and g = -1 at the low end, 1
+// at the high end. These have ten distinct magnitudes; everything else below is a constant once unrolled.
 // Needs READ_V(u), READ_F(fill), k.lambda, k.mu, k.dx and stress/grid.glsl.
 
 #define SAME(a, b) ((a) == (b))

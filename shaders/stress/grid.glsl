@@ -1,5 +1,6 @@
-// Cells and nodes of the stress grid, with a margin of one empty cell around, so that no neighbour needs a test.
-// Cell (i, j, k) has the nodes (i..i+1, j..j+1, k..k+1); the domain's own begin at 1. Needs k.cx, k.cy, k.cz.
+// Cells and nodes of the stress grid, with a margin of one empty cell around, so that no neighbour needs a
+// test. Cell (i, j, k) has the nodes (i..i+1, j..j+1, k..k+1); the domain's own begin at 1. Needs k.cx, k.cy,
+// k.cz.
 
 uint cell_index(ivec3 c)
 {

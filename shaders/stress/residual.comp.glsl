@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// r = b - K u, the inverse diagonal (in r.w), and r . z for z = r / diagonal. b is the weight of the cells around.
+// r = b - K u, the inverse diagonal (in r.w), and r . z for z = r / diagonal. b is the weight of the cells
+// around.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Stress at the particles: trilinear between the centres of cells that hold rock, weighted by how much they hold.
+// Stress at the particles: trilinear between the centres of cells that hold rock, weighted by how much they
+// hold.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 /* What a wrangler reads: one line an event, on stderr and in the run's log file.
  *
- * Control characters in arguments become spaces, and stdout is never used: there, farm managers obey what a line says.
+ * Control characters in arguments become spaces, and stdout is never used: there, farm managers obey what a
+ * line says.
  * Threads   safe; lines do not mix.
  */
 #ifndef HOODOO_LOG_H
@@ -13,7 +14,8 @@
 /* Also append every line (with the time of day) to `path`; NULL closes. E_OUTPUT if it cannot be opened. */
 MUST_USE status log_open(const char *path);
 
-/* Called with true just before and false just after a line goes to stderr, so that a progress bar can step aside. */
+/* Called with true just before and false just after a line goes to stderr, so that a progress bar can step
+ * aside. */
 void log_set_guard(void (*guard)(bool before));
 
 void log_info(const char *format, ...) PRINTF_LIKE(1, 2);

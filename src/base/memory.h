@@ -6,8 +6,8 @@
 
 #include "base/status.h"
 
-/* n zeroed items of `size` bytes in *out (a pointer to a pointer). E_MEMORY names `what` and the bytes asked for.
- * n = 0 gives a valid pointer. Freed with free(). */
+/* n zeroed items of `size` bytes in *out (a pointer to a pointer). E_MEMORY names `what` and the bytes asked
+ * for. n = 0 gives a valid pointer. Freed with free(). */
 MUST_USE status memory_alloc(size_t n, size_t size, const char *what, void *out);
 
 /* Room for at least `want` items in *array, growing by doubling; *capacity is kept. New items are zeroed. */
@@ -16,7 +16,8 @@ MUST_USE status memory_grow(void *array, size_t *capacity, size_t want, size_t s
 /* A copy of `text`, freed with free(). */
 MUST_USE status memory_strdup(const char *text, char **out);
 
-/* Host memory this process may still use, in bytes: MemAvailable, or the control group's limit if that is lower. */
+/* Host memory this process may still use, in bytes: MemAvailable, or the control group's limit if that is
+ * lower. */
 size_t memory_available(void);
 
 #endif

@@ -38,7 +38,8 @@ status range_parse(const char *text, struct frame_range *out)
         }
     }
     if (!good || *p)
-        return fail(E_USAGE, "'%.40s' is not a frame range; write FIRST-LAST or FIRST-LASTxSTEP, such as 1001-1110x2",
+        return fail(E_USAGE,
+                    "'%.40s' is not a frame range; write FIRST-LAST or FIRST-LASTxSTEP, such as 1001-1110x2",
                     text);
     if (r.last < r.first)
         return fail(E_USAGE, "the frame range '%.40s' ends before it begins", text);

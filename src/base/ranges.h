@@ -12,7 +12,8 @@ struct frame_range {
     int step;        /* >= 1 */
 };
 
-/* E_USAGE says what is wrong with `text`; the caller's message should add where it stands. Frames are -999999..9999999. */
+/* E_USAGE says what is wrong with `text`; the caller's message should add where it stands. Frames are
+ * -999999..9999999. */
 MUST_USE status range_parse(const char *text, struct frame_range *out);
 
 /* "1001-1110x2" in `out`; returns out. */

@@ -29,8 +29,8 @@ const char *status_message(void)
 const char *status_meaning(status st)
 {
     switch (st) {
-#define STATUS_CASE(name, code, text)                                                                          \
-    case name:                                                                                                 \
+#define STATUS_CASE(name, code, text)                                                                        \
+    case name:                                                                                               \
         return text;
         STATUS_MAP(STATUS_CASE)
 #undef STATUS_CASE

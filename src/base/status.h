@@ -1,11 +1,11 @@
 /* Error codes, and the one sentence that explains the last one.
  *
- * Whoever detects an error describes it with fail(): what, where (file, key path, frame), with numbers, and what
- * to do. Everyone above only forwards the code with TRY(). main() prints the sentence once; a status's value is
- * the exit code.
+ * Whoever detects an error describes it with fail(): what, where (file, key path, frame), with numbers, and
+ * what to do. Everyone above only forwards the code with TRY(). main() prints the sentence once; a status's
+ * value is the exit code.
  *
- * Threads   The sentence is per thread. A worker that hands its status to another thread must carry the sentence
- *           with it: copy status_message(), and say it again there with fail(st, "%s", text).
+ * Threads   The sentence is per thread. A worker that hands its status to another thread must carry the
+ *           sentence with it: copy status_message(), and say it again there with fail(st, "%s", text).
  */
 #ifndef HOODOO_STATUS_H
 #define HOODOO_STATUS_H
@@ -15,15 +15,15 @@ extern "C" {
 #endif
 
 /*       name            exit  meaning */
-#define STATUS_MAP(X)                                                                                          \
-    X(OK, 0, "done")                                                                                           \
-    X(E_USAGE, 2, "wrong usage or job file")                                                                   \
-    X(E_INPUT, 3, "input file missing, damaged or hostile")                                                    \
-    X(E_OUTPUT, 4, "output cannot be written")                                                                 \
-    X(E_MEMORY, 5, "out of memory")                                                                            \
-    X(E_DEVICE, 6, "no such device, or device lost")                                                           \
-    X(E_CHECKPOINT, 7, "checkpoint unusable, or of another job, version or device")                            \
-    X(E_NUMERIC, 8, "numbers blew up")                                                                         \
+#define STATUS_MAP(X)                                                                                        \
+    X(OK, 0, "done")                                                                                         \
+    X(E_USAGE, 2, "wrong usage or job file")                                                                 \
+    X(E_INPUT, 3, "input file missing, damaged or hostile")                                                  \
+    X(E_OUTPUT, 4, "output cannot be written")                                                               \
+    X(E_MEMORY, 5, "out of memory")                                                                          \
+    X(E_DEVICE, 6, "no such device, or device lost")                                                         \
+    X(E_CHECKPOINT, 7, "checkpoint unusable, or of another job, version or device")                          \
+    X(E_NUMERIC, 8, "numbers blew up")                                                                       \
     X(STOPPED, 85, "stopped after saving a checkpoint: run the same command again")
 
 typedef enum status {
@@ -50,10 +50,10 @@ const char *status_message(void);
 const char *status_meaning(status st);
 
 /* Forward any error to the function's `done:` label. Needs a local `status st`. */
-#define TRY(call)                                                                                              \
-    do {                                                                                                       \
-        if ((st = (call)) != OK)                                                                               \
-            goto done;                                                                                         \
+#define TRY(call)                                                                                            \
+    do {                                                                                                     \
+        if ((st = (call)) != OK)                                                                             \
+            goto done;                                                                                       \
     } while (0)
 
 #ifdef __cplusplus

@@ -27,7 +27,8 @@ void text_add(struct text *t, const char *format, ...)
     va_copy(again, args);
     int n = vsnprintf(NULL, 0, format, args);
     va_end(args);
-    if (n < 0 || t->failed || memory_grow(&t->data, &t->capacity, t->size + (size_t)n + 1, 1, "a text") != OK) {
+    if (n < 0 || t->failed ||
+        memory_grow(&t->data, &t->capacity, t->size + (size_t)n + 1, 1, "a text") != OK) {
         t->failed = true;
     } else {
         vsnprintf(t->data + t->size, (size_t)n + 1, format, again);

@@ -1,7 +1,8 @@
 /* A growing text, and JSON written into it.
  *
  * Calling sequence   struct text t = {0}; text_add(&t, ...); ...; if (t.failed) ...; text_free(&t);
- * Error handling     A failed allocation sets t.failed and makes later calls do nothing: check once at the end.
+ * Error handling     A failed allocation sets t.failed and makes later calls do nothing: check once at the
+ *                    end.
  * Ownership          t.data is t's; text_free() releases it, and {0} is a valid empty text.
  */
 #ifndef HOODOO_TEXT_H
@@ -29,8 +30,8 @@ void text_free(struct text *t);
 /* OK, or E_MEMORY if any call failed. */
 MUST_USE status text_status(const struct text *t);
 
-/* JSON, one member a line, two spaces a level. `key` is NULL inside arrays. Numbers are the shortest decimals that
- * read back as the same double; text is escaped; non-finite numbers become null. */
+/* JSON, one member a line, two spaces a level. `key` is NULL inside arrays. Numbers are the shortest decimals
+ * that read back as the same double; text is escaped; non-finite numbers become null. */
 void json_object(struct text *t, const char *key);
 void json_array(struct text *t, const char *key);
 void json_end_object(struct text *t);

@@ -1,4 +1,9 @@
-/* Blocks that nothing holds: parts of the rock with no face path to the ground. */
+/* Blocks that nothing holds: parts of the rock with no face path to the ground.
+ *
+ * Rock holds where it can be seen: a path goes through voxels whose middle lies inside the surface field.
+ * Particles that no such voxel on the ground's side touches fall, threads and crumbs below the resolution
+ * among them.
+ */
 #ifndef HOODOO_BLOCKS_H
 #define HOODOO_BLOCKS_H
 
@@ -7,7 +12,8 @@
 #include "particles/particles.h"
 
 struct blocks {
-    struct gpu_buffer *pointer, *other; /* uint [voxels] */
+    struct gpu_buffer *solid;           /* uint [voxels]: 1 inside the surface */
+    struct gpu_buffer *pointer, *other; /* uint [voxels]: towards a block's lowest voxel */
 };
 
 uint64_t blocks_bytes(const int voxels[3]);

@@ -3,10 +3,12 @@
  * Layout (little endian)
  *   magic "hoodoo.ckpt\0", format version
  *   sections: each a run of chunks of at most 4 MiB raw; a chunk is byte-shuffled by the item size and
- * compressed by zstd index: JSON: provenance, and each section's name, item size, count, XXH3 of the raw
- * bytes, and its chunks (offset, size) end: offset and size of the index, XXH3 of everything before the end,
- * magic The end is read first, so a torn file is refused before anything in it is believed. Every size is
- * checked against the file's.
+ *             compressed by zstd
+ *   index: JSON: provenance, and each section's name, item size, count, XXH3 of the raw bytes, and its chunks
+ *             (offset, size)
+ *   end: offset and size of the index, XXH3 of everything before the end, magic
+ * The end is read first, so a torn file is refused before anything in it is believed. Every size is checked
+ * against the file's.
  *
  * checkpoint/NAME.1010.ckpt is the state after frame 1010 was simulated: a run that continues begins with
  * frame 1011.

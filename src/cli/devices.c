@@ -9,7 +9,8 @@
 static void print_words(const struct gpu_info *d, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
-        printf("%d  %s%s\n", d[i].index, d[i].name, d[i].usable ? "" : "  (not usable: needs Vulkan 1.2 with buffer addresses)");
+        printf("%d  %s%s\n", d[i].index, d[i].name,
+               d[i].usable ? "" : "  (not usable: needs Vulkan 1.2 with buffer addresses)");
         printf("   type    %s\n   driver  %s\n   uuid    %s\n", d[i].type, d[i].driver, d[i].uuid);
         if (d[i].pci[0])
             printf("   pci     %s\n", d[i].pci);
@@ -50,7 +51,8 @@ status cli_devices(int argc, char **argv)
     size_t n;
     bool help = false;
     const struct option options[] = {OPTION_JSON(&c)};
-    TRY(options_parse(&usage_devices, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
+    TRY(options_parse(&usage_devices, options, sizeof options / sizeof *options, argc, argv, &operands,
+                      &help));
     if (help)
         goto done;
     TRY(gpu_list(&devices, &n));

@@ -1,16 +1,18 @@
 /* Command lines, from a table per verb: the parser and the help text come from the same rows.
  *
  * Understood   --name VALUE, --name=VALUE, flags, -h and --help, operands anywhere, "--" (all that follows
- * are operands). An option given twice counts the last time, but for OPTION_WORDS, which collects. No
- * abbreviations: a farm's old command lines must not become ambiguous when an option is added. Errors E_USAGE
- * names the argument, the nearest option there is, and where to look.
+ *              are operands). An option given twice counts the last time, but for OPTION_WORDS, which
+ *              collects. No abbreviations: a farm's old command lines must not become ambiguous when an
+ *              option is added.
+ * Errors       E_USAGE names the argument, the nearest option there is, and where to look.
  *
  *     struct common c = {0};
  *     struct words operands = {0};
  *     bool help = false;
- *     const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c), {"deep", NULL, OPTION_FLAG, &deep,
- * "..."}}; TRY(options_parse(&usage_status, options, sizeof options / sizeof *options, argc, argv, &operands,
- * &help)); if (help) goto done;
+ *     const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c)};
+ *     TRY(options_parse(&usage_status, options, sizeof options / sizeof *options, argc, argv, &operands,
+ *     &help)); if (help)
+ *         goto done;
  */
 #ifndef HOODOO_OPTIONS_H
 #define HOODOO_OPTIONS_H

@@ -10,8 +10,8 @@
 #include "job/job.h"
 #include "model/model.h"
 
-/* Device time of one particle in one step, in units of one word read and written, measured on lavapipe with jobs/demo.yaml: what a
- * plan's time rests on. Off by a factor of two is to be expected. */
+/* Device time of one particle in one step, in units of one word read and written, measured on lavapipe with
+ * jobs/demo.yaml: what a plan's time rests on. Off by a factor of two is to be expected. */
 static const double WORDS_PER_PARTICLE_STEP = 1500;
 
 /* Seconds a word takes to be read and written here: a gather of 16 MB, twice, the second time warm. */
@@ -48,7 +48,8 @@ static status answer(const struct job *job, struct gpu *gpu, struct text *t)
     size_t n_frames = range_count(job->frames);
     TRY(model_of(job)->estimate(job, &e));
     TRY(word_seconds(gpu, &seconds));
-    size_t n_checkpoints = (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));
+    size_t n_checkpoints =
+        (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));
     json_object(t, NULL);
     json_text(t, "name", job->name);
     json_text(t, "model", model_of(job)->name);
@@ -69,9 +70,11 @@ static status answer(const struct job *job, struct gpu *gpu, struct text *t)
     json_integer(t, "host_free_bytes", (int64_t)memory_available());
     json_integer(t, "frame_disk_bytes", (int64_t)e.frame_bytes);
     json_integer(t, "disk_bytes", (int64_t)(e.frame_bytes * n_frames + e.checkpoint_bytes * n_checkpoints));
-    json_number(t, "estimated_seconds",
-                round(seconds * WORDS_PER_PARTICLE_STEP * (double)e.n_particles * (e.steps + (double)n_frames)));
-    bool fits = e.device_bytes + (info->is_cpu ? e.host_bytes : 0) <= gpu_memory_free(gpu) && e.host_bytes <= memory_available();
+    json_number(
+        t, "estimated_seconds",
+        round(seconds * WORDS_PER_PARTICLE_STEP * (double)e.n_particles * (e.steps + (double)n_frames)));
+    bool fits = e.device_bytes + (info->is_cpu ? e.host_bytes : 0) <= gpu_memory_free(gpu) &&
+                e.host_bytes <= memory_available();
     json_bool(t, "fits_in_memory", fits);
     json_end_object(t);
     TRY(text_status(t));

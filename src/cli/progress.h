@@ -7,7 +7,8 @@
  *   auto     bar if stderr is a terminal, else plain
  *
  * Calling sequence   progress_begin(), any of progress_stage() and progress_frame(), progress_end(). One at a
- * time. Threads            one thread calls these; log lines may come from any.
+ *                    time.
+ * Threads            one thread calls these; log lines may come from any.
  */
 #ifndef HOODOO_PROGRESS_H
 #define HOODOO_PROGRESS_H

@@ -37,13 +37,14 @@ status cli_run(int argc, char **argv)
     struct shown shown = {0};
     char root[4096], path[4200];
     bool help = false;
-    const struct option options[] = {OPTION_OUT(&c),      OPTION_FRAMES(&c),   OPTION_DEVICE(&c),
-                                     OPTION_SET(&c),      OPTION_PROGRESS(&c), OPTION_RESUME(&c)};
+    const struct option options[] = {OPTION_OUT(&c), OPTION_FRAMES(&c),   OPTION_DEVICE(&c),
+                                     OPTION_SET(&c), OPTION_PROGRESS(&c), OPTION_RESUME(&c)};
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
     TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
-    int length = c.out ? snprintf(root, sizeof root, "%s", c.out) : snprintf(root, sizeof root, "out/%s", job->name);
+    int length =
+        c.out ? snprintf(root, sizeof root, "%s", c.out) : snprintf(root, sizeof root, "out/%s", job->name);
     if (length < 0 || (size_t)length >= sizeof root - 200) {
         st = fail(E_USAGE, "--out: the path is too long");
         goto done;

@@ -34,8 +34,9 @@ static double abrasion(const struct job *job, int frame)
     return curve_at(&job->wind.abrasion, frame) * ratio * ratio;
 }
 
-/* No face retreats faster than in the weakest rock, in full tension, across the wind, at the steepest slant (|n_i| >= 0.577). Noise and
- * paint may make single spots faster; there, max_step is exceeded and the carry makes up for it. */
+/* No face retreats faster than in the weakest rock, in full tension, across the wind, at the steepest slant
+ * (|n_i| >= 0.577). Noise and paint may make single spots faster; there, max_step is exceeded and the carry
+ * makes up for it. */
 int erosion_steps(const struct job *job, int frame)
 {
     double weakest = 0;
@@ -43,7 +44,8 @@ int erosion_steps(const struct job *job, int frame)
     for (size_t i = 0; i < job->n_strata; i++)
         weakest = fmax(weakest, curve_at(&job->strata[i].weak_m_per_kyr, frame));
     double kyr = job->clock.years_per_frame / 1000;
-    double share = weakest * (curve_at(&d->intensity, frame) + abrasion(job, frame)) * kyr / job->domain.spacing_m;
+    double share =
+        weakest * (curve_at(&d->intensity, frame) + abrasion(job, frame)) * kyr / job->domain.spacing_m;
     double steps = ceil(share / job->erosion.max_step);
     return steps < 1 ? 1 : steps > 1000 ? 1000 : (int)steps;
 }
@@ -65,7 +67,8 @@ done:
     return st;
 }
 
-status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame, struct particles *p)
+status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame,
+                         struct particles *p)
 {
     struct interlock_params k = {(uint)p->n, (float)job->rock.interlock_band};
     status st = OK;
@@ -76,8 +79,8 @@ done:
     return st;
 }
 
-status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, const struct job *job, int frame,
-                       double kyr, struct particles *p, uint32_t *n_eroded)
+status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, const struct job *job,
+                       int frame, double kyr, struct particles *p, uint32_t *n_eroded)
 {
     status st = OK;
     const struct job_deflation *d = &job->wind.deflation;
@@ -104,10 +107,11 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
     struct gpu_buffer *counts = gpu_work_words(work);
     gpu_fill(gpu, counts, 0);
     gpu_fill(gpu, e->unspent, 0);
-    GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], p->field[ROCK_stress],
-            p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent, counts);
-    GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->start, p->field[ROCK_erodibility], p->flags, e->unspent,
-            p->field[ROCK_viability]);
+    GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
+            p->field[ROCK_stress], p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent,
+            counts);
+    GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->field[ROCK_N], p->start,
+            p->field[ROCK_erodibility], e->unspent, p->field[ROCK_viability]);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
 done:
     return st;

@@ -116,11 +116,12 @@ static void record(struct gpu *gpu, struct aov *a, const struct camera *c, const
     };
     GPU_RUN(gpu, field_march, march.n, march, f->distance, a->hit, a->facing);
     GPU_RUN(gpu, field_shade, shade.n, shade, a->hit, a->facing, f->means, p->field[ROCK_P], p->start,
-            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility], a->palette, a->color, a->fields,
-            a->ids);
+            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility], a->palette, a->color,
+            a->fields, a->ids);
 }
 
-/* From which of the downloaded vectors, and which component, each channel comes; `vector` rows are turned to the files' up axis. */
+/* From which of the downloaded vectors, and which component, each channel comes; `vector` rows are turned to
+ * the files' up axis. */
 enum { FROM_HIT, FROM_FACING, FROM_COLOR, FROM_FIELDS, FROM_IDS };
 static const struct {
     const char *part, *name;
@@ -154,7 +155,8 @@ static void split(struct aov_image *image, size_t n, float *const source[4], con
     float *plane = image->memory;
     for (size_t c = 0; c < CHANNELS; c++, plane += n) {
         struct aov_channel *out = &image->channel[c];
-        *out = (struct aov_channel){.part = channels[c].part, .name = channels[c].name, .half = channels[c].half};
+        *out = (struct aov_channel){
+            .part = channels[c].part, .name = channels[c].name, .half = channels[c].half};
         if (channels[c].from == FROM_IDS) {
             uint32_t *id = (uint32_t *)plane;
             for (size_t i = 0; i < n; i++)
@@ -186,7 +188,8 @@ status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const s
     float *source[4] = {NULL};
     uint32_t *ids = NULL;
     struct gpu_buffer *from[4] = {a->hit, a->facing, a->color, a->fields};
-    *out = (struct aov_image){.camera = camera->name, .width = c.width, .height = c.height, .n_channels = CHANNELS};
+    *out = (struct aov_image){
+        .camera = camera->name, .width = c.width, .height = c.height, .n_channels = CHANNELS};
     TRY(memory_alloc(CHANNELS, sizeof *out->channel, "channels", &out->channel));
     TRY(memory_alloc(n * CHANNELS, sizeof(float), "a picture", &out->memory));
     record(gpu, a, &c, f, p);

@@ -24,8 +24,9 @@ MUST_USE status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixe
 void aov_destroy(struct gpu *gpu, struct aov *a);
 
 /* The picture of one camera; out->memory and out->channel are freed with aov_image_free(). Waits. */
-MUST_USE status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const struct job_camera *camera,
-                           const struct field *f, const struct particles *p, struct aov_image *out);
+MUST_USE status aov_render(struct gpu *gpu, struct aov *a, const struct job *job,
+                           const struct job_camera *camera, const struct field *f, const struct particles *p,
+                           struct aov_image *out);
 void aov_image_free(struct aov_image *image);
 
 #endif

@@ -6,15 +6,16 @@
 
 struct camera {
     double eye[3];
-    double ahead[3];           /* unit */
-    double right[3], down[3];  /* half the film's width and height, at distance 1 */
-    int width, height;         /* px */
+    double ahead[3];          /* unit */
+    double right[3], down[3]; /* half the film's width and height, at distance 1 */
+    int width, height;        /* px */
 };
 
 struct camera camera_of(const struct job_camera *camera);
 
-/* EXR's matrices, row vectors times matrix, from file axes (up y or z): to camera space (x right, y up, z ahead: left-handed) and to
- * normalised device coordinates (0, 0 upper left to 1, 1 lower right, after division by w). */
+/* EXR's matrices, row vectors times matrix, from file axes (up y or z): to camera space (x right, y up, z
+ * ahead: left-handed) and to normalised device coordinates (0, 0 upper left to 1, 1 lower right, after
+ * division by w). */
 void camera_matrices(const struct camera *c, int up, double world_to_camera[16], double world_to_ndc[16]);
 
 #endif

@@ -6,12 +6,12 @@
 
 #include "base/memory.h"
 
-static struct field geometry(const int voxels[3], double h, double voxel)
+static struct field geometry(const int voxels[3], double h)
 {
-    struct field f = {.voxel = voxel > 0 ? voxel : h};
+    struct field f = {.voxel = h};
     for (int a = 0; a < 3; a++) {
-        f.n[a] = (int)ceil(voxels[a] * h / f.voxel - 1e-9) + 2 * FIELD_MARGIN;
-        f.origin[a] = (0.5 - FIELD_MARGIN) * f.voxel;
+        f.n[a] = voxels[a] + 2 * FIELD_MARGIN;
+        f.origin[a] = (0.5 - FIELD_MARGIN) * h;
     }
     return f;
 }
@@ -21,16 +21,16 @@ static size_t sample_count(const struct field *f)
     return (size_t)f->n[0] * (size_t)f->n[1] * (size_t)f->n[2];
 }
 
-uint64_t field_bytes(const int voxels[3], double h, double voxel)
+uint64_t field_bytes(const int voxels[3])
 {
-    struct field f = geometry(voxels, h, voxel);
+    struct field f = geometry(voxels, 1);
     return (uint64_t)sample_count(&f) * (16 + 3 * 4);
 }
 
-status field_create(struct gpu *gpu, const int voxels[3], double h, double voxel, struct field *f)
+status field_create(struct gpu *gpu, const int voxels[3], double h, struct field *f)
 {
     status st = OK;
-    *f = geometry(voxels, h, voxel);
+    *f = geometry(voxels, h);
     size_t n = sample_count(f);
     TRY(gpu_buffer_create(gpu, "rock share", n, 4, &f->share));
     TRY(gpu_buffer_create(gpu, "field means", n, 16, &f->means));
@@ -50,7 +50,7 @@ void field_destroy(struct gpu *gpu, struct field *f)
     gpu_buffer_destroy(gpu, &f->other);
 }
 
-void field_build(struct gpu *gpu, struct field *f, const struct particles *p)
+void field_build(struct gpu *gpu, struct field *f, struct particles *p)
 {
     struct field_params k = {
         .n = (uint)sample_count(f),
@@ -61,14 +61,12 @@ void field_build(struct gpu *gpu, struct field *f, const struct particles *p)
         .fx = (uint)f->n[0],
         .fy = (uint)f->n[1],
         .fz = (uint)f->n[2],
-        .voxel = (float)f->voxel,
-        .origin_x = (float)f->origin[0],
-        .origin_y = (float)f->origin[1],
-        .origin_z = (float)f->origin[2],
-        .radius = (float)(2 * f->voxel),
+        .margin = FIELD_MARGIN,
     };
-    GPU_RUN(gpu, field_splat, k.n, k, p->field[ROCK_P], p->field[ROCK_viability], p->field[ROCK_stress],
-            p->field[ROCK_von_mises], p->start, f->share, f->means);
+    particles_fill(gpu, p);
+    GPU_RUN(gpu, field_share, k.n, k, p->fill, f->share);
+    GPU_RUN(gpu, field_means, k.n, k, p->start, p->field[ROCK_stress], p->field[ROCK_von_mises],
+            p->field[ROCK_viability], f->share, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->share, f->distance);
     /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
@@ -80,8 +78,10 @@ void field_build(struct gpu *gpu, struct field *f, const struct particles *p)
 status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out)
 {
     static const struct frame_grid kinds[] = {
-        {.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET}, {.name = "density", .unit = "", .kind = GRID_FOG},
-        {.name = "stress", .unit = "Pa", .kind = GRID_PLAIN},     {.name = "von_mises", .unit = "Pa", .kind = GRID_PLAIN},
+        {.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET},
+        {.name = "density", .unit = "", .kind = GRID_FOG},
+        {.name = "stress", .unit = "Pa", .kind = GRID_PLAIN},
+        {.name = "von_mises", .unit = "Pa", .kind = GRID_PLAIN},
         {.name = "viability", .unit = "", .kind = GRID_PLAIN},
     };
     status st = OK;

@@ -1,8 +1,10 @@
 /* The surface field: the rock as a signed distance on a lattice, with what its particles carry.
  *
- * Not Zhu and Bridson's mean of spheres but the rock's share of space, smoothed over two spacings, cut at 1/2: on a plane face it lies
- * exactly where the particles' fill (their viability) puts it, so that the surface moves smoothly while they weather and encloses their
- * volume. The distance follows from that surface by upwind sweeps (Rouy and Tourin 1992) out to 3 voxels.
+ * Not Zhu and Bridson's mean of spheres but the rock's share of space, smoothed over a voxel and a half, cut
+ * at 1/2: on a plane face it lies exactly where the particles' fill (their viability) puts it, so that the
+ * surface moves smoothly while they weather and encloses their volume; and it does not show where in their
+ * voxels the particles lie. The distance follows from that surface by upwind sweeps (Rouy and Tourin 1992)
+ * out to 3 voxels.
  */
 #ifndef HOODOO_FIELD_H
 #define HOODOO_FIELD_H
@@ -13,22 +15,24 @@
 
 struct field {
     int n[3];                 /* samples: the domain and FIELD_MARGIN voxels around */
-    double voxel, origin[3];  /* m; sample 0 */
+    double voxel, origin[3];  /* m: the particle spacing; sample 0 */
     struct gpu_buffer *share; /* float [samples]: of rock, 0..1 */
-    struct gpu_buffer *means; /* vec4 [samples]: stress (Pa), von Mises (Pa), viability, 0; 0 where no particle is near */
+    struct gpu_buffer
+        *means; /* vec4 [samples]: stress (Pa), von Mises (Pa), viability, 0; 0 where no particle is near */
     struct gpu_buffer *distance, *other; /* float [samples]: m, negative inside, at most 3 voxels */
 };
 
 enum { FIELD_MARGIN = 4, FIELD_BAND = 3 };
 
-uint64_t field_bytes(const int voxels[3], double h, double voxel);
-MUST_USE status field_create(struct gpu *gpu, const int voxels[3], double h, double voxel, struct field *out);
+uint64_t field_bytes(const int voxels[3]);
+MUST_USE status field_create(struct gpu *gpu, const int voxels[3], double h, struct field *out);
 void field_destroy(struct gpu *gpu, struct field *f);
 
 /* From the particles, whose stress must be current. Records only. */
-void field_build(struct gpu *gpu, struct field *f, const struct particles *p);
+void field_build(struct gpu *gpu, struct field *f, struct particles *p);
 
-/* The grids of DESIGN 2 that exist so far: surface, density, stress, von_mises, viability. Freed with field_grids_free(). Waits. */
+/* The grids of DESIGN 2 that exist so far: surface, density, stress, von_mises, viability. Freed with
+ * field_grids_free(). Waits. */
 MUST_USE status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out);
 void field_grids_free(struct frame_grids *grids);
 

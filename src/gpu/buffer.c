@@ -15,14 +15,16 @@ static uint32_t memory_type(const struct gpu *gpu, uint32_t allowed, VkMemoryPro
     return UINT32_MAX;
 }
 
-void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags wanted,
-                       VkMemoryPropertyFlags preferred, VkBuffer *buffer, VkDeviceMemory *memory)
+void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags usage,
+                       VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, VkBuffer *buffer,
+                       VkDeviceMemory *memory)
 {
     VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
     VkMemoryAllocateFlagsInfo flags = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO,
                                        .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
     bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
-    VkMemoryAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .pNext = addressed ? &flags : NULL};
+    VkMemoryAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
+                                     .pNext = addressed ? &flags : NULL};
     VkMemoryRequirements need;
     if (gpu->st != OK)
         return;
@@ -57,17 +59,18 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
                   (double)b->bytes / 1e6, (double)gpu_memory_free(gpu) / 1e6);
         goto done;
     }
-    raw_buffer_create(gpu, b->bytes,
-                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                      VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                      gpu->info.is_cpu ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0,
-                      &b->handle, &b->memory);
+    raw_buffer_create(
+        gpu, b->bytes,
+        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+        gpu->info.is_cpu ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0,
+        &b->handle, &b->memory);
     if (gpu->st == E_MEMORY) {
         /* Not sticky: the caller may ask for less. */
-        st = fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, and the device does not have them: %s", gpu->info.name, name,
-                  (double)b->bytes / 1e6, gpu->message);
+        st = fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, and the device does not have them: %s",
+                  gpu->info.name, name, (double)b->bytes / 1e6, gpu->message);
         gpu->st = OK;
         goto done;
     }
@@ -75,7 +78,8 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
     if (gpu->info.is_cpu) {
         VK_TRY(gpu, vkMapMemory(gpu->device, b->memory, 0, VK_WHOLE_SIZE, 0, &b->mapped));
     }
-    VkBufferDeviceAddressInfo address = {.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, .buffer = b->handle};
+    VkBufferDeviceAddressInfo address = {.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
+                                         .buffer = b->handle};
     b->address = vkGetBufferDeviceAddress(gpu->device, &address);
     gpu_fill(gpu, b, 0);
     *out = b;
@@ -112,10 +116,13 @@ size_t gpu_buffer_item(const struct gpu_buffer *buffer)
 
 VkBufferView buffer_view(struct gpu *gpu, struct gpu_buffer *b, char letter)
 {
-    static const VkFormat format[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32_UINT, VK_FORMAT_R32G32B32A32_SFLOAT};
+    static const VkFormat format[] = {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32_UINT,
+                                      VK_FORMAT_R32G32B32A32_SFLOAT};
     int i = letter == 'F' ? 0 : letter == 'U' ? 1 : 2;
-    VkBufferViewCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO, .buffer = b->handle, .format = format[i], .range = b->bytes};
+    VkBufferViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                   .buffer = b->handle,
+                                   .format = format[i],
+                                   .range = b->bytes};
     if (!b->view[i])
         VK_TRY(gpu, vkCreateBufferView(gpu->device, &info, NULL, &b->view[i]));
 done:
@@ -149,12 +156,13 @@ static void stage(struct gpu *gpu, struct gpu_buffer *b, VkDeviceSize offset, Vk
     if (!commands)
         return;
     record_accesses(gpu, commands, &(struct access){b, upload}, 1);
-    VkBufferCopy region = {
-        .srcOffset = upload ? 0 : offset, .dstOffset = upload ? offset : 0, .size = bytes};
-    vkCmdCopyBuffer(commands, upload ? gpu->staging : b->handle, upload ? b->handle : gpu->staging, 1, &region);
+    VkBufferCopy region = {.srcOffset = upload ? 0 : offset, .dstOffset = upload ? offset : 0, .size = bytes};
+    vkCmdCopyBuffer(commands, upload ? gpu->staging : b->handle, upload ? b->handle : gpu->staging, 1,
+                    &region);
 }
 
-static status transfer(struct gpu *gpu, struct gpu_buffer *b, size_t first, char *host, size_t n_items, bool upload)
+static status transfer(struct gpu *gpu, struct gpu_buffer *b, size_t first, char *host, size_t n_items,
+                       bool upload)
 {
     status st = OK;
     assert(first <= b->n && n_items <= b->n - first);
@@ -162,7 +170,8 @@ static status transfer(struct gpu *gpu, struct gpu_buffer *b, size_t first, char
     TRY(gpu_wait(gpu));
     if (b->mapped) {
         if (bytes)
-            memcpy(upload ? (char *)b->mapped + offset : host, upload ? host : (char *)b->mapped + offset, bytes);
+            memcpy(upload ? (char *)b->mapped + offset : host, upload ? host : (char *)b->mapped + offset,
+                   bytes);
         goto done;
     }
     for (size_t at = 0; at < bytes; at += STAGING_BYTES) {

@@ -14,8 +14,8 @@
 const char *vk_result_text(VkResult result)
 {
     switch (result) {
-#define CASE(name)                                                                                             \
-    case name:                                                                                                 \
+#define CASE(name)                                                                                           \
+    case name:                                                                                               \
         return #name;
         CASE(VK_SUCCESS)
         CASE(VK_NOT_READY)
@@ -41,8 +41,10 @@ void gpu_break(struct gpu *gpu, VkResult result, const char *call)
         return;
     bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     gpu->st = memory ? E_MEMORY : E_DEVICE;
-    snprintf(gpu->message, sizeof gpu->message, "%s: %s (%.200s)%s", gpu->info.name, vk_result_text(result), call,
-             result == VK_ERROR_DEVICE_LOST ? "; run the same command again to go on from the last checkpoint" : "");
+    snprintf(gpu->message, sizeof gpu->message, "%s: %s (%.200s)%s", gpu->info.name, vk_result_text(result),
+             call,
+             result == VK_ERROR_DEVICE_LOST ? "; run the same command again to go on from the last checkpoint"
+                                            : "");
 }
 
 status gpu_status(const struct gpu *gpu)
@@ -52,13 +54,16 @@ status gpu_status(const struct gpu *gpu)
 
 static status instance_create(VkInstance *out)
 {
-    VkApplicationInfo application = {
-        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "hoodoo", .apiVersion = VK_API_VERSION_1_2};
-    VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
+    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
+                                     .pApplicationName = "hoodoo",
+                                     .apiVersion = VK_API_VERSION_1_2};
+    VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                 .pApplicationInfo = &application};
     VkResult result = vkCreateInstance(&info, NULL, out);
     if (result != VK_SUCCESS)
         return fail(E_DEVICE,
-                    "no Vulkan driver could be started (%s); install mesa-vulkan-drivers for a CPU device, or the GPU's "
+                    "no Vulkan driver could be started (%s); install mesa-vulkan-drivers for a CPU device, "
+                    "or the GPU's "
                     "own driver",
                     vk_result_text(result));
     return OK;
@@ -94,14 +99,18 @@ static void describe(VkPhysicalDevice physical, int index, struct gpu_info *info
 {
     static const char *const types[] = {"other", "integrated", "discrete", "virtual", "cpu"};
     bool pci = has_extension(physical, VK_EXT_PCI_BUS_INFO_EXTENSION_NAME);
-    VkPhysicalDevicePCIBusInfoPropertiesEXT bus = {.sType =
-                                                       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PCI_BUS_INFO_PROPERTIES_EXT};
+    VkPhysicalDevicePCIBusInfoPropertiesEXT bus = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PCI_BUS_INFO_PROPERTIES_EXT};
     VkPhysicalDeviceDriverProperties driver = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
                                                .pNext = pci ? &bus : NULL};
-    VkPhysicalDeviceIDProperties id = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES, .pNext = &driver};
-    VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &id};
-    VkPhysicalDeviceVulkan12Features features12 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features12};
+    VkPhysicalDeviceIDProperties id = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES,
+                                       .pNext = &driver};
+    VkPhysicalDeviceProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                              .pNext = &id};
+    VkPhysicalDeviceVulkan12Features features12 = {.sType =
+                                                       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                          .pNext = &features12};
     VkPhysicalDeviceMemoryProperties memory;
     uint32_t bits;
 
@@ -119,7 +128,8 @@ static void describe(VkPhysicalDevice physical, int index, struct gpu_info *info
     snprintf(info->type, sizeof info->type, "%s", types[type >= 0 && type <= 4 ? type : 0]);
     info->is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     for (uint32_t i = 0; i < memory.memoryHeapCount; i++)
-        if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) && memory.memoryHeaps[i].size > info->memory)
+        if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) &&
+            memory.memoryHeaps[i].size > info->memory)
             info->memory = memory.memoryHeaps[i].size;
     if (properties.properties.apiVersion >= VK_API_VERSION_1_2) {
         vkGetPhysicalDeviceFeatures2(physical, &features);
@@ -136,7 +146,9 @@ static status enumerate(VkInstance instance, VkPhysicalDevice **physical, struct
     *n = 0;
     VkResult result = vkEnumeratePhysicalDevices(instance, n, NULL);
     if (result != VK_SUCCESS || *n == 0)
-        return fail(E_DEVICE, "no Vulkan device found; install mesa-vulkan-drivers for a CPU device, or the GPU's driver");
+        return fail(
+            E_DEVICE,
+            "no Vulkan device found; install mesa-vulkan-drivers for a CPU device, or the GPU's driver");
     TRY(memory_alloc(*n, sizeof **physical, "the list of devices", physical));
     TRY(memory_alloc(*n, sizeof **info, "the list of devices", info));
     vkEnumeratePhysicalDevices(instance, n, *physical);
@@ -230,7 +242,8 @@ static status choose(const char *wanted, const struct gpu_info *info, uint32_t n
         char *end;
         long index = strtol(wanted, &end, 10);
         if (*wanted == '\0' || *end || index < 0)
-            return fail(E_USAGE, "--device %.60s: write auto, INDEX, uuid:HEX, pci:DDDD:BB:DD.F or slurm", wanted);
+            return fail(E_USAGE, "--device %.60s: write auto, INDEX, uuid:HEX, pci:DDDD:BB:DD.F or slurm",
+                        wanted);
         found = index < (long)n ? (int)index : -1;
     }
     if (found >= 0 && !info[found].usable) {
@@ -241,7 +254,8 @@ static status choose(const char *wanted, const struct gpu_info *info, uint32_t n
         char list[512] = "";
         size_t used = 0;
         for (uint32_t i = 0; i < n && used < sizeof list - 1; i++)
-            used += (size_t)snprintf(list + used, sizeof list - used, "%s%u: %s", i ? ", " : "", i, info[i].name);
+            used +=
+                (size_t)snprintf(list + used, sizeof list - used, "%s%u: %s", i ? ", " : "", i, info[i].name);
         return fail(E_DEVICE, "--device %s: %s; devices here: %s", wanted ? wanted : "auto", why, list);
     }
     *chosen = (uint32_t)found;
@@ -261,7 +275,8 @@ static status device_open(struct gpu *gpu)
                                      .queueFamilyIndex = gpu->family,
                                      .queueCount = 1,
                                      .pQueuePriorities = &priority};
-    VkPhysicalDeviceVulkan12Features features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+    VkPhysicalDeviceVulkan12Features features = {.sType =
+                                                     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                                                  .bufferDeviceAddress = VK_TRUE,
                                                  .scalarBlockLayout = VK_TRUE};
     VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
@@ -276,22 +291,25 @@ static status device_open(struct gpu *gpu)
                                     .queueFamilyIndex = gpu->family};
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
     vkGetPhysicalDeviceProperties(gpu->physical, &properties);
-    gpu->range_limit = gpu->options.range_limit ? gpu->options.range_limit : properties.limits.maxStorageBufferRange;
+    gpu->range_limit =
+        gpu->options.range_limit ? gpu->options.range_limit : properties.limits.maxStorageBufferRange;
     gpu->texel_limit = properties.limits.maxTexelBufferElements;
     gpu->group_limit = properties.limits.maxComputeWorkGroupCount[0];
     gpu->timestamp_ns = (double)properties.limits.timestampPeriod;
-    gpu->variant = gpu->options.variant  ? (enum kernel_variant)(gpu->options.variant - 1)
-                   : gpu->info.is_cpu    ? VARIANT_TEXEL
-                                         : VARIANT_STORAGE;
+    gpu->variant = gpu->options.variant ? (enum kernel_variant)(gpu->options.variant - 1)
+                   : gpu->info.is_cpu   ? VARIANT_TEXEL
+                                        : VARIANT_STORAGE;
     VK_TRY(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device));
     vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
     VK_TRY(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->commands));
     if (!gpu->info.is_cpu) {
-        raw_buffer_create(gpu, STAGING_BYTES, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        raw_buffer_create(gpu, STAGING_BYTES,
+                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                           VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                           VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &gpu->staging, &gpu->staging_memory);
         if (gpu->st == OK)
-            VK_TRY(gpu, vkMapMemory(gpu->device, gpu->staging_memory, 0, VK_WHOLE_SIZE, 0, (void **)&gpu->staging_mapped));
+            VK_TRY(gpu, vkMapMemory(gpu->device, gpu->staging_memory, 0, VK_WHOLE_SIZE, 0,
+                                    (void **)&gpu->staging_mapped));
     }
     slots_create(gpu);
 done:
@@ -356,12 +374,13 @@ uint64_t gpu_memory_free(const struct gpu *gpu)
         return gpu->info.memory;
     VkPhysicalDeviceMemoryBudgetPropertiesEXT budget = {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_BUDGET_PROPERTIES_EXT};
-    VkPhysicalDeviceMemoryProperties2 properties = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2,
-                                                    .pNext = &budget};
+    VkPhysicalDeviceMemoryProperties2 properties = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MEMORY_PROPERTIES_2, .pNext = &budget};
     uint64_t most = 0;
     vkGetPhysicalDeviceMemoryProperties2(gpu->physical, &properties);
     for (uint32_t i = 0; i < gpu->memory.memoryHeapCount; i++) {
-        uint64_t left = budget.heapBudget[i] > budget.heapUsage[i] ? budget.heapBudget[i] - budget.heapUsage[i] : 0;
+        uint64_t left =
+            budget.heapBudget[i] > budget.heapUsage[i] ? budget.heapBudget[i] - budget.heapUsage[i] : 0;
         if ((gpu->memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) && left > most)
             most = left;
     }

@@ -42,8 +42,9 @@ const struct pipeline *pipeline_get(struct gpu *gpu, enum gpu_kernel kernel, enu
                                                     .descriptorType = descriptor_type(kernel, variant, i),
                                                     .descriptorCount = 1,
                                                     .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT};
-    VkDescriptorSetLayoutCreateInfo set = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = n, .pBindings = binding};
+    VkDescriptorSetLayoutCreateInfo set = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                           .bindingCount = n,
+                                           .pBindings = binding};
     VkPushConstantRange push = {.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT, .size = PARAMS_MAX};
     VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                          .setLayoutCount = 1,
@@ -57,12 +58,13 @@ const struct pipeline *pipeline_get(struct gpu *gpu, enum gpu_kernel kernel, enu
     VK_TRY(gpu, vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &p->set_layout));
     VK_TRY(gpu, vkCreatePipelineLayout(gpu->device, &layout, NULL, &p->layout));
     VK_TRY(gpu, vkCreateShaderModule(gpu->device, &code, NULL, &module));
-    VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                                                  .module = module,
-                                                  .pName = "main"},
-                                        .layout = p->layout};
+    VkComputePipelineCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module,
+                  .pName = "main"},
+        .layout = p->layout};
     VK_TRY(gpu, vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &p->handle));
 done:
     vkDestroyShaderModule(gpu->device, module, NULL);
@@ -131,8 +133,8 @@ done:
     return set;
 }
 
-void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const void *params, size_t params_size,
-                  struct gpu_buffer *const *buffers, size_t n_buffers)
+void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const void *params,
+                  size_t params_size, struct gpu_buffer *const *buffers, size_t n_buffers)
 {
     uint32_t n = (uint32_t)n_buffers;
     assert(n_buffers == binding_count(kernel) && params_size <= PARAMS_MAX);
@@ -162,7 +164,8 @@ void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, s->queries, 2 * s->n_dispatches);
     vkCmdDispatch(commands, x, y, 1);
     if (gpu->timestamp_bits)
-        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, s->queries, 2 * s->n_dispatches + 1);
+        vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, s->queries,
+                            2 * s->n_dispatches + 1);
     s->dispatch[s->n_dispatches].kernel = kernel;
     s->dispatch[s->n_dispatches].stage = gpu->current_stage;
     if (++s->n_dispatches == DISPATCHES_PER_SLOT)

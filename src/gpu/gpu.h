@@ -1,12 +1,15 @@
 /* The only door to Vulkan: a device, buffers on it, and kernels over them.
  *
  * Calling sequence
- *   gpu_create -> gpu_buffer_create ... -> GPU_RUN / gpu_fill / gpu_copy (these only record) -> gpu_download or gpu_wait
- * Order      Recorded work behaves as if each command ended before the next began: the recorder knows what every command reads
- *            and writes, and puts barriers where they are needed. Nothing else does.
- * Errors     Recording never fails visibly: the first error sticks, later commands do nothing, and gpu_wait(), gpu_upload() and
- *            gpu_download() return it. After a device loss nothing read from the device may be believed.
- * Same bits  Kernels gather or add integers; results depend on the device and driver only, not on threads or timing.
+ *   gpu_create -> gpu_buffer_create ... -> GPU_RUN / gpu_fill / gpu_copy (these only record) -> gpu_download
+ *   or gpu_wait
+ * Order      Recorded work behaves as if each command ended before the next began: the recorder knows what
+ *            every command reads and writes, and puts barriers where they are needed. Nothing else does.
+ * Errors     Recording never fails visibly: the first error sticks, later commands do nothing, and
+ *            gpu_wait(), gpu_upload() and gpu_download() return it. After a device loss nothing read from the
+ *            device may be believed.
+ * Same bits  Kernels gather or add integers; results depend on the device and driver only, not on threads or
+ *            timing.
  * Threads    One thread at a time.
  */
 #ifndef HOODOO_GPU_H
@@ -32,18 +35,18 @@ struct gpu_info {
     char type[12];    /* "discrete", "integrated", "virtual", "cpu", "other" */
     uint64_t memory;  /* bytes of its largest local heap */
     bool is_cpu;
-    bool usable;      /* Vulkan 1.2 with what hoodoo needs */
+    bool usable; /* Vulkan 1.2 with what hoodoo needs */
 };
 
 /* All devices, usable or not; *out freed with free(). E_DEVICE: no Vulkan loader or driver. */
 MUST_USE status gpu_list(struct gpu_info **out, size_t *n);
 
 struct gpu_options {
-    /* "auto" (or NULL): a discrete GPU before an integrated one before a CPU device. "INDEX", "uuid:HEX", "pci:DDDD:BB:DD.F" name one.
-     * "slurm": the GPU Slurm gave this job; never a CPU device. */
+    /* "auto" (or NULL): a discrete GPU before an integrated one before a CPU device. "INDEX", "uuid:HEX",
+     * "pci:DDDD:BB:DD.F" name one. "slurm": the GPU Slurm gave this job; never a CPU device. */
     const char *device;
-    /* For tests: force a kernel variant (enum kernel_variant + 1; 0: the device's own), or pretend that the device binds at most
-     * this many bytes (0: its own limit). */
+    /* For tests: force a kernel variant (enum kernel_variant + 1; 0: the device's own), or pretend that the
+     * device binds at most this many bytes (0: its own limit). */
     int variant;
     uint64_t range_limit;
 };
@@ -60,17 +63,19 @@ uint64_t gpu_memory_free(const struct gpu *gpu);
 uint64_t gpu_kernels_hash(void);
 
 /* n items of `item` bytes (4: float or uint; 16: vec4), zeroed. E_MEMORY names the buffer and its size. */
-MUST_USE status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t item, struct gpu_buffer **out);
+MUST_USE status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t item,
+                                  struct gpu_buffer **out);
 void gpu_buffer_destroy(struct gpu *gpu, struct gpu_buffer **buffer);
 size_t gpu_buffer_count(const struct gpu_buffer *buffer);
 size_t gpu_buffer_item(const struct gpu_buffer *buffer);
 
-/* Records `threads` invocations of a kernel with its parameters and its buffers, in the order of its bindings. */
-void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const void *params, size_t params_size,
-                  struct gpu_buffer *const *buffers, size_t n_buffers);
-#define GPU_RUN(gpu, kernel, threads, params, ...)                                                             \
-    gpu_dispatch(gpu, KERNEL_##kernel, threads, &(params), sizeof(params),                                     \
-                 (struct gpu_buffer *const[]){__VA_ARGS__},                                                    \
+/* Records `threads` invocations of a kernel with its parameters and its buffers, in the order of its
+ * bindings. */
+void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const void *params,
+                  size_t params_size, struct gpu_buffer *const *buffers, size_t n_buffers);
+#define GPU_RUN(gpu, kernel, threads, params, ...)                                                           \
+    gpu_dispatch(gpu, KERNEL_##kernel, threads, &(params), sizeof(params),                                   \
+                 (struct gpu_buffer *const[]){__VA_ARGS__},                                                  \
                  sizeof((struct gpu_buffer *const[]){__VA_ARGS__}) / sizeof(struct gpu_buffer *))
 
 /* Every word of the buffer. */
@@ -78,8 +83,10 @@ void gpu_fill(struct gpu *gpu, struct gpu_buffer *buffer, uint32_t word);
 void gpu_copy(struct gpu *gpu, struct gpu_buffer *to, const struct gpu_buffer *from, size_t n_items);
 
 /* Wait for all recorded work, then move bytes between host memory and a buffer, from its item `first` on. */
-MUST_USE status gpu_upload(struct gpu *gpu, struct gpu_buffer *to, size_t first, const void *from, size_t n_items);
-MUST_USE status gpu_download(struct gpu *gpu, const struct gpu_buffer *from, size_t first, void *to, size_t n_items);
+MUST_USE status gpu_upload(struct gpu *gpu, struct gpu_buffer *to, size_t first, const void *from,
+                           size_t n_items);
+MUST_USE status gpu_download(struct gpu *gpu, const struct gpu_buffer *from, size_t first, void *to,
+                             size_t n_items);
 
 /* Start what is recorded without waiting. */
 void gpu_submit(struct gpu *gpu);

@@ -8,7 +8,7 @@
 #include "gpu/kernel_source.h"
 
 enum {
-    SLOTS = 3,               /* command buffers in flight */
+    SLOTS = 3,                /* command buffers in flight */
     DISPATCHES_PER_SLOT = 96, /* a submission stays well under a second, which some drivers insist on */
     BINDINGS_MAX = 16,
     PARAMS_MAX = 128, /* bytes of push constants every device has */
@@ -85,21 +85,22 @@ const char *vk_result_text(VkResult result);
 
 /* Notes the first failure of the device; everything after does nothing. */
 void gpu_break(struct gpu *gpu, VkResult result, const char *call);
-#define VK_TRY(gpu, call)                                                                                      \
-    do {                                                                                                       \
-        VkResult vk_result_ = (call);                                                                          \
-        if (vk_result_ != VK_SUCCESS) {                                                                        \
-            gpu_break(gpu, vk_result_, #call);                                                                 \
-            goto done;                                                                                         \
-        }                                                                                                      \
+#define VK_TRY(gpu, call)                                                                                    \
+    do {                                                                                                     \
+        VkResult vk_result_ = (call);                                                                        \
+        if (vk_result_ != VK_SUCCESS) {                                                                      \
+            gpu_break(gpu, vk_result_, #call);                                                               \
+            goto done;                                                                                       \
+        }                                                                                                    \
     } while (0)
 
 /* The sticky error, said again on this thread. */
 status gpu_status(const struct gpu *gpu);
 
 /* A Vulkan buffer with bound memory that has all of `wanted`, preferably `preferred` too. */
-void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags wanted,
-                       VkMemoryPropertyFlags preferred, VkBuffer *buffer, VkDeviceMemory *memory);
+void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags usage,
+                       VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, VkBuffer *buffer,
+                       VkDeviceMemory *memory);
 
 /* The current slot's command buffer, recording. NULL after an error. */
 VkCommandBuffer record_begin(struct gpu *gpu);

@@ -101,7 +101,8 @@ void gpu_sort(struct gpu *gpu, struct gpu_work *work, const struct gpu_sort *s)
     GPU_RUN(gpu, gpu_sort_rank, s->n, rank, s->keys, s->start, s->unordered, s->ids, s->order);
 }
 
-void gpu_gather(struct gpu *gpu, struct gpu_buffer *order, struct gpu_buffer *from, struct gpu_buffer *to, size_t n)
+void gpu_gather(struct gpu *gpu, struct gpu_buffer *order, struct gpu_buffer *from, struct gpu_buffer *to,
+                size_t n)
 {
     struct count_params k = {(uint32_t)n};
     if (gpu_buffer_item(from) == 16)
@@ -139,30 +140,31 @@ static void reduce(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *va
         GPU_RUN(gpu, gpu_reduce_sum, REDUCE_THREADS, k, values, work->partial);
 }
 
-struct gpu_buffer *gpu_partial_sums(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n)
+struct gpu_buffer *gpu_partial_sums(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values,
+                                    size_t n)
 {
     reduce(gpu, work, values, n, false);
     return work->partial;
 }
 
-void gpu_sum(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n, struct gpu_buffer *scalars,
-             uint32_t slot)
+void gpu_sum(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n,
+             struct gpu_buffer *scalars, uint32_t slot)
 {
     struct reduce_end_params k = {64, 0, slot};
     reduce(gpu, work, values, n, false);
     GPU_RUN(gpu, gpu_reduce_end, 64, k, work->partial, scalars);
 }
 
-void gpu_max(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n, struct gpu_buffer *scalars,
-             uint32_t slot)
+void gpu_max(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n,
+             struct gpu_buffer *scalars, uint32_t slot)
 {
     struct reduce_end_params k = {64, 1, slot};
     reduce(gpu, work, values, n, true);
     GPU_RUN(gpu, gpu_reduce_end, 64, k, work->partial, scalars);
 }
 
-status gpu_double_pointers(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *pointer, struct gpu_buffer *other,
-                           size_t n)
+status gpu_double_pointers(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *pointer,
+                           struct gpu_buffer *other, size_t n)
 {
     status st = OK;
     struct count_params k = {(uint32_t)n};

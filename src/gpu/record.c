@@ -29,12 +29,13 @@ bool slots_create(struct gpu *gpu)
         VK_TRY(gpu, vkCreateFence(gpu->device, &fence, NULL, &s->fence));
         VK_TRY(gpu, vkCreateDescriptorPool(gpu->device, &pool, NULL, &s->pool));
         VK_TRY(gpu, vkCreateQueryPool(gpu->device, &queries, NULL, &s->queries));
-        raw_buffer_create(gpu, (VkDeviceSize)DISPATCHES_PER_SLOT * BINDINGS_MAX * 16, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                          VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0, &s->addresses,
-                          &s->addresses_memory);
+        raw_buffer_create(gpu, (VkDeviceSize)DISPATCHES_PER_SLOT * BINDINGS_MAX * 16,
+                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                          VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, 0,
+                          &s->addresses, &s->addresses_memory);
         if (gpu->st == OK)
-            VK_TRY(gpu,
-                   vkMapMemory(gpu->device, s->addresses_memory, 0, VK_WHOLE_SIZE, 0, (void **)&s->addresses_mapped));
+            VK_TRY(gpu, vkMapMemory(gpu->device, s->addresses_memory, 0, VK_WHOLE_SIZE, 0,
+                                    (void **)&s->addresses_mapped));
     }
 done:
     return gpu->st == OK;

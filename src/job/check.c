@@ -115,10 +115,6 @@ status check_job(const struct yaml *root, const struct job *job)
     status st = OK;
     TRY(check_strata(root, job));
     TRY(check_aov_cameras(root, job));
-    if (job->output.voxel_m != 0 && job->output.voxel_m < job->domain.spacing_m)
-        st = yaml_fail(place(yaml_get(root, "output"), "voxel_m"), NULL,
-                       "%g m is finer than the particles (0, or at least domain.spacing_m, %g m)",
-                       job->output.voxel_m, job->domain.spacing_m);
 done:
     return st;
 }

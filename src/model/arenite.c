@@ -1,11 +1,13 @@
-/* Arenite: sandstone as particles that weather where wind finds them and stress does not hold them (Yang et al. 2025, algorithm 1).
+/* Arenite: sandstone as particles that weather where wind finds them and stress does not hold them (Yang et
+ * al. 2025, algorithm 1).
  *
  * One frame, as DESIGN 3 lists it:
  *
  *   wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
  *
- * once or more, until the frame's years have passed; output() then adds the surface field and the pictures. The state between frames is the
- * particles, the grid's displacement and the ledger; the rest is found anew from them, so that a resumed run has the same bits.
+ * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
+ * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
+ * from them, so that a resumed run has the same bits.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -65,7 +67,8 @@ done:
     return st;
 }
 
-/* What follows from the shape: surface, normals, stress, erodibility. A resumed run has the displacement already: `solved`. */
+/* What follows from the shape: surface, normals, stress, erodibility. A resumed run has the displacement
+ * already: `solved`. */
 static status settle(struct model *m, bool solved)
 {
     status st = OK;
@@ -122,7 +125,8 @@ static status measure(const struct model *m, struct frame *out)
     for (size_t i = 0; i < rock->n; i++) {
         double stress = fabs((double)rock->stress[i]), viability = (double)rock->viability[i];
         if (!isfinite(stress) || !isfinite(viability))
-            return fail(E_NUMERIC, "frame %d: particle %u has stress %g Pa and viability %g; stopped before writing it",
+            return fail(E_NUMERIC,
+                        "frame %d: particle %u has stress %g Pa and viability %g; stopped before writing it",
                         m->frame, (unsigned)rock->id[i], (double)rock->stress[i], viability);
         most = fmax(most, stress);
     }
@@ -249,8 +253,8 @@ static status begin(struct model *m, const int voxels[3])
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
     TRY(remove_unsupported(m));
     if (m->ledger.fallen)
-        log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out", m->frame,
-                 (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start);
+        log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out",
+                 m->frame, (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start);
     rock_free(&rock);
     TRY(particles_download(m->gpu, &m->particles, STATE, &rock));
     m->start_volume = volume_of(m->job, &rock);
@@ -275,7 +279,8 @@ static void destroy(struct model **handle)
     *handle = NULL;
 }
 
-static status create(struct gpu *gpu, const struct job *job, const struct checkpoint *from, struct model **out)
+static status create(struct gpu *gpu, const struct job *job, const struct checkpoint *from,
+                     struct model **out)
 {
     status st = OK;
     struct model *m = NULL;
@@ -297,7 +302,7 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
-    TRY(field_create(gpu, voxels, h, job->output.voxel_m, &m->field));
+    TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(from ? restore(m, from, voxels) : begin(m, voxels));
@@ -313,22 +318,23 @@ done:
 static status estimate(const struct job *job, struct model_estimate *out)
 {
     status st = OK;
-    double h = job->domain.spacing_m;
     size_t pixels = aov_pixels(job), n;
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
     TRY(scene_estimate(job, &out->n_particles));
     n = out->n_particles;
     size_t voxels = voxel_count(out->voxels);
-    uint64_t rock = 0, field = field_bytes(out->voxels, h, job->output.voxel_m);
+    uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
-    out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) + elastic_bytes(out->voxels) +
-                        erosion_bytes(n) + blocks_bytes(out->voxels) + field + aov_bytes(pixels);
+    out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
+                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
+                        aov_bytes(pixels);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = pixels * 17 * 4;
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
-    /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints 0.6. */
+    /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
+     * 0.6. */
     out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.2 * (double)field) +
                        (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
     out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels));

@@ -1,4 +1,5 @@
-/* A model: one of the published systems, as run, plan and the farm see it. arenite.c is the one to read first. */
+/* A model: one of the published systems, as run, plan and the farm see it. arenite.c is the one to read
+ * first. */
 #ifndef HOODOO_MODEL_H
 #define HOODOO_MODEL_H
 
@@ -14,10 +15,10 @@ struct model_estimate {
     size_t n_particles;
     int voxels[3];
     uint64_t device_bytes;
-    uint64_t host_bytes;      /* besides the device's, with frames waiting to be written */
-    uint64_t frame_bytes;     /* on disk, a frame with points, volumes and AOVs */
+    uint64_t host_bytes;  /* besides the device's, with frames waiting to be written */
+    uint64_t frame_bytes; /* on disk, a frame with points, volumes and AOVs */
     uint64_t checkpoint_bytes;
-    double steps;             /* of erosion and equilibrium, over all frames */
+    double steps; /* of erosion and equilibrium, over all frames */
 };
 
 struct model_type {
@@ -25,7 +26,8 @@ struct model_type {
     MUST_USE status (*estimate)(const struct job *job, struct model_estimate *out);
 
     /* The job's first frame; or, with `from`, the state that checkpoint holds. */
-    MUST_USE status (*create)(struct gpu *gpu, const struct job *job, const struct checkpoint *from, struct model **out);
+    MUST_USE status (*create)(struct gpu *gpu, const struct job *job, const struct checkpoint *from,
+                              struct model **out);
     void (*destroy)(struct model **model);
 
     /* Simulates the next frame. E_NUMERIC when numbers blow up. */

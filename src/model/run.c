@@ -23,7 +23,7 @@ struct run {
     struct gpu *gpu;
     struct model *model;
     struct writer *writer;
-    bool *done; /* [last - first + 1], by frame number */
+    bool *done;        /* [last - first + 1], by frame number */
     int first_missing; /* last + 1: none */
     size_t n_done;
 };
@@ -79,11 +79,16 @@ static status check_owner(struct run *r)
     if (access(path, F_OK) != 0)
         return OK;
     if (job_load(path, NULL, 0, &theirs) != OK || job_hash(theirs, &hash) != OK) {
-        st = fail(E_CHECKPOINT, "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
-                  "--resume never to start over", path, status_message());
+        st = fail(E_CHECKPOINT,
+                  "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
+                  "--resume never to start over",
+                  path, status_message());
     } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
-        st = fail(E_CHECKPOINT, "%s holds another job (%s differs in what is simulated); use another --out, or --resume never "
-                  "to start over", r->options->root, path);
+        st = fail(
+            E_CHECKPOINT,
+            "%s holds another job (%s differs in what is simulated); use another --out, or --resume never "
+            "to start over",
+            r->options->root, path);
     }
     job_destroy(&theirs);
     return st;
@@ -132,24 +137,31 @@ static status check_provenance(const struct run *r, const struct checkpoint *c, 
     struct checkpoint here = {0};
     provenance(r, &here);
     if (c->job_hash != here.job_hash)
-        return fail(E_CHECKPOINT, "%s is of another job; use another --out, or --resume never to start over", path);
+        return fail(E_CHECKPOINT, "%s is of another job; use another --out, or --resume never to start over",
+                    path);
     bool same_code = strcmp(c->shaders, here.shaders) == 0 && strcmp(c->version, here.version) == 0;
     bool same_device = strcmp(c->device, here.device) == 0 && strcmp(c->driver, here.driver) == 0;
     if (same_code && same_device)
         return OK;
     if (r->options->resume == RUN_OTHER_DEVICE) {
-        log_warn("%s was made by hoodoo %s (%s) on %s, %s; continuing with %s on %s: not bit for bit", path, c->version,
-                 c->commit, c->device, c->driver, here.version, here.device);
+        log_warn("%s was made by hoodoo %s (%s) on %s, %s; continuing with %s on %s: not bit for bit", path,
+                 c->version, c->commit, c->device, c->driver, here.version, here.device);
         return OK;
     }
     if (!same_code)
-        return fail(E_CHECKPOINT, "%s was made by hoodoo %s (%s), whose numbers differ from this one's; continue with that "
-                    "one, or add --resume other-device", path, c->version, c->commit);
-    return fail(E_CHECKPOINT, "%s was made on %s (%s), and this is %s (%s); add --resume other-device to go on anyway, not bit "
-                "for bit", path, c->device, c->driver, here.device, here.driver);
+        return fail(E_CHECKPOINT,
+                    "%s was made by hoodoo %s (%s), whose numbers differ from this one's; continue with that "
+                    "one, or add --resume other-device",
+                    path, c->version, c->commit);
+    return fail(
+        E_CHECKPOINT,
+        "%s was made on %s (%s), and this is %s (%s); add --resume other-device to go on anyway, not bit "
+        "for bit",
+        path, c->device, c->driver, here.device, here.driver);
 }
 
-/* The newest sound checkpoint up to the first missing frame, or *found = false. Damaged ones are reported and passed over. */
+/* The newest sound checkpoint up to the first missing frame, or *found = false. Damaged ones are reported and
+ * passed over. */
 static status find_checkpoint(const struct run *r, struct checkpoint *c, bool *found)
 {
     status st = OK;
@@ -251,12 +263,15 @@ static status check_memory(const struct run *r)
         for (double share = ratio; share > 1; share /= 1.331)
             fits *= 1.1;
         return fail(E_MEMORY,
-                    "this job's %zu particles in %d x %d x %d voxels need %.1f GB on %s and %.1f GB beside it; %.1f and %.1f GB "
+                    "this job's %zu particles in %d x %d x %d voxels need %.1f GB on %s and %.1f GB beside "
+                    "it; %.1f and %.1f GB "
                     "are free. domain.spacing_m: %.3g would fit",
-                    e.n_particles, e.voxels[0], e.voxels[1], e.voxels[2], (double)e.device_bytes / 1e9, info->name,
-                    (double)e.host_bytes / 1e9, (double)device_free / 1e9, (double)host_free / 1e9, fits);
+                    e.n_particles, e.voxels[0], e.voxels[1], e.voxels[2], (double)e.device_bytes / 1e9,
+                    info->name, (double)e.host_bytes / 1e9, (double)device_free / 1e9,
+                    (double)host_free / 1e9, fits);
     }
-    log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9, info->name, info->driver);
+    log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
+             info->name, info->driver);
     return OK;
 }
 
@@ -269,13 +284,16 @@ static status begin(struct run *r)
     bool found;
     TRY(find_checkpoint(r, &c, &found));
     if (!found && r->options->resume == RUN_REQUIRE) {
-        st = fail(E_CHECKPOINT, "%s holds no usable checkpoint up to frame %d, and --resume require was given",
-                  r->options->root, r->first_missing);
+        st =
+            fail(E_CHECKPOINT, "%s holds no usable checkpoint up to frame %d, and --resume require was given",
+                 r->options->root, r->first_missing);
         goto done;
     }
     if (!found && r->frames.first != r->job->frames.first) {
-        st = fail(E_CHECKPOINT, "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the "
-                  "block before it first", r->options->root, r->first_missing);
+        st = fail(E_CHECKPOINT,
+                  "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the "
+                  "block before it first",
+                  r->options->root, r->first_missing);
         goto done;
     }
     if (found)
@@ -311,7 +329,8 @@ static status simulate(struct run *r)
     status st = OK;
     int last = r->frames.last;
     /* A checkpoint's own frame may be the first one missing. */
-    bool fresh = r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
+    bool fresh =
+        r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
     for (;;) {
         int number = r->type->frame(r->model);
         /* The last frame says that all is done: what the next block begins from is there before it. */
@@ -327,7 +346,10 @@ static status simulate(struct run *r)
             TRY(save(r));
         if (stop) {
             TRY(writer_finish(&r->writer));
-            st = fail(STOPPED, "stopped after frame %d, with its checkpoint saved; run the same command again to go on", number);
+            st =
+                fail(STOPPED,
+                     "stopped after frame %d, with its checkpoint saved; run the same command again to go on",
+                     number);
             goto done;
         }
         TRY(r->type->step(r->model));
@@ -344,8 +366,8 @@ static void log_times(struct gpu *gpu)
     size_t n = gpu_stage_times(gpu, &times);
     for (size_t i = 0; i < n; i++)
         if (times[i].ns)
-            log_info("device time: %-12s %8.2f s in %llu dispatches", times[i].name, (double)times[i].ns / 1e9,
-                     (unsigned long long)times[i].dispatches);
+            log_info("device time: %-12s %8.2f s in %llu dispatches", times[i].name,
+                     (double)times[i].ns / 1e9, (unsigned long long)times[i].dispatches);
 }
 
 status run_job(const struct job *job, const struct run_options *options)
@@ -356,7 +378,8 @@ status run_job(const struct job *job, const struct run_options *options)
         r.frames = job->frames;
     if (!range_holds(job->frames, r.frames.first) || !range_holds(job->frames, r.frames.last)) {
         char asked[48], whole[48];
-        return fail(E_USAGE, "--frames %s: the job's frames are %s", range_text(r.frames, asked), range_text(job->frames, whole));
+        return fail(E_USAGE, "--frames %s: the job's frames are %s", range_text(r.frames, asked),
+                    range_text(job->frames, whole));
     }
     TRY(job_hash(job, &r.job_hash));
     TRY(folder_prepare(options->root));

@@ -1,11 +1,14 @@
 /* A run: a job simulated into an output folder, from wherever it stands.
  *
- * Done        A frame is done when its manifest is there, is of this job, and its files have the sizes it says.
- * Resume      The first frame that is not done is where work begins: from the newest sound checkpoint up to it, or from the job's
- *             first frame. Frames simulated on the way that are done already are not written again.
- * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or the first
- *             frame asked for is not the job's first and there is no checkpoint before it.
- * Stop        When a stop is requested, the frame under way is finished and written, then a checkpoint: STOPPED.
+ * Done        A frame is done when its manifest is there, is of this job, and its files have the sizes it
+ *             says.
+ * Resume      The first frame that is not done is where work begins: from the newest sound checkpoint up to
+ *             it, or from the job's first frame. Frames simulated on the way that are done already are not
+ *             written again.
+ * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or
+ *             the first frame asked for is not the job's first and there is no checkpoint before it.
+ * Stop        When a stop is requested, the frame under way is finished and written, then a checkpoint:
+ *             STOPPED.
  */
 #ifndef HOODOO_RUN_H
 #define HOODOO_RUN_H

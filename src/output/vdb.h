@@ -1,10 +1,11 @@
-/* OpenVDB files: volumes and points to bytes, and back. The only door to OpenVDB (vdb_shim.cpp).
+/* OpenVDB files: volumes and points to bytes, and back. The only door to OpenVDB (vdb_*_shim.cpp).
  *
  * Axes      In memory everything is in the simulator's axes (z up). Files are in the job's output.up: for y,
- * index and world (x, y, z) become (x, z, -y). Readers here turn it back, going by the file's up_axis
- * metadata. Bytes     Files are made in memory, their random archive UUID is replaced by one derived from
- * `identity`, and they hold no dates: equal input gives equal bytes. The caller writes them (atomic_file.h),
- * so a full disk is noticed.
+ *           index and world (x, y, z) become (x, z, -y). Readers here turn it back, going by the file's
+ *           up_axis metadata.
+ * Bytes     Files are made in memory, their random archive UUID is replaced by one derived from `identity`,
+ *           and they hold no dates: equal input gives equal bytes. The caller writes them (atomic_file.h), so
+ *           that a full disk is noticed.
  */
 #ifndef HOODOO_VDB_H
 #define HOODOO_VDB_H

@@ -27,7 +27,8 @@ static status put(const char *root, const char *path, struct vdb_bytes *file, st
     status st = OK;
     size_t capacity = manifest->n_files;
     struct manifest_file *entry;
-    TRY(memory_grow(&manifest->file, &capacity, manifest->n_files + 1, sizeof *manifest->file, "the manifest"));
+    TRY(memory_grow(&manifest->file, &capacity, manifest->n_files + 1, sizeof *manifest->file,
+                    "the manifest"));
     entry = &manifest->file[manifest->n_files];
     snprintf(entry->path, sizeof entry->path, "%s", path + strlen(root) + 1);
     entry->size = file->size;
@@ -77,8 +78,8 @@ done:
     return st;
 }
 
-static status put_images(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame,
-                         struct manifest *manifest)
+static status put_images(const struct job *job, uint64_t job_hash, const char *root,
+                         const struct frame *frame, struct manifest *manifest)
 {
     status st = OK;
     char path[4096];
@@ -114,7 +115,8 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
         .stress_iterations = frame->stress_iterations,
         .ledger = frame->ledger,
     };
-    bool vdbs = (frame->number - job->frames.first) % job->output.vdb.every == 0 || frame->number == job->frames.last;
+    bool vdbs =
+        (frame->number - job->frames.first) % job->output.vdb.every == 0 || frame->number == job->frames.last;
     if (vdbs)
         TRY(put_vdbs(job, job_hash, root, frame, &manifest));
     TRY(put_images(job, job_hash, root, frame, &manifest));

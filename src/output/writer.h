@@ -1,7 +1,9 @@
 /* Writes frames and checkpoints behind the simulation: one thread, a queue of two.
  *
- * Order     Files appear in the order given: a frame's files, its manifest last, then the checkpoint taken after it.
- * Memory    writer_frame() waits while two items are queued, so that a slow disk slows the run and nothing else.
+ * Order     Files appear in the order given: a frame's files, its manifest last, then the checkpoint taken
+ *           after it.
+ * Memory    writer_frame() waits while two items are queued, so that a slow disk slows the run and nothing
+ *           else.
  * Errors    The first error stops the writer; it is returned by the next call, and by writer_finish().
  */
 #ifndef HOODOO_WRITER_H
@@ -16,7 +18,8 @@
 struct writer;
 
 /* `job` and `root` outlive the writer. */
-MUST_USE status writer_create(const struct job *job, uint64_t job_hash, const char *root, struct writer **out);
+MUST_USE status writer_create(const struct job *job, uint64_t job_hash, const char *root,
+                              struct writer **out);
 
 /* Takes the frame over, whatever comes back. */
 MUST_USE status writer_frame(struct writer *w, struct frame *frame);
@@ -28,6 +31,7 @@ MUST_USE status writer_checkpoint(struct writer *w, struct checkpoint *checkpoin
 MUST_USE status writer_finish(struct writer **w);
 
 /* The files of one frame, at once: what the thread does. */
-MUST_USE status frame_write(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame);
+MUST_USE status frame_write(const struct job *job, uint64_t job_hash, const char *root,
+                            const struct frame *frame);
 
 #endif

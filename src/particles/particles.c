@@ -10,27 +10,32 @@ uint64_t particles_bytes(size_t n, const int voxels[3])
     uint64_t item = 4 * 4 + 16; /* surface, flags, place, spares */
     for (int f = 0; f < ROCK_FIELDS; f++)
         item += rock_field_size((enum rock_field)f);
-    return (uint64_t)n * item + (uint64_t)voxel_count(voxels) * 8;
+    return (uint64_t)n * item + (uint64_t)voxel_count(voxels) * 12;
 }
 
 struct voxel_params particles_params(const struct particles *p, size_t n)
 {
-    return (struct voxel_params){
-        .n = (uint)n, .nx = (uint)p->voxels[0], .ny = (uint)p->voxels[1], .nz = (uint)p->voxels[2], .h = (float)p->h};
+    return (struct voxel_params){.n = (uint)n,
+                                 .nx = (uint)p->voxels[0],
+                                 .ny = (uint)p->voxels[1],
+                                 .nz = (uint)p->voxels[2],
+                                 .h = (float)p->h};
 }
 
-status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, const int voxels[3], double h,
-                        struct particles *p)
+status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, const int voxels[3],
+                        double h, struct particles *p)
 {
     status st = OK;
     *p = (struct particles){
         .n = rock->n, .n_max = rock->n, .voxels = {voxels[0], voxels[1], voxels[2]}, .h = h};
     for (int f = 0; f < ROCK_FIELDS; f++) {
-        TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f), &p->field[f]));
+        TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f),
+                              &p->field[f]));
         if (rock_field_table[f].keep == STATE)
             TRY(gpu_upload(gpu, p->field[f], 0, rock->field[f], rock->n));
     }
     TRY(gpu_buffer_create(gpu, "voxel start", voxel_count(voxels) + 2, 4, &p->start));
+    TRY(gpu_buffer_create(gpu, "voxel fill", voxel_count(voxels), 4, &p->fill));
     TRY(gpu_buffer_create(gpu, "voxel scratch", voxel_count(voxels) + 1, 4, &p->taken));
     TRY(gpu_buffer_create(gpu, "surface list", p->n_max, 4, &p->surface));
     TRY(gpu_buffer_create(gpu, "particle flags", p->n_max, 4, &p->flags));
@@ -49,6 +54,7 @@ void particles_destroy(struct gpu *gpu, struct particles *p)
     for (int f = 0; f < ROCK_FIELDS; f++)
         gpu_buffer_destroy(gpu, &p->field[f]);
     gpu_buffer_destroy(gpu, &p->start);
+    gpu_buffer_destroy(gpu, &p->fill);
     gpu_buffer_destroy(gpu, &p->taken);
     gpu_buffer_destroy(gpu, &p->surface);
     gpu_buffer_destroy(gpu, &p->flags);
@@ -79,7 +85,8 @@ status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles 
     for (int f = 0; f < ROCK_FIELDS; f++) {
         if (rock_field_table[f].keep != STATE)
             continue;
-        struct gpu_buffer **spare = rock_field_size((enum rock_field)f) == 16 ? &p->spare_vector : &p->spare_word;
+        struct gpu_buffer **spare =
+            rock_field_size((enum rock_field)f) == 16 ? &p->spare_vector : &p->spare_word;
         struct gpu_buffer *old = p->field[f];
         gpu_gather(gpu, p->surface, old, *spare, alive);
         p->field[f] = *spare;
@@ -89,6 +96,12 @@ status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles 
     p->n_surface = 0;
 done:
     return st;
+}
+
+void particles_fill(struct gpu *gpu, struct particles *p)
+{
+    struct voxel_params k = particles_params(p, voxel_count(p->voxels));
+    GPU_RUN(gpu, particles_fill, k.n, k, p->start, p->field[ROCK_viability], p->fill);
 }
 
 status particles_surface(struct gpu *gpu, struct gpu_work *work, struct particles *p)

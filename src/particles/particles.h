@@ -1,7 +1,8 @@
-/* The rock on the device: every field of particles.def as a buffer, ordered by voxel, and the surface found in it.
+/* The rock on the device: every field of particles.def as a buffer, ordered by voxel, and the surface found
+ * in it.
  *
- * Particles are sorted by the voxel they lie in, those of one voxel by id; start[v] is the first of voxel v. Passes over
- * neighbours walk voxels, rows of which are contiguous.
+ * Particles are sorted by the voxel they lie in, those of one voxel by id; start[v] is the first of voxel v.
+ * Passes over neighbours walk voxels, rows of which are contiguous.
  */
 #ifndef HOODOO_PARTICLES_H
 #define HOODOO_PARTICLES_H
@@ -16,9 +17,10 @@ struct particles {
     double h;                              /* m: spacing, and a voxel's size */
     struct gpu_buffer *field[ROCK_FIELDS]; /* n_max items each */
     struct gpu_buffer *start;              /* uint [voxels + 1] */
-    struct gpu_buffer *surface;            /* uint [n_surface]: the particles with a bare face, ascending */
+    struct gpu_buffer *fill;    /* float [voxels]: how much of each is rock, as of particles_fill() */
+    struct gpu_buffer *surface; /* uint [n_surface]: the particles with a bare face, ascending */
     size_t n_surface;
-    struct gpu_buffer *flags, *place;      /* scratch, uint [n_max] */
+    struct gpu_buffer *flags, *place; /* scratch, uint [n_max] */
     struct gpu_buffer *spare_word, *spare_vector, *taken;
 };
 
@@ -26,12 +28,16 @@ struct particles {
 uint64_t particles_bytes(size_t n, const int voxels[3]);
 
 /* Uploads the rock's STATE fields and orders them. The caller keeps `rock`. */
-MUST_USE status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, const int voxels[3],
-                                 double h, struct particles *out);
+MUST_USE status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock,
+                                 const int voxels[3], double h, struct particles *out);
 void particles_destroy(struct gpu *gpu, struct particles *p);
 
-/* Drops particles of which nothing is left and restores the order. DERIVED fields are stale after it. Waits. */
+/* Drops particles of which nothing is left and restores the order. DERIVED fields are stale after it. Waits.
+ * */
 MUST_USE status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p);
+
+/* Takes the particles' viability into the voxels' fill. Records only. */
+void particles_fill(struct gpu *gpu, struct particles *p);
 
 /* Finds the surface and its normals (field N; 0 inside). Waits. */
 MUST_USE status particles_surface(struct gpu *gpu, struct gpu_work *work, struct particles *p);
@@ -39,7 +45,7 @@ MUST_USE status particles_surface(struct gpu *gpu, struct gpu_work *work, struct
 /* All fields into a rock allocated here. */
 MUST_USE status particles_download(struct gpu *gpu, const struct particles *p, int keep, struct rock *out);
 
-/* Scratch that particles_index() leaves free between calls, for passes with a word per particle or voxel. */
+/* The parameters of a kernel over n items that walks voxels. */
 struct voxel_params particles_params(const struct particles *p, size_t n);
 
 #endif

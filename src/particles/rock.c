@@ -5,8 +5,8 @@
 #include "base/memory.h"
 
 const struct rock_field_info rock_field_table[ROCK_FIELDS] = {
-#define FIELD(name, type, components, keep, vdb, unit, meaning)                                                \
-    {#name, vdb, unit, meaning, components, _Generic((type)0, float: 1, default: 0), keep},
+#define FIELD(name, type, components, keep, vdb, unit, meaning)                                              \
+    {#name, vdb, unit, meaning, components, _Generic((type)0, float : 1, default : 0), keep},
 #include "particles/particles.def"
 };
 
@@ -21,7 +21,8 @@ status rock_alloc(struct rock *rock, size_t n, int keep)
     *rock = (struct rock){.n = n};
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (rock_field_table[f].keep <= keep)
-            TRY(memory_alloc(n, rock_field_size((enum rock_field)f), rock_field_table[f].name, &rock->field[f]));
+            TRY(memory_alloc(n, rock_field_size((enum rock_field)f), rock_field_table[f].name,
+                             &rock->field[f]));
 done:
     if (st != OK)
         rock_free(rock);

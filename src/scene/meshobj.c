@@ -30,7 +30,7 @@ done:
 static status read_face(struct reader *r, struct mesh *mesh)
 {
     status st = OK;
-    uint32_t first = 0, last = 0, corner;
+    uint32_t first = 0, last = 0, corner = 0;
     size_t n = 0;
     for (; !reader_at_line_end(r) && *r->at != '#'; n++) {
         TRY(read_corner(r, mesh, &corner));

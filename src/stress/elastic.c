@@ -50,8 +50,9 @@ done:
 
 void elastic_destroy(struct gpu *gpu, struct elastic *e)
 {
-    struct gpu_buffer **all[] = {&e->fill, &e->u,    &e->p,     &e->q,     &e->r,             &e->product,
-                                 &e->list, &e->flags, &e->place, &e->scalars, &e->normal_stress, &e->shear_stress};
+    struct gpu_buffer **all[] = {&e->fill,          &e->u,           &e->p,     &e->q,     &e->r,
+                                 &e->product,       &e->list,        &e->flags, &e->place, &e->scalars,
+                                 &e->normal_stress, &e->shear_stress};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
 }
@@ -99,7 +100,8 @@ static void iterate(struct gpu *gpu, struct gpu_work *work, struct elastic *e, u
     struct count_params each = {k.n};
     GPU_RUN(gpu, stress_matvec, k.n, k, e->list, e->p, e->fill, e->q, e->product);
     GPU_RUN(gpu, stress_alpha, 64, scalar, gpu_partial_sums(gpu, work, e->product, k.n), e->scalars);
-    GPU_RUN(gpu, stress_update, k.n, each, e->list, e->scalars, e->p, e->q, e->u, e->r, e->u, e->r, e->product);
+    GPU_RUN(gpu, stress_update, k.n, each, e->list, e->scalars, e->p, e->q, e->u, e->r, e->u, e->r,
+            e->product);
     GPU_RUN(gpu, stress_beta, 64, scalar, gpu_partial_sums(gpu, work, e->product, k.n), e->scalars);
     GPU_RUN(gpu, stress_direction, k.n, each, e->list, e->scalars, e->r, e->p, e->p);
 }
@@ -125,7 +127,8 @@ status elastic_solve(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
         for (uint i = 0; i < CG_CHECK; i++)
             taken += (double)scalars[CG_ENERGY + i];
         if (!isfinite(taken) || !isfinite(whole)) {
-            st = fail(E_NUMERIC, "stress: the solver's numbers are not finite after %d iterations on %zu nodes",
+            st = fail(E_NUMERIC,
+                      "stress: the solver's numbers are not finite after %d iterations on %zu nodes",
                       e->iterations, e->n_active);
             goto done;
         }

@@ -1,11 +1,13 @@
 /* Stress of rock at rest: linear elasticity on the grid's hexahedra, by preconditioned conjugate gradients.
  *
- * Cells are 2 h wide and trilinear; one element matrix serves all, scaled by how much of the cell is rock, as is its weight. Nodes on the
- * ground (z = 0) are held, all other faces are free. The solver starts from the last frame's displacement.
+ * Cells are 2 h wide and trilinear; one element matrix serves all, scaled by how much of the cell is rock, as
+ * is its weight. Nodes on the ground (z = 0) are held, all other faces are free. The solver starts from the
+ * last frame's displacement.
  *
- * Sums are fixed trees, so that equal input gives equal bits. It stops on the error of the stress, not on the residual: the energy that the
- * last CG_CHECK steps took out of the error bounds the error before them in the energy norm, which is the stress's L2 norm weighted by
- * the compliance (Hestenes and Stiefel 1952, theorem 6:1).
+ * Sums are fixed trees, so that equal input gives equal bits. It stops on the error of the stress, not on the
+ * residual: the energy that the last CG_CHECK steps took out of the error bounds the error before them in the
+ * energy norm, which is the stress's L2 norm weighted by the compliance (Hestenes and Stiefel 1952, theorem
+ * 6:1).
  *
  * source  Arenite section 4 (static limit of eq. 4)     twin  tests/ref/elastic_ref.c
  */
@@ -17,24 +19,25 @@
 #include "particles/particles.h"
 
 struct elastic_options {
-    double lambda, mu;  /* Pa */
-    double density;     /* kg/m3 */
-    double gravity;     /* m/s2 */
-    double tolerance;   /* of the stress, relative, energy norm */
+    double lambda, mu; /* Pa */
+    double density;    /* kg/m3 */
+    double gravity;    /* m/s2 */
+    double tolerance;  /* of the stress, relative, energy norm */
     int max_iterations;
 };
 
 struct elastic {
-    int cells[3];               /* with the margin: two more than the domain's */
-    double dx;                  /* m */
+    int cells[3]; /* with the margin: two more than the domain's */
+    double dx;    /* m */
     struct elastic_options options;
-    struct gpu_buffer *fill;    /* float [cells]: share of rock */
-    struct gpu_buffer *u;       /* vec4 [nodes]: displacement, m; the state that frames hand on */
+    struct gpu_buffer *fill; /* float [cells]: share of rock */
+    struct gpu_buffer *u;    /* vec4 [nodes]: displacement, m; the state that frames hand on */
     struct gpu_buffer *p, *q, *r, *product, *scalars, *list, *flags, *place;
-    struct gpu_buffer *normal_stress, *shear_stress; /* vec4 [cells]: xx yy zz T, xy yz xz von Mises; Pa, tension positive */
-    size_t n_active;            /* nodes that move */
-    int iterations;             /* of the last solve */
-    double error;               /* its estimate when it stopped */
+    struct gpu_buffer *normal_stress,
+        *shear_stress; /* vec4 [cells]: xx yy zz T, xy yz xz von Mises; Pa, tension positive */
+    size_t n_active;   /* nodes that move */
+    int iterations;    /* of the last solve */
+    double error;      /* its estimate when it stopped */
 };
 
 size_t elastic_nodes(const struct elastic *e);
@@ -43,12 +46,13 @@ size_t elastic_cells(const struct elastic *e);
 /* Bytes on the device for a domain of that many voxels. */
 uint64_t elastic_bytes(const int voxels[3]);
 
-MUST_USE status elastic_create(struct gpu *gpu, const int voxels[3], double h, const struct elastic_options *options,
-                               struct elastic *out);
+MUST_USE status elastic_create(struct gpu *gpu, const int voxels[3], double h,
+                               const struct elastic_options *options, struct elastic *out);
 void elastic_destroy(struct gpu *gpu, struct elastic *e);
 
 /* Takes the particles' shape into the grid. Waits. */
-MUST_USE status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct elastic *e, const struct particles *p);
+MUST_USE status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct elastic *e,
+                                 const struct particles *p);
 
 /* Solves for u. Waits. E_NUMERIC if the solution is not finite. */
 MUST_USE status elastic_solve(struct gpu *gpu, struct gpu_work *work, struct elastic *e);

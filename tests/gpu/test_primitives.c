@@ -1,4 +1,5 @@
-/* Scan, sort, compaction, reductions and pointer doubling against plain C, in every kernel variant and past the device's range. */
+/* Scan, sort, compaction, reductions and pointer doubling against plain C, in every kernel variant and past
+ * the device's range. */
 #include "check.h"
 
 #include <stdlib.h>
@@ -68,7 +69,8 @@ static void sort_is_stable_by_id(void **state)
     enum { N = 50000, KEYS = 7000 };
     struct gpu *gpu = open_gpu(state);
     struct gpu_work *work;
-    uint32_t *keys = random_words(N, KEYS), *ids = malloc(N * 4), *order = malloc(N * 4), *start = malloc((KEYS + 1) * 4);
+    uint32_t *keys = random_words(N, KEYS), *ids = malloc(N * 4), *order = malloc(N * 4),
+             *start = malloc((KEYS + 1) * 4);
     assert_ok(gpu_work_create(gpu, N, &work));
     for (uint32_t i = 0; i < N; i++)
         ids[i] = i * 2654435761u; /* unique, in no order */
@@ -89,7 +91,8 @@ static void sort_is_stable_by_id(void **state)
         uint32_t i = order[r];
         assert_true(start[keys[i]] <= r && r < start[keys[i] + 1]);
         if (r > 0)
-            assert_true(keys[order[r - 1]] < keys[i] || (keys[order[r - 1]] == keys[i] && ids[order[r - 1]] < ids[i]));
+            assert_true(keys[order[r - 1]] < keys[i] ||
+                        (keys[order[r - 1]] == keys[i] && ids[order[r - 1]] < ids[i]));
     }
     gpu_buffer_destroy(gpu, &sort.keys);
     gpu_buffer_destroy(gpu, &sort.ids);
@@ -113,7 +116,8 @@ static void compaction_keeps_order(void **state)
     uint32_t *flags = random_words(N, 2), *list = malloc(N * 4);
     size_t n_list, expected = 0;
     assert_ok(gpu_work_create(gpu, N, &work));
-    struct gpu_buffer *f = buffer_of(gpu, flags, N), *place = buffer_of(gpu, NULL, N), *l = buffer_of(gpu, NULL, N);
+    struct gpu_buffer *f = buffer_of(gpu, flags, N), *place = buffer_of(gpu, NULL, N),
+                      *l = buffer_of(gpu, NULL, N);
     assert_ok(gpu_compact(gpu, work, f, place, l, N, &n_list));
     assert_ok(gpu_download(gpu, l, 0, list, n_list));
     for (uint32_t i = 0; i < N; i++)
@@ -208,13 +212,15 @@ static void buffers_beyond_the_storage_range_work(void **state)
 
 static void unknown_devices_are_refused(void **state)
 {
-    static const char *const wrong[] = {"99", "uuid:00000000000000000000000000000001", "pci:ffff:ff:1f.7", "slurm"};
+    static const char *const wrong[] = {"99", "uuid:00000000000000000000000000000001", "pci:ffff:ff:1f.7",
+                                        "slurm"};
     struct gpu *gpu = NULL;
     (void)state;
     unsetenv("SLURM_JOB_GPUS");
     unsetenv("SLURM_STEP_GPUS");
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        if (i == 3 && gpu_create(&(struct gpu_options){.device = "auto"}, &gpu) == OK && !gpu_info(gpu)->is_cpu) {
+        if (i == 3 && gpu_create(&(struct gpu_options){.device = "auto"}, &gpu) == OK &&
+            !gpu_info(gpu)->is_cpu) {
             gpu_destroy(&gpu); /* with one GPU Slurm needs no number */
             continue;
         }
@@ -242,16 +248,19 @@ int main(void)
     static struct gpu_options own = {.device = "auto"};
     static struct gpu_options storage = {.device = "auto", .variant = VARIANT_STORAGE + 1};
     static struct gpu_options wide = {.device = "auto", .range_limit = 1};
-#define EACH(test, options) {#test " (" #options ")", test, NULL, NULL, &options}
+#define EACH(test, options)                                                                                  \
+    {                                                                                                        \
+#test " (" #options ")", test, NULL, NULL, &options                                                  \
+    }
     const struct CMUnitTest tests[] = {
-        EACH(scan_equals_running_sum, own),        EACH(scan_equals_running_sum, storage),
-        EACH(scan_equals_running_sum, wide),       EACH(sort_is_stable_by_id, own),
-        EACH(sort_is_stable_by_id, storage),       EACH(sort_is_stable_by_id, wide),
-        EACH(compaction_keeps_order, own),         EACH(compaction_keeps_order, wide),
-        EACH(reductions_agree_with_double, own),   EACH(reductions_agree_with_double, storage),
-        EACH(reductions_agree_with_double, wide),  EACH(pointers_double_to_their_roots, own),
+        EACH(scan_equals_running_sum, own),         EACH(scan_equals_running_sum, storage),
+        EACH(scan_equals_running_sum, wide),        EACH(sort_is_stable_by_id, own),
+        EACH(sort_is_stable_by_id, storage),        EACH(sort_is_stable_by_id, wide),
+        EACH(compaction_keeps_order, own),          EACH(compaction_keeps_order, wide),
+        EACH(reductions_agree_with_double, own),    EACH(reductions_agree_with_double, storage),
+        EACH(reductions_agree_with_double, wide),   EACH(pointers_double_to_their_roots, own),
         EACH(pointers_double_to_their_roots, wide), EACH(buffers_beyond_the_storage_range_work, own),
-        EACH(unknown_devices_are_refused, own),    EACH(a_buffer_too_large_is_refused_with_its_size, own),
+        EACH(unknown_devices_are_refused, own),     EACH(a_buffer_too_large_is_refused_with_its_size, own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

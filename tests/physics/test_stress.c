@@ -52,7 +52,8 @@ struct solved {
     float *normal; /* [cells][4] */
 };
 
-static struct solved solve(const struct box *box, size_t n_boxes, const int cells[3], double dx, double tolerance)
+static struct solved solve(const struct box *box, size_t n_boxes, const int cells[3], double dx,
+                           double tolerance)
 {
     struct solved s = {0};
     int voxels[3] = {2 * cells[0], 2 * cells[1], 2 * cells[2]};
@@ -72,7 +73,8 @@ static struct solved solve(const struct box *box, size_t n_boxes, const int cell
     elastic_recover(s.gpu, &s.e, &s.p);
     s.normal = malloc(elastic_cells(&s.e) * 16);
     assert_ok(gpu_download(s.gpu, s.e.normal_stress, 0, s.normal, elastic_cells(&s.e)));
-    print_message("# %d iterations on %zu nodes, estimated error %.2g\n", s.e.iterations, s.e.n_active, s.e.error);
+    print_message("# %d iterations on %zu nodes, estimated error %.2g\n", s.e.iterations, s.e.n_active,
+                  s.e.error);
     rock_free(&rock);
     return s;
 }
@@ -88,7 +90,9 @@ static void end(struct solved *s)
 
 static const float *cell(const struct solved *s, int i, int j, int k)
 {
-    return s->normal + 4 * (((size_t)(k + 1) * (size_t)s->e.cells[1] + (size_t)(j + 1)) * (size_t)s->e.cells[0] + (size_t)(i + 1));
+    return s->normal +
+           4 * (((size_t)(k + 1) * (size_t)s->e.cells[1] + (size_t)(j + 1)) * (size_t)s->e.cells[0] +
+                (size_t)(i + 1));
 }
 
 static void column_carries_its_own_weight(void **state)
@@ -121,14 +125,15 @@ static int rock_at(const struct solved *s, int i, int j, int k)
     return k < 0 || (c && (c[0] != 0 || c[1] != 0 || c[2] != 0));
 }
 
-/* Compares T with the shape's reference field at cells at least two cells from any edge (where two faces meet): cells whose two
- * rings of neighbours are bare along no more than one direction. */
+/* Compares T with the shape's reference field at cells at least two cells from any edge (where two faces
+ * meet): cells whose two rings of neighbours are bare along no more than one direction. */
 static void agrees_with_reference(const char *name, const struct box *box, size_t n_boxes, const int cells[3])
 {
     struct solved s = solve(box, n_boxes, cells, 1, 1e-4);
     char command[512];
     const char *top = getenv("HOODOO_TOP");
-    snprintf(command, sizeof command, "gzip -dc '%s/tests/physics/reference/%s.csv.gz'", top ? top : ".", name);
+    snprintf(command, sizeof command, "gzip -dc '%s/tests/physics/reference/%s.csv.gz'", top ? top : ".",
+             name);
     FILE *f = popen(command, "r");
     assert_non_null(f);
     char line[512];
@@ -137,8 +142,8 @@ static void agrees_with_reference(const char *name, const struct box *box, size_
     assert_non_null(fgets(line, sizeof line, f));
     while (fgets(line, sizeof line, f)) {
         double v[10];
-        assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3, v + 4, v + 5,
-                                v + 6, v + 7, v + 8, v + 9),
+        assert_int_equal(sscanf(line, "%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf,%lf", v, v + 1, v + 2, v + 3,
+                                v + 4, v + 5, v + 6, v + 7, v + 8, v + 9),
                          10);
         int c[3] = {(int)v[0], (int)v[1], (int)v[2]};
         double t = -(v[3] + v[4] + v[5]);
@@ -149,8 +154,8 @@ static void agrees_with_reference(const char *name, const struct box *box, size_
             for (int d = -2; d <= 2; d++) {
                 int at[3] = {c[0], c[1], c[2]};
                 at[axis] += d;
-                bare |= at[0] < 0 || at[1] < 0 || at[0] >= cells[0] || at[1] >= cells[1] || at[2] >= cells[2] ||
-                        !rock_at(&s, at[0], at[1], at[2]);
+                bare |= at[0] < 0 || at[1] < 0 || at[0] >= cells[0] || at[1] >= cells[1] ||
+                        at[2] >= cells[2] || !rock_at(&s, at[0], at[1], at[2]);
             }
             /* The held base is an edge where it meets a free face. */
             bare |= axis == 2 && c[2] < 2;
@@ -161,7 +166,8 @@ static void agrees_with_reference(const char *name, const struct box *box, size_
             for (int dy = -2; dy <= 2; dy++)
                 for (int dx = -2; dx <= 2; dx++) {
                     int at[3] = {c[0] + dx, c[1] + dy, c[2] + dz};
-                    int outside = at[0] < 0 || at[1] < 0 || at[0] >= cells[0] || at[1] >= cells[1] || at[2] >= cells[2];
+                    int outside =
+                        at[0] < 0 || at[1] < 0 || at[0] >= cells[0] || at[1] >= cells[1] || at[2] >= cells[2];
                     inner_corner |= outside ? 0 : !rock_at(&s, at[0], at[1], at[2]);
                 }
         if (bare_axes > 1 || (bare_axes == 0 && inner_corner))
@@ -174,15 +180,17 @@ static void agrees_with_reference(const char *name, const struct box *box, size_
     qsort(t_all, n_all, sizeof *t_all, ascending);
     double p95 = t_all[n_all * 95 / 100];
     double median_error = error[n / 2] / p95, p95_error = error[n * 95 / 100] / p95;
-    print_message("# %s: T differs by %.2f %% (median), %.2f %% (95th) of T_p95 = %.0f Pa in %zu of %zu cells\n", name,
-                  100 * median_error, 100 * p95_error, p95, n, n_all);
+    print_message(
+        "# %s: T differs by %.2f %% (median), %.2f %% (95th) of T_p95 = %.0f Pa in %zu of %zu cells\n", name,
+        100 * median_error, 100 * p95_error, p95, n, n_all);
     assert_true(median_error <= 0.015);
     assert_true(p95_error <= 0.04);
 
     /* The base carries the whole weight. */
     double force = 0, volume = 0;
     for (size_t b = 0; b < n_boxes; b++)
-        volume += (box[b].max[0] - box[b].min[0]) * (box[b].max[1] - box[b].min[1]) * (box[b].max[2] - box[b].min[2]);
+        volume += (box[b].max[0] - box[b].min[0]) * (box[b].max[1] - box[b].min[1]) *
+                  (box[b].max[2] - box[b].min[2]);
     for (int j = 0; j < cells[1]; j++)
         for (int i = 0; i < cells[0]; i++)
             force -= (double)cell(&s, i, j, 0)[2];

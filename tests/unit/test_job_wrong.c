@@ -134,7 +134,6 @@ static const struct wrong wrong[] = {
      {"strata.2.to_m: 48 m is not above the layer below"}},
     {"[main, top-2]", "[main, side]", {"output.aov.cameras.1: no camera 'side' in cameras"}},
     {"[main, top-2]", "[main, main]", {"output.aov.cameras.1: camera 'main' is listed twice"}},
-    {"{up: z", "{up: z, voxel_m: 0.4", {"output.voxel_m: 0.4 m is finer than the particles"}},
     {"position_m: [0, 0, 99]", "position_m: [0, 0, 0]", {"cameras.top-2: the same point as position_m"}},
     {"distance_m: 90", "distance_m: -90", {"cameras.main.orbit.distance_m: -90 is out of range"}},
     /* YAML a job has no use for */
@@ -239,7 +238,6 @@ static const struct {
     {"output.aov.cameras=[x]", {"--set output.aov.cameras: output.aov.cameras.0: no camera 'x' in cameras"}},
     {"cameras=[]", {"--set cameras: a list, but a mapping {name: {...}, ...} is wanted"}},
     {"cameras={}", {"output.aov.cameras.0: no camera 'main': cameras has none"}},
-    {"output.voxel_m=0.1", {"--set output.voxel_m: 0.1 m is finer"}},
     {"domain.spacing_m=1e4", {NULL}},
     {"cameras.new.resolution.0=99",
      {"--set cameras.new.resolution.0: cameras.new.resolution: a mapping, but a list"}},

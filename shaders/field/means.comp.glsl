@@ -1,0 +1,49 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What the rock around a sample carries: means of stress, von Mises stress and viability over the particles
+// of the sample's voxel and its neighbours, weighted as in the rock's share; 0 where there are none.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, start)
+READ_F(1, stress)
+READ_F(2, von_mises)
+READ_F(3, viability)
+READ_F(4, share)
+WRITE_V(5, means)
+PARAMS(field_params)
+#include "field/lattice.glsl"
+#include "particles/voxel.glsl"
+
+vec4 sum = vec4(0.0);
+
+void add(ivec3 v, float weight)
+{
+    if (!voxel_inside(v))
+        return;
+    uint c = voxel_index(v), end = LOAD_U(start, c + 1u);
+    for (uint j = LOAD_U(start, c); j < end; j++)
+        sum += weight * vec4(LOAD_F(stress, j), LOAD_F(von_mises, j), LOAD_F(viability, j), 1.0);
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    if (LOAD_F(share, i) > 0.0) {
+        ivec3 v = lattice_of(i) - int(k.margin);
+        add(v, SHARE_SELF);
+        for (int s = -1; s <= 1; s += 2) {
+            add(v + ivec3(s, 0, 0), SHARE_FACE);
+            add(v + ivec3(0, s, 0), SHARE_FACE);
+            add(v + ivec3(0, 0, s), SHARE_FACE);
+            for (int t = -1; t <= 1; t += 2) {
+                add(v + ivec3(s, t, 0), SHARE_EDGE);
+                add(v + ivec3(s, 0, t), SHARE_EDGE);
+                add(v + ivec3(0, s, t), SHARE_EDGE);
+            }
+        }
+    }
+    AT(means, i) = vec4(sum.w > 0.0 ? sum.xyz / sum.w : vec3(0.0), 0.0);
+}

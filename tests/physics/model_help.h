@@ -1,0 +1,65 @@
+/* A model driven without a folder: a job from text, its frames, its rock. */
+#ifndef HOODOO_TESTS_MODEL_HELP_H
+#define HOODOO_TESTS_MODEL_HELP_H
+
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "model/model.h"
+
+struct sim {
+    struct gpu *gpu;
+    struct job *job;
+    const struct model_type *type;
+    struct model *model;
+};
+
+/* `text` is the job, `sets` as --set gives them. */
+static inline struct sim sim_begin(const char *text, const char *const *sets, size_t n_sets)
+{
+    struct sim s = {0};
+    char path[] = "/tmp/hoodoo-job.XXXXXX";
+    int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *f = fdopen(file, "w");
+    assert_non_null(f);
+    assert_true(fputs(text, f) >= 0);
+    assert_int_equal(fclose(f), 0);
+    assert_ok(job_load(path, sets, n_sets, &s.job));
+    unlink(path);
+    assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
+    s.type = model_of(s.job);
+    assert_ok(s.type->create(s.gpu, s.job, NULL, &s.model));
+    return s;
+}
+
+static inline void sim_end(struct sim *s)
+{
+    s->type->destroy(&s->model);
+    gpu_destroy(&s->gpu);
+    job_destroy(&s->job);
+}
+
+static inline struct frame sim_output(struct sim *s)
+{
+    struct frame frame;
+    assert_ok(s->type->output(s->model, &frame));
+    return frame;
+}
+
+/* Viability by id, before the first particle was lost: 0 for those that are gone. */
+static inline float *viability_by_id(const struct rock *rock, size_t n_ids)
+{
+    float *by_id = calloc(n_ids, sizeof *by_id);
+    assert_non_null(by_id);
+    for (size_t i = 0; i < rock->n; i++) {
+        assert_true(rock->id[i] < n_ids);
+        by_id[rock->id[i]] = rock->viability[i];
+    }
+    return by_id;
+}
+
+#endif
