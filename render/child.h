@@ -1,10 +1,10 @@
 /* Other programs, run as children: never through a shell, killed and reaped when we are asked to stop.
  *
- * Calling sequence   children_begin(), any of children_run() and children_wait(), children_end(). After a failure
- *                    children_end() kills what still runs.
- * Where              A child's working directory is `folder`, its stdin is empty, and what it says goes to `log`
- *                    (relative to folder). Paths given to it should be relative, of safe names: programs have
- *                    meanings for '%', '#' and '-' in paths.
+ * Calling sequence   children_begin(), any of children_run() and children_wait(), children_end(). After a
+ *                    failure children_end() kills what still runs.
+ * Where              A child's working directory is `folder`, its stdin is empty, and what it says goes to
+ *                    `log` (relative to folder). Paths given to it should be relative, of safe names:
+ *                    programs have meanings for '%', '#' and '-' in paths.
  * Errors             E_INPUT: the program is not installed. E_OUTPUT: it failed; the sentence names the log.
  *                    STOPPED: a stop was requested.
  */

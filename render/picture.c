@@ -148,7 +148,8 @@ static status start(struct preview *p, struct picture *picture, int view, int wi
     snprintf(w, sizeof w, "+W%d", width);
     snprintf(h, sizeof h, "+H%d", height);
     snprintf(declare, sizeof declare, "Declare=View=%d", view);
-    /* One thread each: reading the mesh takes one anyway, so several pictures side by side use the cores better. */
+    /* One thread each: reading the mesh takes one anyway, so several pictures side by side use the cores
+     * better. */
     const char *const argv[] = {
         "povray", in,    out,  w,    h,    declare, p->preset == PRESET_DRAFT ? "-A" : "+A0.3",
         "+AM2",   "+R2", "-D", "-P", "-V", "+FN8",  "+WT1",

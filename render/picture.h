@@ -19,7 +19,8 @@ struct preview {
     bool keep_scenes;
 };
 
-/* preview/NAME.FRAME.png. Starts it (children_wait() ends it), or skips it if it is newer than the frame's volumes. */
+/* preview/NAME.FRAME.png. Starts it (children_wait() ends it), or skips it if it is newer than the frame's
+ * volumes. */
 MUST_USE status picture_still(struct preview *p, int frame);
 
 /* turntable/NAME.FRAME.000.png and so on: `views` of a full orbit. Waits. */

@@ -1,8 +1,9 @@
 /* Scene text. POV-Ray's mesh2 wants vertices, then normals, then faces.
  *
- * Handedness   POV-Ray calls itself left-handed, but a camera given by its four vectors has no handedness: a ray goes
- *              through location + direction + u right + v up. So data and cameras keep the simulator's axes, nothing
- *              is mirrored, and what stands at +x in the scene stands at +x in the simulator.
+ * Handedness   POV-Ray calls itself left-handed, but a camera given by its four vectors has no handedness: a
+ *              ray goes through location + direction + u right + v up. So data and cameras keep the
+ *              simulator's axes, nothing is mirrored, and what stands at +x in the scene stands at +x in the
+ *              simulator.
  */
 #include "render/povray.h"
 

@@ -48,8 +48,8 @@ status turntable_video(struct preview *p, int frame, int views)
     TRY(atomic_file_temporary(sheet.path, sheet.temporary, sizeof sheet.temporary - 4));
     strcat(sheet.temporary, ".mp4"); /* programs go by the ending */
     snprintf(pattern, sizeof pattern, "turntable/%.200s.%04d.%%03d.png", p->job->name, frame);
-    /* Names hold letters, digits, _ and - alone, so nothing here needs the filter's own quoting. Three turns: a video of
-     * one and a half seconds is over before one has looked. */
+    /* Names hold letters, digits, _ and - alone, so nothing here needs the filter's own quoting. Three turns:
+     * a video of one and a half seconds is over before one has looked. */
     snprintf(
         filter, sizeof filter,
         "loop=loop=2:size=%d,scale=trunc(iw/2)*2:trunc(ih/2)*2:in_color_matrix=bt709:out_color_matrix=bt709,"

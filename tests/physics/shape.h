@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "output/frame.h"
+#include "particles/frame.h"
 
 struct shape {
     int n[3];
@@ -113,8 +113,8 @@ static inline int shape_parts(const struct shape *s, size_t *largest, size_t *al
     return parts;
 }
 
-/* The sky that is seen through the rock along y, above `floor` metres, m2: what of the picture from the front is free of rock and
- * closed in by it on the sides and above; at `floor` it counts as closed. */
+/* The sky that is seen through the rock along y, above `floor` metres, m2: what of the picture from the front
+ * is free of rock and closed in by it on the sides and above; at `floor` it counts as closed. */
 static inline double shape_window(const struct shape *s, double floor_m)
 {
     int low = (int)ceil(floor_m / s->h - 1e-9), nz = s->n[2] - low;

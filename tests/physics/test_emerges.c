@@ -1,4 +1,5 @@
-/* The demo at half its resolution: an arch emerges and stands, because its rock interlocks; and nothing pops. */
+/* The demo at half its resolution: an arch emerges and stands, because its rock interlocks; and nothing pops.
+ * */
 #include "field/field.h"
 #include "model_help.h"
 #include "shape.h"

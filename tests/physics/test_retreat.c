@@ -1,4 +1,5 @@
-/* A face retreats at its rock's rate, whatever the spacing, the step, and the angle to the grid; and by the wind as it stands. */
+/* A face retreats at its rock's rate, whatever the spacing, the step, and the angle to the grid; and by the
+ * wind as it stands. */
 #include "model_help.h"
 
 #include <math.h>
@@ -107,7 +108,8 @@ static void walls_lose_two_metres_in_ten_thousand_years(void **state)
     (void)state;
     for (size_t f = 0; f < sizeof faces / sizeof *faces; f++)
         for (size_t h = 0; h < sizeof spacing / sizeof *spacing; h++) {
-            /* One step of erosion a frame on the coarse lattice, more on the fine ones; and frames of many. */
+            /* One step of erosion a frame on the coarse lattice, more on the fine ones; and frames of many.
+             * */
             static const struct {
                 double years;
                 int frames;

@@ -264,7 +264,8 @@ static void frames_are_listed_in_order(void **state)
     assert_int_equal(folder_frames("nowhere", "arch", &found, &n), OK);
     assert_int_equal(n, 0);
     free(found);
-    /* A new start sweeps what a killed one left long ago; what may be another machine's work under way stays. */
+    /* A new start sweeps what a killed one left long ago; what may be another machine's work under way stays.
+     * */
     assert_int_equal(folder_prepare("list"), OK);
     assert_int_equal(access("list/frames/arch.1004.json.tmp-1-2-3", F_OK), 0);
     assert_int_equal(
