@@ -377,7 +377,7 @@ static void log_times(struct gpu *gpu)
     size_t n = gpu_stage_times(gpu, &times);
     for (size_t i = 0; i < n; i++)
         if (times[i].ns)
-            log_info("device time: %-12s %8.2f s in %llu dispatches", times[i].name,
+            log_note("device time: %-12s %8.2f s in %llu dispatches", times[i].name,
                      (double)times[i].ns / 1e9, (unsigned long long)times[i].dispatches);
 }
 
