@@ -7,6 +7,8 @@ TEST_PACKAGES = libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr p
 PEER_PACKAGES = blender
 DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
 
+MAKEFLAGS += --jobs=$(shell nproc)
+
 VERSION = 0.1.0
 BUILD = build
 CC = gcc
@@ -41,10 +43,10 @@ deps: $(BUILD)/.deps
 $(BUILD)/.deps: Makefile
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) && touch $@
 deps-test: $(BUILD)/.deps-test
-$(BUILD)/.deps-test: Makefile
+$(BUILD)/.deps-test: Makefile $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) && touch $@
 deps-peers: $(BUILD)/.deps-peers
-$(BUILD)/.deps-peers: Makefile
+$(BUILD)/.deps-peers: Makefile $(BUILD)/.deps-test
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(PEER_PACKAGES) && touch $@
 
 $(BUILD)/hoodoo: $(BUILD)/src/main.o $(BUILD)/libhoodoo.a
@@ -132,8 +134,9 @@ lint: deps-test
 	$(Q)sh tests/lint.sh $(PACKAGES) $(TEST_PACKAGES) $(DEV_PACKAGES)
 
 ## asan: build and run the tests under the address sanitizer
+# (no leak check: Mesa keeps memory until the process ends)
 asan:
-	$(Q)$(MAKE) BUILD=build-asan OPT='-O1 -g' SANITIZE='-fsanitize=address -fno-omit-frame-pointer' test
+	$(Q)ASAN_OPTIONS=detect_leaks=0 $(MAKE) BUILD=build-asan OPT='-O1 -g' SANITIZE='-fsanitize=address -fno-omit-frame-pointer' test
 
 ## ubsan: build and run the tests under the undefined behaviour sanitizer
 ubsan:
