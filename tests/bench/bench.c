@@ -8,8 +8,8 @@
 
 #include "base/version.h"
 #include "model/model.h"
+#include "model/writer.h"
 #include "output/folder.h"
-#include "output/writer.h"
 #include "stress/elastic.h"
 #include "tests/ref/elastic_ref.h"
 
@@ -27,7 +27,7 @@ static void check(status st)
     if (st == OK)
         return;
     fprintf(stderr, "bench: %s\n", status_message());
-    exit(st);
+    exit((int)st);
 }
 
 static void *need(size_t n, size_t size)
