@@ -27,7 +27,7 @@ static void check(status st)
     if (st == OK)
         return;
     fprintf(stderr, "bench: %s\n", status_message());
-    exit(st);
+    exit((int)st);
 }
 
 static void *need(size_t n, size_t size)
