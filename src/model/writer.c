@@ -161,7 +161,8 @@ static void item_free(struct item *item)
 static void *work(void *argument)
 {
     struct writer *w = argument;
-    /* Linux keeps this per thread. Where the device is the CPU, the simulation goes first; the queue makes it wait. */
+    /* Linux keeps this per thread. Where the device is the CPU, the simulation goes first; the queue makes it
+     * wait. */
     setpriority(PRIO_PROCESS, 0, WRITER_NICE);
     pthread_mutex_lock(&w->lock);
     while (w->n > 0 || !w->ending) {
