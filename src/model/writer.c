@@ -129,7 +129,7 @@ done:
 
 /* ---- the thread */
 
-enum { QUEUE = 2, WRITER_NICE = 10 };
+enum { QUEUE = 2, WRITER_NICE = 19 };
 
 struct item {
     bool is_checkpoint;
