@@ -74,6 +74,8 @@ struct job_node {
     } u;
 };
 
+enum { MODEL_ARENITE, MODEL_GOBLINS };
+enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
@@ -89,6 +91,9 @@ void job_destroy(struct job **job);
 /* The job as run: YAML with every key, its value and, as a comment, its unit and meaning. Loading it again
  * gives an equal job. */
 MUST_USE status job_resolved(const struct job *job, struct text *out);
+
+/* The index of the stratum at a height, m. */
+size_t job_layer_at(const struct job *job, double z);
 
 /* XXH3-64 of everything that changes the simulation (keys.def's SIM), in canonical form, input files'
  * contents included. */
