@@ -60,7 +60,7 @@ static void place(const struct sampler *s, const int voxel[3], float P[4])
 static double rate_factor(const struct sampler *s, const double x[3], const struct paint_values *paint)
 {
     size_t layer = job_layer_at(s->job, x[2]);
-    double own = s->job->strata[layer].noise_amplitude;
+    double own = s->job->n_strata ? s->job->strata[layer].noise_amplitude : -1;
     double amplitude = own >= 0 ? own : s->job->noise.amplitude;
     if (paint->inert || solid_at(s->solid, x).inert)
         return 0;
@@ -169,10 +169,10 @@ static status sampler_fill(struct sampler *s)
     status st = OK;
     uint32_t seed = (uint32_t)s->job->seed;
     TRY(paint_create(s->job, &s->paint));
-    TRY(memory_alloc(s->job->n_strata, sizeof *s->noise, "noise", &s->noise));
-    for (size_t i = 0; i < s->job->n_strata; i++) {
+    TRY(memory_alloc(s->job->n_strata + 1, sizeof *s->noise, "noise", &s->noise));
+    for (size_t i = 0; i <= s->job->n_strata; i++) {
         struct job_noise own = s->job->noise;
-        if (s->job->strata[i].noise_scale_m > 0)
+        if (i < s->job->n_strata && s->job->strata[i].noise_scale_m > 0)
             own.scale_m = s->job->strata[i].noise_scale_m;
         s->noise[i] = noise_init(&own, seed);
     }
