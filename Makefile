@@ -4,7 +4,7 @@ PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev me
 	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
 	libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-numpy python3-scipy
-PEER_PACKAGES = blender slurm-wlm munge python3-venv
+PEER_PACKAGES = blender
 DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
 
 VERSION = 0.1.0
@@ -28,7 +28,7 @@ SHIM = $(shell find src farm render -name '*_shim.cpp')
 SHADER = $(shell find shaders -name '*.comp.glsl')
 KERNEL = $(subst /,_,$(patsubst shaders/%.comp.glsl,%,$(SHADER)))
 LIB_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/main.c,$(SRC))) $(SHIM:%.cpp=$(BUILD)/%.o) \
-	$(BUILD)/gen/gpu/kernels.o
+	$(BUILD)/gen/gpu/kernels.o $(BUILD)/gen/render/scene_parts.o
 TEST_SRC = $(wildcard tests/*/test_*.c)
 TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
 TEST_HELP = $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/ref/*.c))
@@ -84,6 +84,15 @@ $(BUILD)/gen/gpu/kernels.h: $(SHADER) src/gpu/embed.sh | $(BUILD)/.deps
 $(BUILD)/gen/gpu/kernels.c: $(SPV) $(BUILD)/gen/gpu/kernels.h src/gpu/embed.sh
 	$(Q)sh src/gpu/embed.sh source $(BUILD)/shaders $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
 $(BUILD)/gen/gpu/kernels.o: $(BUILD)/gen/gpu/kernels.c $(BUILD)/gen/gpu/kernels.h
+	@echo "cc $<"
+	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+
+# ---- scenes: POV-Ray text, embedded as lines
+
+SCENE = $(sort $(wildcard render/*.inc))
+$(BUILD)/gen/render/scene_parts.c: $(SCENE) render/embed.sh
+	$(Q)mkdir -p $(@D) && sh render/embed.sh $(SCENE) > $@.tmp && mv $@.tmp $@
+$(BUILD)/gen/render/scene_parts.o: $(BUILD)/gen/render/scene_parts.c render/scene_parts.h
 	@echo "cc $<"
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 

@@ -69,7 +69,7 @@ SHARED_SIZE(voxel_params, 20)
 
 struct stress_params {
     uint n;
-    uint cx, cy, cz; /* cells with margin; nodes are one more on each axis */
+    uint cx, cy, cz;  /* cells with margin; nodes are one more on each axis */
     float lambda, mu; /* Pa */
     float dx;         /* m */
     float weight;     /* N: of a full cell */
@@ -104,13 +104,13 @@ SHARED_SIZE(interlock_params, 8)
 struct erosion_params {
     uint n;
     uint nx, ny, nz;
-    float h;                 /* m */
-    float dt;                /* kyr */
-    float deflation;         /* k_d */
+    float h;                            /* m */
+    float dt;                           /* kyr */
+    float deflation;                    /* k_d */
     float cohesion, friction, strength; /* mu_c (Pa), mu_f, alpha (Pa) */
-    float abrasion;          /* k_a (|v| / v_ref)^2 */
-    float wind_x, wind_y, wind_z; /* unit vector, where it blows to */
-    float shelter;           /* m */
+    float abrasion;                     /* k_a (|v| / v_ref)^2 */
+    float wind_x, wind_y, wind_z;       /* unit vector, where it blows to */
+    float shelter;                      /* m */
 };
 SHARED_SIZE(erosion_params, 60)
 

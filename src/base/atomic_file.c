@@ -3,6 +3,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -10,12 +11,33 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "base/memory.h"
 
-/* Temporary names are NAME.tmp-PID-TIME-COUNT: unique across the containers of a farm that share a disk. */
 static const char TEMPORARY[] = ".tmp-";
+
+/* Machines that share a disk are told apart by their names. */
+static unsigned host(void)
+{
+    char name[256] = "";
+    gethostname(name, sizeof name - 1);
+    return (unsigned)hash_bytes(name, strlen(name));
+}
+
+status atomic_file_temporary(const char *path, char *out, size_t size)
+{
+    static atomic_uint count;
+    struct timeval now;
+    gettimeofday(&now, NULL);
+    int length = snprintf(out, size, "%s%s%08x-%ld-%lx%05lx-%u", path, TEMPORARY, host(), (long)getpid(),
+                          (unsigned long)now.tv_sec, (unsigned long)now.tv_usec, atomic_fetch_add(&count, 1));
+    if (length < 0 || (size_t)length >= size)
+        return fail(E_OUTPUT, "%.200s...: the path is too long", path);
+    return OK;
+}
 
 static status fsync_folder_of(const char *path)
 {
@@ -37,16 +59,10 @@ static status fsync_folder_of(const char *path)
 
 status atomic_file_write(const char *path, const void *bytes, size_t n)
 {
-    static atomic_uint count;
     char temporary[4096];
-    struct timeval now;
-    gettimeofday(&now, NULL);
-    int length = snprintf(temporary, sizeof temporary, "%s%s%ld-%lx%05lx-%u", path, TEMPORARY, (long)getpid(),
-                          (unsigned long)now.tv_sec, (unsigned long)now.tv_usec, atomic_fetch_add(&count, 1));
-    if (length < 0 || (size_t)length >= sizeof temporary)
-        return fail(E_OUTPUT, "%.200s...: the path is too long", path);
-
-    status st = OK;
+    status st = atomic_file_temporary(path, temporary, sizeof temporary);
+    if (st != OK)
+        return st;
     int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd < 0)
         return fail(E_OUTPUT, "%s: cannot be written: %s", path, strerror(errno));
@@ -96,13 +112,29 @@ status folder_make(const char *path)
     return OK;
 }
 
+/* Left behind: by a process of this machine that is no more, or by any a day ago. */
+static bool abandoned(const char *name, int folder)
+{
+    enum { DAY_S = 24 * 60 * 60 };
+    const char *tail = strstr(name, TEMPORARY);
+    unsigned whose;
+    long pid;
+    struct stat info;
+    if (!tail || sscanf(tail + strlen(TEMPORARY), "%8x-%ld-", &whose, &pid) != 2 ||
+        fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) != 0)
+        return false;
+    if (whose == host() && pid > 0 && kill((pid_t)pid, 0) != 0 && errno == ESRCH)
+        return true;
+    return time(NULL) - info.st_mtime > DAY_S;
+}
+
 void atomic_file_sweep(const char *folder)
 {
     DIR *d = opendir(folder);
     if (!d)
         return;
     for (struct dirent *e; (e = readdir(d));)
-        if (strstr(e->d_name, TEMPORARY))
+        if (abandoned(e->d_name, dirfd(d)))
             unlinkat(dirfd(d), e->d_name, 0);
     closedir(d);
 }

@@ -17,7 +17,12 @@ MUST_USE status atomic_file_write(const char *path, const void *bytes, size_t n)
 /* Makes `path` and its parents. E_OUTPUT if that fails or something else stands there. */
 MUST_USE status folder_make(const char *path);
 
-/* Removes temporary files a killed process left in `folder`. Never fails: what cannot be removed stays. */
+/* A temporary name beside `path`, of this machine and process, for files that other programs write: move it
+ * over `path` when it is whole. E_OUTPUT if it is longer than `size` allows. */
+MUST_USE status atomic_file_temporary(const char *path, char *out, size_t size);
+
+/* Removes temporary files that killed processes left in `folder`; those of living ones, here or on other
+ * machines that share the disk, stay. Never fails: what cannot be removed stays too. */
 void atomic_file_sweep(const char *folder);
 
 /* The whole file in *bytes (freed with free(); a NUL follows the content). E_INPUT if missing, not a regular

@@ -6,7 +6,7 @@
 #include "field/field.h"
 #include "gpu/gpu.h"
 #include "job/job.h"
-#include "output/frame.h"
+#include "particles/frame.h"
 #include "particles/particles.h"
 
 /* Buffers for pictures of up to n_pixels, and the strata's colours. */

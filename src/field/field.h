@@ -10,7 +10,7 @@
 #define HOODOO_FIELD_H
 
 #include "gpu/gpu.h"
-#include "output/frame.h"
+#include "particles/frame.h"
 #include "particles/particles.h"
 
 struct field {

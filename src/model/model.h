@@ -6,7 +6,7 @@
 #include "checkpoint/checkpoint.h"
 #include "gpu/gpu.h"
 #include "job/job.h"
-#include "output/frame.h"
+#include "particles/frame.h"
 
 struct model;
 

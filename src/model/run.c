@@ -11,8 +11,8 @@
 #include "base/memory.h"
 #include "base/version.h"
 #include "model/model.h"
+#include "model/writer.h"
 #include "output/folder.h"
-#include "output/writer.h"
 
 struct run {
     const struct job *job;

@@ -5,7 +5,7 @@
 
 #include "base/status.h"
 #include "base/text.h"
-#include "output/frame.h"
+#include "particles/frame.h"
 
 struct exr_options {
     int layout; /* AOV_LAYOUT_* */

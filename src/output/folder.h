@@ -8,7 +8,7 @@
 
 #include "base/status.h"
 #include "base/text.h"
-#include "output/frame.h"
+#include "particles/frame.h"
 
 enum folder_file { FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST, FILE_CHECKPOINT, FILE_MESH };
 

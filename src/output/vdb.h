@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 #include "base/status.h"
-#include "output/frame.h"
+#include "particles/frame.h"
 
 #ifdef __cplusplus
 extern "C" {

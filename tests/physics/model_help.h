@@ -17,10 +17,20 @@ struct sim {
     struct model *model;
 };
 
-/* `text` is the job, `sets` as --set gives them. */
-static inline struct sim sim_begin(const char *text, const char *const *sets, size_t n_sets)
+/* The job of a file, with `sets` as --set gives them. */
+static inline struct sim sim_open(const char *path, const char *const *sets, size_t n_sets)
 {
     struct sim s = {0};
+    assert_ok(job_load(path, sets, n_sets, &s.job));
+    assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
+    s.type = model_of(s.job);
+    assert_ok(s.type->create(s.gpu, s.job, NULL, &s.model));
+    return s;
+}
+
+/* The job in a text. */
+static inline struct sim sim_begin(const char *text)
+{
     char path[] = "/tmp/hoodoo-job.XXXXXX";
     int file = mkstemp(path);
     assert_true(file >= 0);
@@ -28,11 +38,8 @@ static inline struct sim sim_begin(const char *text, const char *const *sets, si
     assert_non_null(f);
     assert_true(fputs(text, f) >= 0);
     assert_int_equal(fclose(f), 0);
-    assert_ok(job_load(path, sets, n_sets, &s.job));
+    struct sim s = sim_open(path, NULL, 0);
     unlink(path);
-    assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
-    s.type = model_of(s.job);
-    assert_ok(s.type->create(s.gpu, s.job, NULL, &s.model));
     return s;
 }
 

@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-#include "output/frame.h"
+#include "particles/frame.h"
 
 struct shape {
     int n[3];
@@ -14,18 +14,22 @@ struct shape {
     uint8_t *rock; /* [voxels] */
 };
 
-/* Voxels with a particle of which at least `least` is left. */
-static inline struct shape shape_of(const struct rock *rock, const int n[3], double h, float least)
+/* The voxels whose middle is inside the surface, without the field's margin. */
+static inline struct shape shape_inside(const struct frame_grids *grids, int margin)
 {
-    struct shape s = {
-        .n = {n[0], n[1], n[2]}, .h = h, .rock = calloc((size_t)n[0] * (size_t)n[1] * (size_t)n[2], 1)};
-    for (size_t i = 0; i < rock->n; i++) {
-        int v[3];
-        for (int a = 0; a < 3; a++)
-            v[a] = (int)floor((double)rock->P[4 * i + (size_t)a] / h);
-        if (rock->viability[i] >= least)
-            s.rock[((size_t)v[2] * (size_t)n[1] + (size_t)v[1]) * (size_t)n[0] + (size_t)v[0]] = 1;
-    }
+    struct shape s = {.h = grids->voxel};
+    for (int a = 0; a < 3; a++)
+        s.n[a] = grids->n[a] - 2 * margin;
+    s.rock = malloc((size_t)s.n[0] * (size_t)s.n[1] * (size_t)s.n[2]);
+    for (int k = 0; k < s.n[2]; k++)
+        for (int j = 0; j < s.n[1]; j++)
+            for (int i = 0; i < s.n[0]; i++) {
+                size_t from = ((size_t)(k + margin) * (size_t)grids->n[1] + (size_t)(j + margin)) *
+                                  (size_t)grids->n[0] +
+                              (size_t)(i + margin);
+                s.rock[((size_t)k * (size_t)s.n[1] + (size_t)j) * (size_t)s.n[0] + (size_t)i] =
+                    grids->grid[0].value[from] < 0;
+            }
     return s;
 }
 
@@ -86,21 +90,22 @@ static inline int shape_spans(const struct shape *s)
     return spans;
 }
 
-/* Parts of the rock with no face path between them. */
-static inline int shape_parts(const struct shape *s, size_t *largest)
+/* Parts of the rock with no face path between them, and how many voxels they have. */
+static inline int shape_parts(const struct shape *s, size_t *largest, size_t *all)
 {
     size_t n = (size_t)s->n[0] * (size_t)s->n[1] * (size_t)s->n[2];
     uint8_t *mark = malloc(n);
     int parts = 0;
     for (size_t i = 0; i < n; i++)
         mark[i] = s->rock[i];
-    *largest = 0;
+    *largest = *all = 0;
     for (size_t v = 0; v < n; v++) {
         if (mark[v] != 1)
             continue;
         int low[3] = {(int)(v % (size_t)s->n[0]), (int)(v / (size_t)s->n[0]) % s->n[1],
                       (int)(v / ((size_t)s->n[0] * (size_t)s->n[1]))};
         size_t size = shape_flood(s, mark, 1, low, (int[]){low[0] + 1, low[1] + 1, low[2] + 1});
+        *all += size;
         *largest = size > *largest ? size : *largest;
         parts++;
     }

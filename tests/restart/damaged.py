@@ -96,6 +96,7 @@ for path in ("points/twelve.1009.vdb.tmp-1-2-3", "frames/twelve.1009.json.tmp-77
              "job.yaml.tmp-1-1-1"):
     with open(os.path.join("run", path), "w") as file:
         file.write("half a file")
+    os.utime(os.path.join("run", path), (0, 0))  # another machine's, long ago
 code, said = run("run")
 same("what a dead run left half-written is swept away", code, said)
 

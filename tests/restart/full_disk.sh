@@ -25,8 +25,10 @@ fi
 trap 'umount disk' EXIT
 "$HOODOO" run "$job" --out whole --progress none 2>err || { not_ok "an uninterrupted run"; exit 1; }
 tree whole >whole.sums
+whole_kb=$(du -sk whole | cut -f 1)
 
-for kb in 40 80 300 900 1700 2900 3900; do
+for share in 1 2 8 22 43 74 94; do
+    kb=$((whole_kb * share / 100))
     umount disk
     mount -t tmpfs -o "size=${kb}k" tmpfs disk
     "$HOODOO" run "$job" --out disk/out --progress none 2>err

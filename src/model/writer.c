@@ -1,4 +1,4 @@
-#include "output/writer.h"
+#include "model/writer.h"
 
 #include <pthread.h>
 #include <stdio.h>

@@ -13,7 +13,7 @@
 
 #include "checkpoint/checkpoint.h"
 #include "job/job.h"
-#include "output/frame.h"
+#include "particles/frame.h"
 
 struct writer;
 

@@ -1,4 +1,4 @@
-#include "output/frame.h"
+#include "particles/frame.h"
 
 #include <stdlib.h>
 

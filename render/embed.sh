@@ -1,0 +1,13 @@
+#!/bin/sh
+# embed.sh FILE...: the files as C, each an array of lines ending in NULL: a/sandstone.inc becomes scene_sandstone.
+# Lines, not one text: C compilers need not take literals of more than 4095 bytes.
+set -eu
+echo '/* Made by render/embed.sh. */'
+echo '#include "render/scene_parts.h"'
+for file; do
+    name=$(basename "$file" .inc)
+    echo
+    echo "const char *const scene_$name[] = {"
+    sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/^/    "/' -e 's/$/\\n",/' "$file"
+    echo '    NULL};'
+done

@@ -1,0 +1,161 @@
+/* Scene text. POV-Ray's mesh2 wants vertices, then normals, then faces.
+ *
+ * Handedness   POV-Ray calls itself left-handed, but a camera given by its four vectors has no handedness: a
+ *              ray goes through location + direction + u right + v up. So data and cameras keep the
+ *              simulator's axes, nothing is mirrored, and what stands at +x in the scene stands at +x in the
+ *              simulator.
+ */
+#include "render/povray.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "base/version.h"
+#include "job/palette.h"
+#include "render/scene_parts.h"
+
+status scene_bounds(struct scene *s)
+{
+    if (s->mesh->n_triangles == 0)
+        return fail(E_INPUT, "frame %d: no rock is left, there is nothing to show", s->frame);
+    for (int k = 0; k < 3; k++) {
+        s->low[k] = INFINITY;
+        s->high[k] = -INFINITY;
+        for (size_t i = 0; i < s->mesh->n_vertices; i++) {
+            double at = s->mesh->vertex[3 * i + (size_t)k];
+            s->low[k] = fmin(s->low[k], at);
+            s->high[k] = fmax(s->high[k], at);
+        }
+    }
+    return OK;
+}
+
+/* Does every corner of the box lie within this share of the camera's film? */
+static bool holds(const struct scene *s, const struct camera *c, double share)
+{
+    double wide = 0, high = 0;
+    for (int k = 0; k < 3; k++) {
+        wide += c->right[k] * c->right[k];
+        high += c->down[k] * c->down[k];
+    }
+    for (int corner = 0; corner < 8; corner++) {
+        double u = 0, v = 0, w = 0;
+        for (int k = 0; k < 3; k++) {
+            double d = (corner >> k & 1 ? s->high[k] : s->low[k]) - c->eye[k];
+            u += d * c->right[k] / wide;
+            v += d * c->down[k] / high;
+            w += d * c->ahead[k];
+        }
+        if (w <= 0 || fabs(u) > share * w || fabs(v) > share * w)
+            return false;
+    }
+    return true;
+}
+
+struct camera scene_orbit(const struct scene *s, double azimuth_deg, int width, int height)
+{
+    struct job_camera orbit = {.focal_mm = 35, .aperture_mm = 36, .resolution = {width, height}};
+    orbit.orbit.elevation_deg = 12;
+    double size = 0;
+    for (int k = 0; k < 3; k++) {
+        orbit.orbit.target_m[k] = 0.5 * (s->low[k] + s->high[k]);
+        size = fmax(size, s->high[k] - s->low[k]);
+    }
+    orbit.orbit.distance_m = fmax(0.5 * size, 1e-3);
+    /* One distance for the whole orbit, or the rock would breathe. */
+    for (int azimuth = 0; azimuth < 360; azimuth += 5) {
+        orbit.orbit.azimuth_deg = azimuth;
+        for (struct camera c = camera_of(&orbit); !holds(s, &c, 0.86); c = camera_of(&orbit))
+            orbit.orbit.distance_m *= 1.01;
+    }
+    orbit.orbit.azimuth_deg = azimuth_deg;
+    return camera_of(&orbit);
+}
+
+static void add_vectors(struct text *out, const char *name, const struct scene *s, size_t offset)
+{
+    text_add(out, "#declare %s = array[%zu] {", name, s->n_cameras);
+    for (size_t i = 0; i < s->n_cameras; i++) {
+        const double *v = (const double *)(const void *)((const char *)&s->camera[i] + offset);
+        text_add(out, "%s\n    <%.9g, %.9g, %.9g>", i ? "," : "", v[0], v[1], v[2]);
+    }
+    text_add(out, "\n}\n");
+}
+
+static void add_strata(struct text *out, const struct scene *s)
+{
+    size_t n = s->job->n_strata;
+    text_add(out, "\n#declare Layers = %zu;\n#declare Layer_Top = array[%zu] {", n, n);
+    for (size_t i = 0; i < n; i++)
+        text_add(out, "%s%.9g", i ? ", " : "", fmin(s->job->strata[i].to_m, 1e6));
+    text_add(out, "}\n#declare Layer_Color = array[%zu] {", n);
+    for (size_t i = 0; i < n; i++) {
+        float rgb[3];
+        palette_color(s->job, i, rgb);
+        text_add(out, "%s<%.4f, %.4f, %.4f>", i ? ", " : "", (double)rgb[0], (double)rgb[1], (double)rgb[2]);
+    }
+    text_add(out, "}\n");
+}
+
+/* Few digits: reading the mesh takes most of a small picture's time. */
+static void add_mesh(struct text *out, const struct scene *s)
+{
+    const struct vdb_mesh *m = s->mesh;
+    double size = fmax(fmax(s->high[0] - s->low[0], s->high[1] - s->low[1]), s->high[2] - s->low[2]);
+    int digits = (int)fmax(0, ceil(log10(40000 / size)));
+    text_add(out, "\n#declare Rock = mesh2 {\nvertex_vectors { %zu", m->n_vertices);
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        const float *v = m->vertex + 3 * i;
+        text_add(out, ",\n<%.*f,%.*f,%.*f>", digits, (double)v[0], digits, (double)v[1], digits,
+                 (double)v[2]);
+    }
+    text_add(out, "}\nnormal_vectors { %zu", m->n_vertices);
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        const float *v = m->normal + 3 * i;
+        text_add(out, ",\n<%.3f,%.3f,%.3f>", (double)v[0], (double)v[1], (double)v[2]);
+    }
+    text_add(out, "}\nface_indices { %zu", m->n_triangles);
+    for (size_t i = 0; i < m->n_triangles; i++) {
+        const uint32_t *t = m->triangle + 3 * i;
+        text_add(out, ",\n<%u,%u,%u>", t[0], t[1], t[2]);
+    }
+    text_add(out, "}\n}\n\n");
+}
+
+static void add_part(struct text *out, const char *const *line)
+{
+    for (; *line; line++)
+        text_add_bytes(out, *line, strlen(*line));
+    text_add(out, "\n");
+}
+
+status scene_write(const struct scene *s, struct text *out)
+{
+    double size = 0;
+    for (int k = 0; k < 3; k++)
+        size = fmax(size, s->high[k] - s->low[k]);
+    text_add(out, "// hoodoo %s: %s, frame %d. Simulator axes: z up, metres.\n", hoodoo_version, s->job->name,
+             s->frame);
+    text_add(out, "// povray +W%d +H%d +A0.3 Declare=View=0..%zu\n", s->camera->width, s->camera->height,
+             s->n_cameras - 1);
+    text_add(out, "#version 3.7;\n#declare Quality = %d; // 0 draft, 1 preview, 2 final\n", (int)s->preset);
+    text_add(out, "global_settings {\n    assumed_gamma 1.0\n    max_trace_level 4\n");
+    if (s->preset == PRESET_FINAL)
+        text_add(out, "    radiosity { pretrace_start 0.04 pretrace_end 0.01 count 80 error_bound 0.6 "
+                      "recursion_limit 1 }\n");
+    text_add(out, "}\n#ifndef (View) #declare View = 0; #end\n\n");
+    add_vectors(out, "Eye", s, offsetof(struct camera, eye));
+    add_vectors(out, "Ahead", s, offsetof(struct camera, ahead));
+    add_vectors(out, "Right", s, offsetof(struct camera, right));
+    add_vectors(out, "Down", s, offsetof(struct camera, down));
+    text_add(out, "#declare Low = <%.9g, %.9g, %.9g>;\n", s->low[0], s->low[1], s->low[2]);
+    text_add(out, "#declare High = <%.9g, %.9g, %.9g>;\n", s->high[0], s->high[1], s->high[2]);
+    text_add(out, "#declare Center = (Low + High) / 2;\n#declare Size = %.9g;\n", size);
+    add_strata(out, s);
+    add_mesh(out, s);
+    add_part(out, scene_light);
+    add_part(out, scene_sky);
+    add_part(out, scene_sandstone);
+    return text_status(out);
+}

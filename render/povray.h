@@ -1,0 +1,30 @@
+/* A frame's surface as a POV-Ray scene, complete in one text. */
+#ifndef HOODOO_POVRAY_H
+#define HOODOO_POVRAY_H
+
+#include "base/text.h"
+#include "field/camera.h"
+#include "output/vdb.h"
+
+enum preset { PRESET_DRAFT, PRESET_PREVIEW, PRESET_FINAL };
+
+struct scene {
+    const struct job *job;
+    int frame;
+    const struct vdb_mesh *mesh;
+    double low[3], high[3];      /* m: the mesh's bounds */
+    const struct camera *camera; /* one a view: povray's Declare=View=2 takes the third */
+    size_t n_cameras;            /* >= 1 */
+    enum preset preset;
+};
+
+/* The mesh's bounds into low and high. E_INPUT if it has no triangles: there is nothing to show. */
+MUST_USE status scene_bounds(struct scene *s);
+
+/* The scene's text added to `out`. */
+MUST_USE status scene_write(const struct scene *s, struct text *out);
+
+/* A camera at `azimuth` (deg, as job cameras have it) that holds the box of `scene` from every azimuth. */
+struct camera scene_orbit(const struct scene *s, double azimuth_deg, int width, int height);
+
+#endif

@@ -1,0 +1,132 @@
+#include "render/turntable.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/memory.h"
+#include "base/version.h"
+
+static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+
+/* A file under root, moved into place when its program has made it. */
+struct sheet {
+    const struct preview *preview;
+    char temporary[512], path[512];
+};
+
+static status sheet_done(void *user)
+{
+    struct sheet *sheet = user;
+    char from[4700], to[4700];
+    snprintf(from, sizeof from, "%s/%s", sheet->preview->root, sheet->temporary);
+    snprintf(to, sizeof to, "%s/%s", sheet->preview->root, sheet->path);
+    int fd = access(from, R_OK) == 0 && rename(from, to) == 0;
+    return fd ? OK : fail(E_OUTPUT, "%s could not be made", to);
+}
+
+/* "frame 1061, 58.2 kyr" */
+static void label(const struct preview *p, int frame, char out[96])
+{
+    double years = (frame - p->job->frames.first) * p->job->clock.years_per_frame;
+    if (years >= 1000)
+        snprintf(out, 96, "frame %d, %.1f kyr", frame, years / 1000);
+    else
+        snprintf(out, 96, "frame %d, %.0f yr", frame, years);
+}
+
+status turntable_video(struct preview *p, int frame, int views)
+{
+    status st = OK;
+    char when[96], pattern[512], filter[1200], count[16];
+    struct sheet sheet = {.preview = p};
+    label(p, frame, when);
+    snprintf(sheet.path, sizeof sheet.path, "%.200s.turntable.mp4", p->job->name);
+    TRY(atomic_file_temporary(sheet.path, sheet.temporary, sizeof sheet.temporary - 4));
+    strcat(sheet.temporary, ".mp4"); /* programs go by the ending */
+    snprintf(pattern, sizeof pattern, "turntable/%.200s.%04d.%%03d.png", p->job->name, frame);
+    /* Names hold letters, digits, _ and - alone, so nothing here needs the filter's own quoting. Three turns:
+     * a video of one and a half seconds is over before one has looked. */
+    snprintf(
+        filter, sizeof filter,
+        "loop=loop=2:size=%d,scale=trunc(iw/2)*2:trunc(ih/2)*2:in_color_matrix=bt709:out_color_matrix=bt709,"
+        "drawtext=fontfile=%s:text='%.200s   %s   hoodoo %s':x=10:y=h-th-8:fontsize=h/24:fontcolor=white:"
+        "box=1:boxcolor=black@0.45:boxborderw=5",
+        views, FONT, p->job->name, when, hoodoo_version);
+    snprintf(count, sizeof count, "%d", 3 * views);
+    const char *const argv[] = {"ffmpeg",     "-nostdin",
+                                "-y",         "-loglevel",
+                                "warning",    "-framerate",
+                                "24",         "-start_number",
+                                "0",          "-i",
+                                pattern,      "-frames:v",
+                                count,        "-vf",
+                                filter,       "-c:v",
+                                "libx264",    "-threads",
+                                "2",          "-preset",
+                                "medium",     "-crf",
+                                "18",         "-pix_fmt",
+                                "yuv420p",    "-color_range",
+                                "tv",         "-colorspace",
+                                "bt709",      "-color_primaries",
+                                "bt709",      "-color_trc",
+                                "bt709",      "-movflags",
+                                "+faststart", "-fflags",
+                                "+bitexact",  "-flags:v",
+                                "+bitexact",  sheet.temporary,
+                                NULL};
+    TRY(children_run(&p->children, argv, "the turntable's video", sheet_done, &sheet));
+    TRY(children_wait(&p->children));
+done:
+    return st;
+}
+
+/* oiiotool takes its pictures and what is done to each in order: IN --text ... IN --text ... --mosaic. */
+status turntable_contact(struct preview *p, const int *frames, size_t n, int views)
+{
+    enum { EACH = 4 };
+    status st = OK;
+    struct sheet sheet = {.preview = p};
+    const char **argv = NULL;
+    char(*word)[600] = NULL;
+    char mosaic[64], shape[32], text_option[256];
+    size_t n_pictures = views ? ((size_t)views + 2) / 3 : n, k = 0, w = 0;
+    if (n_pictures == 0)
+        return OK;
+    size_t columns = (size_t)ceil(sqrt((double)n_pictures));
+    TRY(memory_alloc(EACH * n_pictures + 8, sizeof *argv, "the contact sheet", &argv));
+    TRY(memory_alloc(2 * n_pictures, sizeof *word, "the contact sheet", &word));
+    snprintf(sheet.path, sizeof sheet.path, "%.200s.contact.png", p->job->name);
+    TRY(atomic_file_temporary(sheet.path, sheet.temporary, sizeof sheet.temporary - 4));
+    strcat(sheet.temporary, ".png");
+    snprintf(text_option, sizeof text_option, "--text:x=10:y=26:size=18:color=1,1,1,1:shadow=2:font=%s",
+             FONT);
+    argv[k++] = "oiiotool";
+    for (size_t i = 0; i < n_pictures; i++) {
+        char *path = word[w++], *text = word[w++];
+        int frame = views ? frames[n - 1] : frames[i];
+        if (views)
+            picture_view_path(p, frame, (int)(3 * i), path);
+        else
+            picture_still_path(p, frame, path);
+        label(p, frame, text);
+        argv[k++] = path;
+        argv[k++] = text_option;
+        argv[k++] = text;
+    }
+    snprintf(mosaic, sizeof mosaic, "--mosaic:pad=4");
+    snprintf(shape, sizeof shape, "%zux%zu", columns, (n_pictures + columns - 1) / columns);
+    argv[k++] = mosaic;
+    argv[k++] = shape;
+    argv[k++] = "-o";
+    argv[k++] = sheet.temporary;
+    TRY(children_run(&p->children, argv, "the contact sheet", sheet_done, &sheet));
+    TRY(children_wait(&p->children));
+done:
+    free(argv);
+    free(word);
+    return st;
+}

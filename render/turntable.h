@@ -1,0 +1,15 @@
+/* What a supervisor looks at: the turntable as a video, and the contact sheet. */
+#ifndef HOODOO_TURNTABLE_H
+#define HOODOO_TURNTABLE_H
+
+#include "render/picture.h"
+
+/* NAME.turntable.mp4 from the views of picture_orbit(), with a slate. H.264, 4:2:0, Rec. 709, 24 frames a
+ * second. */
+MUST_USE status turntable_video(struct preview *p, int frame, int views);
+
+/* NAME.contact.png: the frames' stills, each with its number and age; or, with views > 0, every third view of
+ * an orbit. */
+MUST_USE status turntable_contact(struct preview *p, const int *frames, size_t n, int views);
+
+#endif

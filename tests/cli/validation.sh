@@ -1,0 +1,34 @@
+#!/bin/sh
+# Two frames under the Khronos validation layer, once as it comes and once with synchronisation validation: not one complaint.
+set -u
+job=$HOODOO_TOP/tests/restart/twelve.yaml
+layer=VK_LAYER_KHRONOS_validation
+
+check() {
+    name=$1
+    shift
+    if "$@"; then echo "ok $name"; else
+        echo "not ok $name"
+        grep -E 'Validation|SYNC|UNASSIGNED|VUID|^hoodoo: ' log | head -n 20 | sed 's/^/# /'
+    fi
+}
+
+# validated PROGRAM ARGUMENT...: under the layer with the settings in $settings; all it prints lies in log
+validated() {
+    env VK_INSTANCE_LAYERS=$layer VK_LAYER_ENABLES="$settings" VK_LOADER_DEBUG=layer "$@" >log 2>&1
+}
+complaints='Validation (Error|Warning)|SYNC-HAZARD|UNASSIGNED-|VUID-'
+
+for settings in "" VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT; do
+    kind=${settings:+synchronisation}
+    kind=${kind:-core}
+    validated "$HOODOO" run "$job" --frames 1001-1003 --out "$kind"
+    check "$kind validation: the run succeeds" [ $? = 0 ]
+    check "$kind validation: the layer was in place" grep -q "Inserted device layer \"$layer\"" log
+    check "$kind validation: not one complaint" sh -c '! grep -qE "$1" log' - "$complaints"
+    # A program that does wrong, to know a complaint when there is one.
+    validated "$(dirname "$HOODOO")/tests/gpu/test_validation" wrongly
+    check "$kind validation: it complains where there is reason to" grep -qE "$complaints" log
+done
+check "synchronisation validation: a missing barrier is a reason" grep -q SYNC-HAZARD-WRITE-AFTER-WRITE log
+check "the layer changes no bytes" diff -r -x log core synchronisation

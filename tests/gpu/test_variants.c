@@ -1,0 +1,155 @@
+/* A small job in every kernel variant, and with buffers beyond what a device binds: the same state and the
+ * same pictures, bit for bit. Which variant a device gets, or how large a job is, may not change the rock. */
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gpu/kernel_source.h"
+#include "model/model.h"
+
+enum { STEPS = 2 };
+
+/* What a run leaves, in the order it was made. */
+struct trace {
+    size_t n, capacity;
+    char *bytes;
+};
+
+static struct trace expected;
+static struct job *job;
+
+static void add(struct trace *t, const void *bytes, size_t n)
+{
+    if (t->n + n > t->capacity) {
+        t->capacity = 2 * (t->n + n);
+        t->bytes = realloc(t->bytes, t->capacity);
+        assert_non_null(t->bytes);
+    }
+    memcpy(t->bytes + t->n, bytes, n);
+    t->n += n;
+}
+
+static void add_state(struct trace *t, const struct model_type *type, struct model *m)
+{
+    struct checkpoint c;
+    assert_ok(type->save(m, &c));
+    for (size_t i = 0; i < c.n_sections; i++)
+        add(t, c.section[i].data, c.section[i].n * c.section[i].item);
+    checkpoint_free(&c);
+}
+
+static void add_frame(struct trace *t, const struct model_type *type, struct model *m)
+{
+    struct frame f;
+    assert_ok(type->output(m, &f));
+    assert_true(f.rock.n > 1000);
+    assert_int_equal(f.n_images, 1);
+    for (int i = 0; i < ROCK_FIELDS; i++)
+        if (f.rock.field[i])
+            add(t, f.rock.field[i], f.rock.n * rock_field_size((enum rock_field)i));
+    size_t voxels = (size_t)f.grids.n[0] * (size_t)f.grids.n[1] * (size_t)f.grids.n[2];
+    for (size_t i = 0; i < f.grids.n_grids; i++)
+        add(t, f.grids.grid[i].value, voxels * (f.grids.grid[i].components == 3 ? 3 : 1) * sizeof(float));
+    const struct aov_image *image = &f.image[0];
+    for (size_t i = 0; i < image->n_channels; i++) {
+        const struct aov_channel *channel = &image->channel[i];
+        add(t, channel->value ? (const void *)channel->value : channel->id,
+            (size_t)image->width * (size_t)image->height * 4);
+    }
+    frame_free(&f);
+}
+
+static void run(const struct gpu_options *options, struct trace *t)
+{
+    struct gpu *gpu = NULL;
+    struct model *m = NULL;
+    const struct model_type *type = model_of(job);
+    assert_ok(gpu_create(options, &gpu));
+    assert_ok(type->create(gpu, job, NULL, &m));
+    add_frame(t, type, m);
+    for (int i = 0; i < STEPS; i++) {
+        assert_ok(type->step(m));
+        add_state(t, type, m);
+        add_frame(t, type, m);
+    }
+    type->destroy(&m);
+    gpu_destroy(&gpu);
+}
+
+static void same_bits(void **state)
+{
+    struct trace t = {0};
+    run(*state, &t);
+    assert_int_equal(t.n, expected.n);
+    for (size_t i = 0; i < t.n; i++)
+        if (t.bytes[i] != expected.bytes[i]) {
+            print_error("byte %zu of %zu differs\n", i, t.n);
+            _fail(__FILE__, __LINE__);
+        }
+    free(t.bytes);
+}
+
+static void the_rock_changes(void **state)
+{
+    /* Not the comparison of nothing with nothing. */
+    struct trace t = {0};
+    struct gpu *gpu = NULL;
+    struct model *m = NULL;
+    const struct model_type *type = model_of(job);
+    assert_ok(gpu_create(*state, &gpu));
+    assert_ok(type->create(gpu, job, NULL, &m));
+    add_state(&t, type, m);
+    size_t before = t.n;
+    assert_ok(type->step(m));
+    add_state(&t, type, m);
+    assert_true(t.n - before != before || memcmp(t.bytes, t.bytes + before, before) != 0);
+    assert_int_equal(type->frame(m), job->frames.first + 1);
+    type->destroy(&m);
+    gpu_destroy(&gpu);
+    free(t.bytes);
+}
+
+static int begin(void **state)
+{
+    (void)state;
+    const char *top = getenv("HOODOO_TOP");
+    char path[4096];
+    snprintf(path, sizeof path, "%s/tests/restart/twelve.yaml", top ? top : ".");
+    assert_ok(job_load(path, NULL, 0, &job));
+    run(&(struct gpu_options){.device = "auto"}, &expected);
+    return 0;
+}
+
+static int end(void **state)
+{
+    (void)state;
+    free(expected.bytes);
+    job_destroy(&job);
+    return 0;
+}
+
+int main(void)
+{
+    static struct gpu_options own = {.device = "auto"};
+    static struct gpu_options texel = {.device = "auto", .variant = VARIANT_TEXEL + 1};
+    static struct gpu_options storage = {.device = "auto", .variant = VARIANT_STORAGE + 1};
+    static struct gpu_options wide = {.device = "auto", .variant = VARIANT_WIDE + 1};
+    static struct gpu_options nothing_fits = {.device = "auto", .range_limit = 1};
+    static struct gpu_options some_fit = {.device = "auto", .range_limit = 20000};
+#define WITH(options)                                                                                        \
+    {                                                                                                        \
+        "same_bits (" #options ")", same_bits, NULL, NULL, &options                                          \
+    }
+    const struct CMUnitTest tests[] = {
+        {"the_rock_changes", the_rock_changes, NULL, NULL, &own},
+        WITH(own),
+        WITH(texel),
+        WITH(storage),
+        WITH(wide),
+        WITH(nothing_fits),
+        WITH(some_fit),
+    };
+    return cmocka_run_group_tests_name("variants", tests, begin, end);
+}

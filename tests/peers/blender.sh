@@ -1,0 +1,19 @@
+#!/bin/sh
+# Blender loads a run's volumes: every grid, and the rock where it stands in the simulator, for both up axes of files.
+set -u
+job=$HOODOO_TOP/tests/restart/twelve.yaml
+for up in y z; do
+    "$HOODOO" run "$job" --frames 1001-1001 --set "output.up=$up" --out "out_$up" --progress none >log 2>&1 || {
+        echo "not ok a run with output.up $up"
+        sed 's/^/# /' log
+        exit 1
+    }
+    blender --background --factory-startup --python-exit-code 1 --python "$HOODOO_TOP/tests/peers/lib/in_blender.py" -- \
+        "$PWD/out_$up/volumes/twelve.1001.vdb" "$up" >log 2>&1 </dev/null
+    code=$?
+    grep -E '^(ok|not ok|#) ' log
+    if [ $code != 0 ] && ! grep -q '^not ok' log; then
+        echo "not ok blender with output.up $up: exit code $code"
+        sed 's/^/# /' log
+    fi
+done
