@@ -19,23 +19,23 @@ void main()
     if (i >= k.n)
         return;
     uint w = word_number(i), at = k.words + w, own = LOAD_U(bits, at);
-    if (LOAD_U(touched, brick_of(word_place(i))) != 0u) {
-        uint near = 0u, n = own != 0u ? k.skin_rows : 0u;
-        for (uint r = 0u; r < n; r++) {
-            uint entry = k.skin_first + 2u * r;
-            uint there = at + LOAD_U(rows, entry), run = LOAD_U(rows, entry + 1u);
-            uint before = ~LOAD_U(bits, there - 1u), here = ~LOAD_U(bits, there), after = ~LOAD_U(bits, there + 1u);
-            near |= here;
-            if (run >= 1u)
-                near |= here << 1 | before >> 31 | here >> 1 | after << 31;
-            if (run >= 2u)
-                near |= here << 2 | before >> 30 | here >> 2 | after << 30;
-            if (run >= 3u)
-                near |= here << 3 | before >> 29 | here >> 3 | after << 29;
-            if (run >= 4u)
-                near |= here << 4 | before >> 28 | here >> 4 | after << 28;
-        }
-        AT(skin, w) = own & near;
+    bool touch = LOAD_U(touched, brick_of(word_place(i))) != 0u;
+    uint near = 0u, n = touch && own != 0u ? k.skin_rows : 0u;
+    for (uint r = 0u; r < n; r++) {
+        uint entry = k.skin_first + 2u * r;
+        uint there = at + LOAD_U(rows, entry), run = LOAD_U(rows, entry + 1u);
+        uint before = ~LOAD_U(bits, there - 1u), here = ~LOAD_U(bits, there), after = ~LOAD_U(bits, there + 1u);
+        near |= here;
+        if (run >= 1u)
+            near |= here << 1 | before >> 31 | here >> 1 | after << 31;
+        if (run >= 2u)
+            near |= here << 2 | before >> 30 | here >> 2 | after << 30;
+        if (run >= 3u)
+            near |= here << 3 | before >> 29 | here >> 3 | after << 29;
+        if (run >= 4u)
+            near |= here << 4 | before >> 28 | here >> 4 | after << 28;
     }
-    AT(place, i) = uint(bitCount(AT(skin, w)));
+    uint exposed = touch ? own & near : AT(skin, w);
+    AT(skin, w) = exposed;
+    AT(place, i) = uint(bitCount(exposed));
 }

@@ -27,7 +27,7 @@ double curve_at(const struct curve *c, double frame);
 double curve_max(const struct curve *c);
 
 enum job_node_kind { NODE_UNION, NODE_INTERSECTION, NODE_DIFFERENCE, NODE_SHAPE };
-enum job_shape { SHAPE_BOX, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_PLANE, SHAPE_MESH, SHAPE_HEIGHTFIELD };
+enum job_shape { SHAPE_BOX, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_PLANE, SHAPE_MESH, SHAPE_HEIGHTFIELD, SHAPE_JOINTMAP };
 
 /* The top section is the job itself: struct job, not struct job_job. */
 #define job_job job
@@ -70,6 +70,7 @@ struct job_node {
         struct job_plane plane;
         struct job_mesh mesh;
         struct job_heightfield heightfield;
+        struct job_jointmap jointmap;
         struct job_group group; /* operators */
     } u;
 };
@@ -99,7 +100,7 @@ size_t job_layer_at(const struct job *job, double z);
  * contents included. */
 MUST_USE status job_hash(const struct job *job, uint64_t *hash);
 
-/* A file the job reads (mesh, heightfield), with its content hash. */
+/* A file the job reads (mesh, heightfield, jointmap), with its content hash. */
 struct job_input {
     const char *path; /* borrowed from the job */
     uint64_t hash, size;

@@ -104,20 +104,22 @@ static status make_tables(struct voxels *v, const struct job *job, struct bubble
 {
     status st = OK;
     const struct voxels_params *g = &v->grid;
-    TRY(memory_alloc((job->n_strata + 1) * BUBBLE_ROWS_MAX, 8, "the bubbles' rows", &t->rows));
+    TRY(memory_alloc((job->n_strata + 1) * (BUBBLE_ROWS_MAX + 3), 8, "the bubbles' rows", &t->rows));
     TRY(memory_alloc(job->n_strata, 12, "the bubbles", &t->bubbles));
     TRY(memory_alloc((size_t)v->n[2], 4, "the layers", &t->layer_of));
     TRY(memory_alloc(job->n_strata, sizeof *v->rate, "the layers", &v->rate));
     for (size_t i = 0; i < job->n_strata; i++) {
         TRY(bubble_create(&job->strata[i].bubble, v->h, b));
         t->bubbles[3 * i] = (uint32_t)t->n_rows;
-        t->bubbles[3 * i + 1] = (uint32_t)b->n_rows;
         t->bubbles[3 * i + 2] = b->n;
         for (int r = 0; r < b->n_rows; r++) {
             const struct bubble_row *row = &b->row[r];
             int64_t words = (int64_t)row->dz * g->slab + (int64_t)row->dy * g->row;
             add_row(t, 32 * words + row->low, (uint32_t)((UINT64_C(2) << (row->high - row->low)) - 1));
         }
+        while ((t->n_rows - t->bubbles[3 * i]) % 8)
+            add_row(t, 0, 0); /* the kernel takes four rows at a time */
+        t->bubbles[3 * i + 1] = (uint32_t)((t->n_rows - t->bubbles[3 * i]) / 2);
         v->rate[i] = bubble_rate(b, job->goblins.threshold, v->skin);
         if (!isfinite(v->rate[i].slope))
             return fail(E_USAGE, "bubble: that of stratum %zu sees no air beside a flat face", i);
