@@ -164,10 +164,8 @@ SHARED_SIZE(shade_params, 60)
 #define VOXELS_UNKNOWN 0xffffu /* the air in the bubble of a voxel that has not been active */
 
 /* Words the device tells the host. */
-#define VOXELS_EVENT 0u   /* bits of a float: kyr until the next voxel vanishes */
-#define VOXELS_LIFE 1u    /* bits of a float: kyr that the fastest voxel lives from whole to gone */
-#define VOXELS_GONE 2u    /* how many vanished */
-#define VOXELS_CHANGED 3u
+#define VOXELS_GONE 0u    /* how many vanished */
+#define VOXELS_CHANGED 1u
 
 struct voxels_params {
     uint n;

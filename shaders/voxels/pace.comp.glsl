@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// When the next voxel vanishes, and how long the fastest lives from whole to gone. Minima of positive floats
-// as their bits: in whatever order, the same.
+// When the next voxel vanishes, and the fastest rate: each thread of those it was given, the host of all.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -10,13 +9,15 @@ READ_U(1, state)
 READ_F(2, left)
 READ_V(3, layers)
 READ_U(4, layer_of)
-WRITE_U(5, words)
+WRITE_F(5, paces)
 PARAMS(voxels_params)
 #include "voxels/grid.glsl"
 #include "voxels/rate.glsl"
 
 void main()
 {
+    if (THREAD >= VOXELS_PACERS)
+        return;
     float event = 1e30, fastest = 0.0;
     for (uint i = THREAD; i < k.n; i += VOXELS_PACERS) {
         uint v = LOAD_U(list, i);
@@ -24,8 +25,6 @@ void main()
         fastest = max(fastest, rate);
         event = min(event, rate > 0.0 ? LOAD_F(left, v) / rate : 1e30);
     }
-    if (fastest > 0.0) {
-        atomicMin(AT(words, VOXELS_EVENT), floatBitsToUint(event));
-        atomicMin(AT(words, VOXELS_LIFE), floatBitsToUint(1.0 / fastest));
-    }
+    AT(paces, 2u * THREAD) = event;
+    AT(paces, 2u * THREAD + 1u) = fastest;
 }

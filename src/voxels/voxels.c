@@ -142,6 +142,7 @@ static status upload_tables(struct gpu *gpu, struct voxels *v, const struct job 
     TRY(gpu_buffer_create(gpu, "bubbles", 3 * job->n_strata, 4, &v->bubbles));
     TRY(gpu_buffer_create(gpu, "layers by slab", (size_t)v->n[2], 4, &v->layer_of));
     TRY(gpu_buffer_create(gpu, "layers", job->n_strata, 16, &v->layers));
+    TRY(gpu_buffer_create(gpu, "paces", 2 * VOXELS_PACERS, 4, &v->paces));
     TRY(gpu_upload(gpu, v->rows, 0, t.rows, t.n_rows));
     TRY(gpu_upload(gpu, v->bubbles, 0, t.bubbles, 3 * job->n_strata));
     TRY(gpu_upload(gpu, v->layer_of, 0, t.layer_of, (size_t)v->n[2]));
@@ -254,9 +255,9 @@ done:
 
 void voxels_destroy(struct gpu *gpu, struct voxels *v)
 {
-    struct gpu_buffer **all[] = {&v->bits,  &v->skin_bits, &v->touched,  &v->gone_bricks,
-                                 &v->place, &v->left,      &v->state,    &v->list,
-                                 &v->rows,  &v->bubbles,   &v->layer_of, &v->layers};
+    struct gpu_buffer **all[] = {&v->bits,     &v->skin_bits, &v->touched, &v->gone_bricks, &v->place,
+                                 &v->left,     &v->state,     &v->list,    &v->rows,        &v->bubbles,
+                                 &v->layer_of, &v->layers,    &v->paces};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
     free(v->rate);
@@ -332,25 +333,44 @@ static float float_of(uint32_t bits)
     return x;
 }
 
+/* kyr until the next voxel vanishes, and what the fastest loses in one, 1/kyr; 0 if nothing weathers. */
+static status pace(struct gpu *gpu, struct voxels *v, double *event, double *fastest)
+{
+    status st = OK;
+    float paces[VOXELS_PACERS][2];
+    struct voxels_params k = voxels_params(v, v->n_active);
+    *event = INFINITY;
+    *fastest = 0;
+    GPU_RUN(gpu, voxels_pace, VOXELS_PACERS, k, v->list, v->state, v->left, v->layers, v->layer_of, v->paces);
+    TRY(gpu_download(gpu, v->paces, 0, paces, 2 * VOXELS_PACERS));
+    for (uint i = 0; i < VOXELS_PACERS; i++) {
+        *event = fmin(*event, (double)paces[i][0]);
+        *fastest = fmax(*fastest, (double)paces[i][1]);
+    }
+done:
+    return st;
+}
+
 status voxels_cycle(struct gpu *gpu, struct gpu_work *work, struct voxels *v, double quantum, double kyr,
                     double *passed, uint32_t *n_gone)
 {
     status st = OK;
-    struct gpu_buffer *counts = gpu_work_words(work);
+    double event, fastest;
     struct voxels_params k = voxels_params(v, v->n_active);
-    uint32_t words[2];
     *passed = kyr;
     *n_gone = 0;
     if (v->n_active == 0)
         return OK;
     v->n_cycles++;
-    gpu_fill(gpu, counts, UINT32_MAX);
-    GPU_RUN(gpu, voxels_pace, VOXELS_PACERS, k, v->list, v->state, v->left, v->layers, v->layer_of, counts);
-    TRY(gpu_download(gpu, counts, 0, words, 2));
-    if (words[VOXELS_LIFE] == UINT32_MAX)
-        goto done; /* nothing weathers */
-    double event = (double)float_of(words[VOXELS_EVENT]), life = (double)float_of(words[VOXELS_LIFE]);
-    *passed = fmin(kyr, fmax(event, quantum * life));
+    TRY(pace(gpu, v, &event, &fastest));
+    if (!isfinite(fastest) || isnan(event)) {
+        st = fail(E_NUMERIC, "voxels: the fastest of %zu active voxels loses %g of itself in 1000 years",
+                  v->n_active, fastest);
+        goto done;
+    }
+    if (fastest <= 0)
+        goto done;
+    *passed = fmin(kyr, fmax(event, quantum / fastest));
     k.dt = (float)*passed;
     GPU_RUN(gpu, voxels_decimate, v->n_active, k, v->list, v->state, v->layers, v->layer_of, v->left,
             v->bits);

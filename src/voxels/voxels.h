@@ -32,7 +32,7 @@ struct voxels {
     struct gpu_buffer *left;  /* float [voxels]: of each, 1 to 0 */
     struct gpu_buffer *state; /* uint [voxels]: air in the bubble; factor of the rate, as a half */
     struct gpu_buffer *list;  /* uint [n_active]: the active voxels, ascending; grows */
-    struct gpu_buffer *rows, *bubbles, *layer_of, *layers;
+    struct gpu_buffer *rows, *bubbles, *layer_of, *layers, *paces;
     struct bubble_rate *rate; /* by layer */
 };
 
