@@ -3,9 +3,11 @@
 PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers \
 	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
 	libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
-TEST_PACKAGES = libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-numpy python3-scipy
+TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-numpy python3-scipy
 PEER_PACKAGES = blender
 DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
+
+MAKEFLAGS += --jobs=$(shell nproc)
 
 VERSION = 0.1.0
 BUILD = build
@@ -42,10 +44,10 @@ deps: $(BUILD)/.deps
 $(BUILD)/.deps: Makefile
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) && touch $@
 deps-test: $(BUILD)/.deps-test
-$(BUILD)/.deps-test: Makefile
+$(BUILD)/.deps-test: Makefile $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) && touch $@
 deps-peers: $(BUILD)/.deps-peers
-$(BUILD)/.deps-peers: Makefile
+$(BUILD)/.deps-peers: Makefile $(BUILD)/.deps-test
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(PEER_PACKAGES) && touch $@
 
 $(BUILD)/hoodoo: $(BUILD)/src/main.o $(BUILD)/libhoodoo.a
@@ -133,8 +135,9 @@ lint: deps-test
 	$(Q)sh tests/lint.sh $(PACKAGES) $(TEST_PACKAGES) $(DEV_PACKAGES)
 
 ## asan: build and run the tests under the address sanitizer
+# (no leak check: Mesa keeps memory until the process ends)
 asan:
-	$(Q)$(MAKE) BUILD=build-asan OPT='-O1 -g' SANITIZE='-fsanitize=address -fno-omit-frame-pointer' test
+	$(Q)ASAN_OPTIONS=detect_leaks=0 $(MAKE) BUILD=build-asan OPT='-O1 -g' SANITIZE='-fsanitize=address -fno-omit-frame-pointer' test
 
 ## ubsan: build and run the tests under the undefined behaviour sanitizer
 ubsan:

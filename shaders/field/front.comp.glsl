@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Signed distance of the samples beside the surface, where the rock's share is 1/2: along each axis that
-// crosses it by linear interpolation, and from those to the plane through the crossings. All others are 3
-// voxels away until field/distance says more.
+// Signed distance of the samples beside the surface, where the rock's share is 1/2: to the plane through the
+// points at which that is reached along the axes, by linear interpolation, or by extrapolation where it lies
+// beyond the next sample. All others are 3 voxels away until field/distance says more.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -18,17 +18,17 @@ void main()
         return;
     ivec3 c = lattice_of(i), last = ivec3(k.fx, k.fy, k.fz) - 1;
     float own = 0.5 - LOAD_F(share, i), inverse = 0.0;
+    bool beside = false;
     for (int axis = 0; axis < 3; axis++) {
-        float nearest = 2.0;
+        float steepest = 0.0; // share of the way to 1/2 that a voxel along this axis makes
         for (int side = -1; side <= 1; side += 2) {
             ivec3 d = ivec3(axis == 0, axis == 1, axis == 2) * side;
             float other = 0.5 - LOAD_F(share, lattice_index(clamp(c + d, ivec3(0), last)));
-            if ((own > 0.0) != (other > 0.0))
-                nearest = min(nearest, own / (own - other));
+            beside = beside || (own > 0.0) != (other > 0.0);
+            steepest = max(steepest, own != 0.0 ? (own - other) / own : 1e3);
         }
-        if (nearest <= 1.0)
-            inverse += 1.0 / max(nearest * nearest, 1e-6);
+        inverse += steepest * steepest;
     }
-    float away = inverse > 0.0 ? inversesqrt(inverse) : 3.0;
+    float away = beside ? inversesqrt(inverse) : 3.0;
     AT(distance_out, i) = (own > 0.0 ? away : -away) * k.h;
 }

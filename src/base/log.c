@@ -70,6 +70,14 @@ void log_info(const char *format, ...)
     va_end(args);
 }
 
+void log_note(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    say(false, "", format, args);
+    va_end(args);
+}
+
 void log_warn(const char *format, ...)
 {
     va_list args;

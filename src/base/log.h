@@ -19,6 +19,9 @@ MUST_USE status log_open(const char *path);
 void log_set_guard(void (*guard)(bool before));
 
 void log_info(const char *format, ...) PRINTF_LIKE(1, 2);
+
+/* For the file alone: what one looks up later. */
+void log_note(const char *format, ...) PRINTF_LIKE(1, 2);
 void log_warn(const char *format, ...) PRINTF_LIKE(1, 2);
 
 /* The line of a failure: "hoodoo: MESSAGE". */

@@ -1,11 +1,12 @@
 /* A checkpoint's index: JSON, written by us and believed by nobody. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/hash.h"
+#include "base/json.h"
 #include "base/memory.h"
 #include "checkpoint/chunk.h"
-#include "checkpoint/json_read.h"
 #include "checkpoint/layout.h"
 
 enum { FRAME_LIMIT = 10000000 };
@@ -58,34 +59,31 @@ status index_write(const struct checkpoint *c, const struct layout *layout, stru
 
 /* ---- reading */
 
-struct reader {
-    const struct json_doc *json;
-    const struct json_value *object; /* where members are looked up */
-};
-
-static status get_text(const struct reader *r, const char *key, char *out, size_t size)
+static status get_text(const struct json *object, const char *key, char *out, size_t size)
 {
-    if (!json_get_text(r->json, json_find(r->json, r->object, key), out, size))
+    const char *text = json_to_text(json_member(object, key));
+    if (!text || strlen(text) >= size)
         return fail(E_CHECKPOINT, "'%s' is missing, no text, or longer than %zu bytes", key, size - 1);
+    memcpy(out, text, strlen(text) + 1);
     return OK;
 }
 
-static status get_size(const struct reader *r, const char *key, size_t min, size_t max, size_t *out)
+static status get_size(const struct json *object, const char *key, size_t min, size_t max, size_t *out)
 {
     int64_t n;
     int64_t limit = max > INT64_MAX ? INT64_MAX : (int64_t)max;
-    if (!json_get_integer(r->json, json_find(r->json, r->object, key), (int64_t)min, limit, &n))
+    if (!json_to_integer(json_member(object, key), (int64_t)min, limit, &n))
         return fail(E_CHECKPOINT, "'%s' is missing, or not a whole number between %zu and %zu", key, min,
                     max);
     *out = (size_t)n;
     return OK;
 }
 
-static status get_hash(const struct reader *r, const char *key, uint64_t *out)
+static status get_hash(const struct json *object, const char *key, uint64_t *out)
 {
     char digits[17];
     status st = OK;
-    TRY(get_text(r, key, digits, sizeof digits));
+    TRY(get_text(object, key, digits, sizeof digits));
     if (strspn(digits, "0123456789abcdef") != 16)
         return fail(E_CHECKPOINT, "'%s' is not 16 hex digits", key);
     *out = strtoull(digits, NULL, 16);
@@ -93,45 +91,44 @@ done:
     return st;
 }
 
-static status read_provenance(const struct reader *r, struct checkpoint *c)
+static status read_provenance(const struct json *object, struct checkpoint *c)
 {
     status st = OK;
     int64_t frame;
-    if (!json_get_integer(r->json, json_find(r->json, r->object, "frame"), -FRAME_LIMIT, FRAME_LIMIT, &frame))
+    const struct json *years = json_member(object, "years");
+    if (!json_to_integer(json_member(object, "frame"), -FRAME_LIMIT, FRAME_LIMIT, &frame))
         return fail(E_CHECKPOINT, "'frame' is missing or no frame number");
-    if (!json_get_number(r->json, json_find(r->json, r->object, "years"), &c->years))
+    if (!years || years->kind != JSON_NUMBER || !isfinite(years->number))
         return fail(E_CHECKPOINT, "'years' is missing or no number");
     c->frame = (int)frame;
-    TRY(get_hash(r, "job_hash", &c->job_hash));
-    TRY(get_text(r, "version", c->version, sizeof c->version));
-    TRY(get_text(r, "commit", c->commit, sizeof c->commit));
-    TRY(get_text(r, "device", c->device, sizeof c->device));
-    TRY(get_text(r, "driver", c->driver, sizeof c->driver));
-    TRY(get_text(r, "shaders", c->shaders, sizeof c->shaders));
+    c->years = years->number;
+    TRY(get_hash(object, "job_hash", &c->job_hash));
+    TRY(get_text(object, "version", c->version, sizeof c->version));
+    TRY(get_text(object, "commit", c->commit, sizeof c->commit));
+    TRY(get_text(object, "device", c->device, sizeof c->device));
+    TRY(get_text(object, "driver", c->driver, sizeof c->driver));
+    TRY(get_text(object, "shaders", c->shaders, sizeof c->shaders));
 done:
     return st;
 }
 
 /* The section's chunks, each beginning at *at, where the one before ended. */
-static status read_chunks(const struct reader *r, const struct checkpoint_section *s, struct layout *layout,
-                          size_t *capacity, uint64_t *at, uint64_t limit)
+static status read_chunks(const struct json *object, const struct checkpoint_section *s,
+                          struct layout *layout, size_t *capacity, uint64_t *at, uint64_t limit)
 {
     status st = OK;
-    const struct json_value *list = json_find(r->json, r->object, "chunks");
+    const struct json *list = json_member(object, "chunks");
     size_t n = section_chunks(s);
-    if (!list || list->kind != JSON_IS_ARRAY || list->n / 2 != n || list->n % 2)
+    if (!list || list->kind != JSON_ARRAY || list->n / 2 != n || list->n % 2)
         return fail(E_CHECKPOINT, "section '%s': %zu items of %zu bytes need %zu chunks, not those listed",
                     s->name, s->n, s->item, n);
     TRY(memory_grow(&layout->chunk, capacity, layout->n_chunks + n, sizeof *layout->chunk,
                     "the chunk table"));
-    const struct json_value *v = json_first(list);
-    for (size_t k = 0; k < n; k++) {
+    const struct json *v = list->first;
+    for (size_t k = 0; k < n; k++, v = v->next->next) {
         int64_t place, size, bound = (int64_t)chunk_bound(section_chunk_raw(s, k));
-        bool good = json_get_integer(r->json, v, (int64_t)*at, (int64_t)*at, &place);
-        v = json_next(r->json, v);
-        good = good && json_get_integer(r->json, v, 1, bound, &size) && (uint64_t)size <= limit - *at;
-        v = json_next(r->json, v);
-        if (!good)
+        if (!json_to_integer(v, (int64_t)*at, (int64_t)*at, &place) ||
+            !json_to_integer(v->next, 1, bound, &size) || (uint64_t)size > limit - *at)
             return fail(E_CHECKPOINT,
                         "section '%s': chunk %zu of %zu is not at byte %llu, or has an impossible size",
                         s->name, k + 1, n, (unsigned long long)*at);
@@ -142,20 +139,20 @@ done:
     return st;
 }
 
-static status read_section(const struct reader *r, struct checkpoint *c, struct layout *layout,
+static status read_section(const struct json *object, struct checkpoint *c, struct layout *layout,
                            size_t *capacity, uint64_t *at, uint64_t limit)
 {
     status st = OK;
     struct checkpoint_section *s = &c->section[c->n_sections];
-    TRY(get_text(r, "name", s->name, sizeof s->name));
+    TRY(get_text(object, "name", s->name, sizeof s->name));
     for (size_t i = 0; i < c->n_sections; i++)
         if (strcmp(c->section[i].name, s->name) == 0)
             return fail(E_CHECKPOINT, "two sections are named '%s'", s->name);
-    TRY(get_size(r, "item", 1, CHUNK_ITEM_MAX, &s->item));
-    TRY(get_size(r, "count", 0, SIZE_MAX / 2 / s->item, &s->n));
-    TRY(get_hash(r, "hash", &layout->hash[c->n_sections]));
+    TRY(get_size(object, "item", 1, CHUNK_ITEM_MAX, &s->item));
+    TRY(get_size(object, "count", 0, SIZE_MAX / 2 / s->item, &s->n));
+    TRY(get_hash(object, "hash", &layout->hash[c->n_sections]));
     layout->first[c->n_sections] = layout->n_chunks;
-    TRY(read_chunks(r, s, layout, capacity, at, limit));
+    TRY(read_chunks(object, s, layout, capacity, at, limit));
     layout->first[++c->n_sections] = layout->n_chunks;
 done:
     return st;
@@ -164,28 +161,24 @@ done:
 status index_read(const char *text, size_t size, uint64_t index_at, struct checkpoint *c,
                   struct layout *layout)
 {
-    struct json_doc json = {0};
+    struct json *json = NULL;
     size_t capacity = 0;
     uint64_t at = sizeof(struct file_head);
-    status st = json_parse(text, size, &json);
+    status st = json_read(NULL, text, size, &json);
     if (st != OK)
         return st == E_INPUT ? fail(E_CHECKPOINT, "%s", status_message()) : st;
-    struct reader r = {&json, json.value};
-    TRY(read_provenance(&r, c));
-    const struct json_value *sections = json_find(&json, json.value, "sections");
-    if (!sections || sections->kind != JSON_IS_ARRAY || sections->n > CHECKPOINT_SECTIONS_MAX) {
+    TRY(read_provenance(json, c));
+    const struct json *sections = json_member(json, "sections");
+    if (!sections || sections->kind != JSON_ARRAY || sections->n > CHECKPOINT_SECTIONS_MAX) {
         st = fail(E_CHECKPOINT, "'sections' is missing, no list, or longer than %d", CHECKPOINT_SECTIONS_MAX);
         goto done;
     }
-    const struct json_value *v = json_first(sections);
-    for (uint32_t i = 0; i < sections->n; i++, v = json_next(&json, v)) {
-        r.object = v;
-        TRY(read_section(&r, c, layout, &capacity, &at, index_at));
-    }
+    for (const struct json *v = sections->first; v; v = v->next)
+        TRY(read_section(v, c, layout, &capacity, &at, index_at));
     if (at != index_at)
         st = fail(E_CHECKPOINT, "%llu bytes before the index belong to no section",
                   (unsigned long long)(index_at - at));
 done:
-    json_doc_free(&json);
+    json_free(&json);
     return st;
 }

@@ -7,9 +7,8 @@
 #include <sys/stat.h>
 
 #include "base/atomic_file.h"
-#include "base/memory.h"
+#include "base/json.h"
 #include "checkpoint/checkpoint.h"
-#include "checkpoint/json_read.h"
 #include "cli/cli.h"
 #include "cli/words.h"
 #include "output/exr.h"
@@ -17,38 +16,24 @@
 
 enum { JSON_FILE_MAX = 64 << 20, HEAD_SIZE = 16 };
 
-/* Writes `v` and all it holds into `out`, under `key` (NULL in arrays). */
-static status copy_value(const struct json_doc *j, const struct json_value *v, const char *key,
-                         struct text *out)
+/* Writes `v` and all it holds into `out`. */
+static void copy_value(const struct json *v, const char *key, struct text *out)
 {
-    status st = OK;
-    char *text = NULL, name[256];
     int64_t whole;
-    double number;
-    if (v->kind == JSON_IS_ARRAY || v->kind == JSON_IS_OBJECT) {
-        (v->kind == JSON_IS_OBJECT ? json_object : json_array)(out, key);
-        const struct json_value *child = json_first(v);
-        for (uint32_t i = 0; i < v->n; i++, child = json_next(j, child)) {
-            if (v->kind == JSON_IS_OBJECT && !json_get_key(j, child, name, sizeof name))
-                return fail(E_INPUT, "a key is longer than %zu bytes", sizeof name - 1);
-            TRY(copy_value(j, child, v->kind == JSON_IS_OBJECT ? name : NULL, out));
-        }
-        (v->kind == JSON_IS_OBJECT ? json_end_object : json_end_array)(out);
-    } else if (v->kind == JSON_IS_TEXT) {
-        TRY(memory_alloc((size_t)v->size + 1, 1, "a text", &text));
-        if (!json_get_text(j, v, text, (size_t)v->size + 1))
-            return free(text), fail(E_INPUT, "a text holds half a surrogate pair or a NUL");
-        json_text(out, key, text);
-    } else if (json_get_integer(j, v, INT64_MIN, INT64_MAX, &whole)) {
+    if (v->kind == JSON_ARRAY || v->kind == JSON_OBJECT) {
+        (v->kind == JSON_OBJECT ? json_object : json_array)(out, key);
+        for (const struct json *child = v->first; child; child = child->next)
+            copy_value(child, child->key, out);
+        (v->kind == JSON_OBJECT ? json_end_object : json_end_array)(out);
+    } else if (v->kind == JSON_TEXT) {
+        json_text(out, key, v->text);
+    } else if (json_to_integer(v, INT64_MIN, INT64_MAX, &whole)) {
         json_integer(out, key, whole);
-    } else if (v->kind == JSON_IS_TRUE || v->kind == JSON_IS_FALSE) {
-        json_bool(out, key, v->kind == JSON_IS_TRUE);
+    } else if (v->kind == JSON_BOOL) {
+        json_bool(out, key, v->number != 0);
     } else {
-        json_number(out, key, json_get_number(j, v, &number) ? number : (double)NAN);
+        json_number(out, key, v->kind == JSON_NUMBER ? v->number : (double)NAN);
     }
-done:
-    free(text);
-    return st;
 }
 
 static status describe_json(const char *path, struct text *out)
@@ -56,17 +41,14 @@ static status describe_json(const char *path, struct text *out)
     status st = OK;
     char *bytes = NULL;
     size_t size;
-    struct json_doc j = {0};
+    struct json *json = NULL;
     TRY(file_read(path, JSON_FILE_MAX, &bytes, &size));
-    if (json_parse(bytes, size, &j) != OK) {
-        st = fail(E_INPUT, "%s: not JSON: %s", path, status_message());
-        goto done;
-    }
-    bool manifest = json_find(&j, j.value, "frame") && json_find(&j, j.value, "files");
-    json_text(out, "kind", manifest ? "manifest" : json_find(&j, j.value, "device") ? "run" : "JSON");
-    TRY(copy_value(&j, j.value, "content", out));
+    TRY(json_read(path, bytes, size, &json));
+    bool manifest = json_member(json, "frame") && json_member(json, "files");
+    json_text(out, "kind", manifest ? "manifest" : json_member(json, "device") ? "run" : "JSON");
+    copy_value(json, "content", out);
 done:
-    json_doc_free(&j);
+    json_free(&json);
     free(bytes);
     return st;
 }

@@ -61,9 +61,6 @@ struct usage {
 MUST_USE status options_parse(const struct usage *usage, const struct option *options, size_t n, int argc,
                               char **argv, struct words *operands, bool *help);
 
-/* The word nearest to `word`, or NULL if none is near enough to be what was meant. */
-const char *nearest_word(const char *word, const char *const *known, size_t n);
-
 /* ---- what verbs share (DESIGN 2). {0} is right for every member. */
 
 enum { RESUME_AUTO, RESUME_NEVER, RESUME_REQUIRE, RESUME_OTHER_DEVICE };

@@ -12,7 +12,7 @@
 
 /* Device time of one particle in one step, in units of one word read and written, measured on lavapipe with
  * jobs/demo.yaml: what a plan's time rests on. Off by a factor of two is to be expected. */
-static const double WORDS_PER_PARTICLE_STEP = 1500;
+static const double WORDS_PER_PARTICLE_STEP = 200;
 
 /* Seconds a word takes to be read and written here: a gather of 16 MB, twice, the second time warm. */
 static status word_seconds(struct gpu *gpu, double *out)

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/json.h"
 #include "base/memory.h"
-#include "checkpoint/json_read.h"
 #include "cli/progress.h"
 
 enum { COLUMNS_MAX = 16, LABEL_SIZE = 64 };
@@ -17,16 +17,17 @@ static bool ends_with(const char *text, const char *end)
     return n > m && strcmp(text + n - m, end) == 0;
 }
 
-static bool is_group(const struct json_value *v)
+static bool is_group(const struct json *v)
 {
-    return v->kind == JSON_IS_ARRAY || v->kind == JSON_IS_OBJECT;
+    return v->kind == JSON_ARRAY || v->kind == JSON_OBJECT;
 }
 
 /* "stored_bytes" -> "stored", "max_stress_Pa" -> "max stress Pa" */
-static const char *label(const struct json_doc *j, const struct json_value *v, char out[LABEL_SIZE])
+static const char *label(const struct json *v, char out[LABEL_SIZE])
 {
-    if (!json_get_key(j, v, out, LABEL_SIZE))
+    if (strlen(v->key) >= LABEL_SIZE)
         return "...";
+    strcpy(out, v->key);
     if (ends_with(out, "_bytes") || ends_with(out, "_seconds"))
         *strrchr(out, '_') = '\0';
     for (char *c = out; *c; c++)
@@ -46,35 +47,30 @@ static const char *bytes_text(double n, char out[32])
 }
 
 /* A value that is no group, as people read it; *out is freed with free(). */
-static status scalar(const struct json_doc *j, const struct json_value *v, char **out)
+static status scalar(const struct json *v, char **out)
 {
     status st = OK;
-    char key[LABEL_SIZE] = "";
-    double number;
-    /* Escapes only shrink, and the longest duration or size fits. */
-    TRY(memory_alloc((size_t)v->size + 32, 1, "a text", out));
-    if (v->key_size && !json_get_key(j, v, key, sizeof key))
-        key[0] = '\0';
-    if (v->kind == JSON_IS_TEXT) {
-        if (!json_get_text(j, v, *out, (size_t)v->size + 1))
-            strcpy(*out, "?");
+    const char *key = v->key ? v->key : "";
+    /* The longest duration or size fits. */
+    const size_t size = (v->text ? strlen(v->text) : 0) + 32;
+    TRY(memory_alloc(size, 1, "a text", out));
+    if (v->kind == JSON_TEXT) {
+        strcpy(*out, v->text);
         for (char *c = *out; *c; c++)
             if ((unsigned char)*c < 0x20 || *c == 0x7f)
                 *c = ' ';
-    } else if (v->kind == JSON_IS_NUMBER && ends_with(key, "_bytes") && json_get_number(j, v, &number)) {
-        bytes_text(number, *out);
-    } else if (v->kind == JSON_IS_NUMBER && ends_with(key, "_seconds") && json_get_number(j, v, &number)) {
-        duration_text(number, *out);
-    } else if (v->kind == JSON_IS_TRUE || v->kind == JSON_IS_FALSE) {
-        strcpy(*out, v->kind == JSON_IS_TRUE ? "yes" : "no");
-    } else if (v->kind == JSON_IS_NULL) {
+    } else if (v->kind == JSON_BOOL) {
+        strcpy(*out, v->number != 0 ? "yes" : "no");
+    } else if (v->kind == JSON_NULL) {
         strcpy(*out, "-");
+    } else if (ends_with(key, "_bytes")) {
+        bytes_text(v->number, *out);
+    } else if (ends_with(key, "_seconds")) {
+        duration_text(v->number, *out);
+    } else if (strchr(v->text, 'e') && fabs(v->number) >= 1e-4 && fabs(v->number) < 1e15) {
+        snprintf(*out, size, "%.15g", v->number); /* 5e+03 is the shortest form, and right for programs */
     } else {
-        memcpy(*out, j->text + v->at, v->size);
-        /* 5e+03 is the shortest form, and right for programs. */
-        if (strchr(*out, 'e') && json_get_number(j, v, &number) && fabs(number) >= 1e-4 &&
-            fabs(number) < 1e15)
-            snprintf(*out, (size_t)v->size + 32, "%.15g", number);
+        strcpy(*out, v->text);
     }
 done:
     return st;
@@ -83,15 +79,13 @@ done:
 /* ---- tables */
 
 /* Is every value of the array a flat object with as many members as the first? */
-static bool is_table(const struct json_doc *j, const struct json_value *array)
+static bool is_table(const struct json *array)
 {
-    const struct json_value *row = json_first(array);
-    uint32_t columns = array->n ? row->n : 0;
-    for (uint32_t i = 0; i < array->n; i++, row = json_next(j, row)) {
-        if (row->kind != JSON_IS_OBJECT || row->n != columns || columns == 0 || columns > COLUMNS_MAX)
+    const size_t columns = array->first ? array->first->n : 0;
+    for (const struct json *row = array->first; row; row = row->next) {
+        if (row->kind != JSON_OBJECT || row->n != columns || columns == 0 || columns > COLUMNS_MAX)
             return false;
-        const struct json_value *v = json_first(row);
-        for (uint32_t k = 0; k < row->n; k++, v = json_next(j, v))
+        for (const struct json *v = row->first; v; v = v->next)
             if (is_group(v))
                 return false;
     }
@@ -99,27 +93,26 @@ static bool is_table(const struct json_doc *j, const struct json_value *array)
 }
 
 /* One pass over the table: measures columns, or prints. */
-static status walk_table(const struct json_doc *j, const struct json_value *array, int indent, bool print,
-                         int width[])
+static status walk_table(const struct json *array, int indent, bool print, int width[])
 {
     char name[LABEL_SIZE];
-    const struct json_value *row = json_first(array), *v = json_first(row);
-    for (uint32_t k = 0; k < row->n; k++, v = json_next(j, v)) {
-        const char *head = label(j, v, name);
+    size_t k = 0;
+    for (const struct json *v = array->first->first; v; v = v->next, k++) {
+        const char *head = label(v, name);
         if (print)
-            printf("%*s%-*s", k ? 2 : indent, "", k + 1 < row->n ? width[k] : 0, head);
+            printf("%*s%-*s", k ? 2 : indent, "", v->next ? width[k] : 0, head);
         else if ((int)strlen(head) > width[k])
             width[k] = (int)strlen(head);
     }
-    for (uint32_t i = 0; i < array->n; i++, row = json_next(j, row)) {
-        v = json_first(row);
-        for (uint32_t k = 0; k < row->n; k++, v = json_next(j, v)) {
+    for (const struct json *row = array->first; row; row = row->next) {
+        k = 0;
+        for (const struct json *v = row->first; v; v = v->next, k++) {
             char *text = NULL;
-            status st = scalar(j, v, &text);
+            status st = scalar(v, &text);
             if (st != OK)
                 return st;
             if (print)
-                printf("%s%*s%-*s", k ? "" : "\n", k ? 2 : indent, "", k + 1 < row->n ? width[k] : 0, text);
+                printf("%s%*s%-*s", k ? "" : "\n", k ? 2 : indent, "", v->next ? width[k] : 0, text);
             else if (strlen(text) < 60 && (int)strlen(text) > width[k])
                 width[k] = (int)strlen(text);
             free(text);
@@ -130,67 +123,63 @@ static status walk_table(const struct json_doc *j, const struct json_value *arra
     return OK;
 }
 
-static status print_table(const struct json_doc *j, const struct json_value *array, int indent)
+static status print_table(const struct json *array, int indent)
 {
     int width[COLUMNS_MAX] = {0};
     status st = OK;
-    TRY(walk_table(j, array, indent, false, width));
-    TRY(walk_table(j, array, indent, true, width));
+    TRY(walk_table(array, indent, false, width));
+    TRY(walk_table(array, indent, true, width));
 done:
     return st;
 }
 
 /* ---- everything else */
 
-static status print_scalars(const struct json_doc *j, const struct json_value *array)
+static status print_scalars(const struct json *array)
 {
-    const struct json_value *v = json_first(array);
-    for (uint32_t i = 0; i < array->n; i++, v = json_next(j, v)) {
+    for (const struct json *v = array->first; v; v = v->next) {
         char *text = NULL;
-        status st = scalar(j, v, &text);
+        status st = scalar(v, &text);
         if (st != OK)
             return st;
-        printf("%s%s", i ? " " : "", text);
+        printf("%s%s", v == array->first ? "" : " ", text);
         free(text);
     }
     printf("%s\n", array->n ? "" : "none");
     return OK;
 }
 
-static bool holds_groups(const struct json_doc *j, const struct json_value *group)
+static bool holds_groups(const struct json *group)
 {
-    const struct json_value *v = json_first(group);
-    for (uint32_t i = 0; i < group->n; i++, v = json_next(j, v))
+    for (const struct json *v = group->first; v; v = v->next)
         if (is_group(v))
             return true;
     return false;
 }
 
-static status print_members(const struct json_doc *j, const struct json_value *group, int indent)
+static status print_members(const struct json *group, int indent)
 {
     status st = OK;
     int widest = 0;
     char name[LABEL_SIZE];
-    const struct json_value *v = json_first(group);
-    for (uint32_t i = 0; i < group->n; i++, v = json_next(j, v)) {
-        int n = v->key_size ? (int)strlen(label(j, v, name)) : 1;
+    for (const struct json *v = group->first; v; v = v->next) {
+        int n = v->key ? (int)strlen(label(v, name)) : 1;
         widest = n > widest ? n : widest;
     }
-    v = json_first(group);
-    for (uint32_t i = 0; i < group->n; i++, v = json_next(j, v)) {
-        const char *head = group->kind == JSON_IS_OBJECT ? label(j, v, name) : "-";
-        bool flat = v->kind == JSON_IS_ARRAY && !holds_groups(j, v);
+    for (const struct json *v = group->first; v; v = v->next) {
+        const char *head = v->key ? label(v, name) : "-";
+        bool flat = v->kind == JSON_ARRAY && !holds_groups(v);
         if (is_group(v) && !flat) {
             printf("%*s%s\n", indent, "", head);
-            TRY(is_table(j, v) ? print_table(j, v, indent + 2) : print_members(j, v, indent + 2));
+            TRY(is_table(v) ? print_table(v, indent + 2) : print_members(v, indent + 2));
             continue;
         }
         printf("%*s%-*s  ", indent, "", widest, head);
         if (flat) {
-            TRY(print_scalars(j, v));
+            TRY(print_scalars(v));
         } else {
             char *text = NULL;
-            TRY(scalar(j, v, &text));
+            TRY(scalar(v, &text));
             printf("%s\n", text);
             free(text);
         }
@@ -201,16 +190,16 @@ done:
 
 status words_print(const struct text *answer, bool as_json)
 {
-    struct json_doc j = {0};
+    struct json *json = NULL;
     status st = OK;
     TRY(text_status(answer));
     if (as_json) {
         fwrite(answer->data, 1, answer->size, stdout);
         return OK;
     }
-    TRY(json_parse(answer->data, answer->size, &j));
-    TRY(print_members(&j, j.value, 0));
+    TRY(json_read(NULL, answer->data, answer->size, &json));
+    TRY(print_members(json, 0));
 done:
-    json_doc_free(&j);
+    json_free(&json);
     return st;
 }

@@ -34,9 +34,8 @@ static double abrasion(const struct job *job, int frame)
     return curve_at(&job->wind.abrasion, frame) * ratio * ratio;
 }
 
-/* No face retreats faster than in the weakest rock, in full tension, across the wind, at the steepest slant
- * (|n_i| >= 0.577). Noise and paint may make single spots faster; there, max_step is exceeded and the carry
- * makes up for it. */
+/* By the plane face of unstressed rock of the weakest layer, across the wind. Edges, tension, noise and paint
+ * make single spots faster; there max_step is exceeded, and the carry makes up for it. */
 int erosion_steps(const struct job *job, int frame)
 {
     double weakest = 0;

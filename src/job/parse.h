@@ -35,7 +35,4 @@ void free_section(enum job_section_id section, void *base);
 MUST_USE status check_section(enum job_section_id section, const struct yaml *map, const void *base);
 MUST_USE status check_job(const struct yaml *root, const struct job *job);
 
-/* "did you mean X?" or "known here: A, B, C", for a word that is none of the n names; returns out. */
-const char *nearest(const char *word, const char *const *names, size_t n, char out[600]);
-
 #endif

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/nearest.h"
 #include "job/parse.h"
 
 /* Operators inside each other. Each is two levels of YAML, so this stays inside YAML_DEPTH. */
@@ -13,8 +14,15 @@ enum { LIST_ITEMS = 4096 };
 
 static status unknown_key(const struct yaml *at, const char *const *names, size_t n)
 {
-    char hint[600];
-    return yaml_fail_key(at, "unknown key; %s", nearest(at->key, names, n, hint));
+    char list[600];
+    size_t used = 0;
+    const char *near = nearest_word(at->key, names, n);
+    if (near)
+        return yaml_fail_key(at, "unknown key; did you mean %s?", near);
+    list[0] = '\0';
+    for (size_t i = 0; i < n && used < 500; i++)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s %.60s", i ? "," : "", names[i]);
+    return yaml_fail_key(at, "unknown key; known here:%s", list);
 }
 
 static status read_node(const struct yaml *map, const char *folder, int depth, struct job_node **out);

@@ -25,6 +25,7 @@ struct run {
     struct writer *writer;
     bool *done;        /* [last - first + 1], by frame number */
     int first_missing; /* last + 1: none */
+    int last_missing;
     size_t n_done;
 };
 
@@ -48,8 +49,8 @@ static status survey(struct run *r)
 {
     status st = OK;
     size_t n = (size_t)(r->frames.last - r->frames.first) + 1;
-    int *there = NULL;
-    size_t n_there;
+    int *there = NULL, *checkpoints = NULL;
+    size_t n_there, n_checkpoints;
     TRY(memory_alloc(n, sizeof *r->done, "the frames", &r->done));
     TRY(folder_frames(r->options->root, r->job->name, &there, &n_there));
     for (size_t i = 0; i < n_there; i++)
@@ -59,11 +60,19 @@ static status survey(struct run *r)
     for (int f = r->frames.last; f >= r->frames.first; f--)
         if (range_holds(r->frames, f)) {
             r->n_done += r->done[f - r->frames.first];
-            if (!r->done[f - r->frames.first])
-                r->first_missing = f;
+            if (r->done[f - r->frames.first])
+                continue;
+            if (r->first_missing > r->frames.last)
+                r->last_missing = f;
+            r->first_missing = f;
         }
+    /* Without the last frame's checkpoint there is more to do than the frames. */
+    TRY(checkpoint_list(r->options->root, r->job->name, &checkpoints, &n_checkpoints));
+    if (n_checkpoints == 0 || checkpoints[0] < r->frames.last)
+        r->last_missing = r->frames.last;
 done:
     free(there);
+    free(checkpoints);
     return st;
 }
 
@@ -327,14 +336,16 @@ done:
 static status simulate(struct run *r)
 {
     status st = OK;
-    int last = r->frames.last;
+    int last = r->last_missing;
+    /* Frames after it are done, and so are the checkpoints they need. */
+    bool repair = last < r->frames.last;
     /* A checkpoint's own frame may be the first one missing. */
     bool fresh =
         r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
     for (;;) {
         int number = r->type->frame(r->model);
         /* The last frame says that all is done: what the next block begins from is there before it. */
-        if (fresh && number >= last)
+        if (fresh && number >= last && !repair)
             TRY(save(r));
         if (fresh)
             TRY(finish_frame(r));
@@ -342,7 +353,7 @@ static status simulate(struct run *r)
             break;
         bool stop = r->options->stop && r->options->stop();
         bool due = (number - r->job->frames.first) % (int)r->job->checkpoint.every == 0;
-        if (fresh && (due || stop))
+        if (fresh && ((due && !repair) || stop))
             TRY(save(r));
         if (stop) {
             TRY(writer_finish(&r->writer));
@@ -366,7 +377,7 @@ static void log_times(struct gpu *gpu)
     size_t n = gpu_stage_times(gpu, &times);
     for (size_t i = 0; i < n; i++)
         if (times[i].ns)
-            log_info("device time: %-12s %8.2f s in %llu dispatches", times[i].name,
+            log_note("device time: %-12s %8.2f s in %llu dispatches", times[i].name,
                      (double)times[i].ns / 1e9, (unsigned long long)times[i].dispatches);
 }
 

@@ -5,6 +5,7 @@
  * Resume      The first frame that is not done is where work begins: from the newest sound checkpoint up to
  *             it, or from the job's first frame. Frames simulated on the way that are done already are not
  *             written again.
+ *             It ends with the last frame that is not done, if the last frame's checkpoint is there.
  * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or
  *             the first frame asked for is not the job's first and there is no checkpoint before it.
  * Stop        When a stop is requested, the frame under way is finished and written, then a checkpoint:

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 
 #include "base/atomic_file.h"
 #include "base/hash.h"
@@ -128,7 +129,7 @@ done:
 
 /* ---- the thread */
 
-enum { QUEUE = 2 };
+enum { QUEUE = 2, WRITER_NICE = 10 };
 
 struct item {
     bool is_checkpoint;
@@ -160,6 +161,9 @@ static void item_free(struct item *item)
 static void *work(void *argument)
 {
     struct writer *w = argument;
+    /* Linux keeps this per thread. Where the device is the CPU, the simulation goes first; the queue makes it
+     * wait. */
+    setpriority(PRIO_PROCESS, 0, WRITER_NICE);
     pthread_mutex_lock(&w->lock);
     while (w->n > 0 || !w->ending) {
         if (w->n == 0) {

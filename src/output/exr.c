@@ -249,7 +249,7 @@ status exr_encode(const struct aov_image *image, const struct exr_options *optio
     init.error_handler_fn = sink_complaint;
     init.user_data = sink;
     init.write_fn = sink_write;
-    init.zip_level = 4; /* faster than 6, and well below 1 % larger */
+    init.zip_level = 2; /* half the time of 4, for files about 4 % larger: the simulation wants the cores */
     int n_parts = 0;
     TRY(check_image(image));
     TRY_EXR(exr_start_write(&exr, "memory", EXR_WRITE_FILE_DIRECTLY, &init));

@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 
 #include "base/atomic_file.h"
+#include "base/json.h"
 #include "base/memory.h"
-#include "output/json.h"
 
 static const struct {
     const char *folder, *extension;

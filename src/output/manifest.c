@@ -7,9 +7,9 @@
 
 #include "base/atomic_file.h"
 #include "base/hash.h"
+#include "base/json.h"
 #include "base/memory.h"
 #include "output/folder.h"
-#include "output/json.h"
 
 /* The last member is the hash of all text before it, so that damage to the manifest itself shows. */
 static const char SELF[] = "\n  \"self_xxh3\": \"", END[] = "\"\n}\n";

@@ -15,9 +15,9 @@
 #include <openexr.h>
 
 #include "base/atomic_file.h"
+#include "base/json.h"
 #include "base/memory.h"
 #include "output/exr.h"
-#include "output/json.h"
 #include "unit/damage.h"
 
 enum { WIDTH = 61, HEIGHT = 37, PIXELS = WIDTH * HEIGHT };

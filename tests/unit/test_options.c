@@ -126,19 +126,6 @@ static void refuses_the_rest_and_says_why(void **state)
     common_free(&g.common);
 }
 
-static void suggests_only_what_is_near(void **state)
-{
-    (void)state;
-    static const char *const known[] = {"run", "plan", "status", "verify", "inspect"};
-    assert_string_equal(nearest_word("rnu", known, 5), "run");
-    assert_string_equal(nearest_word("verfy", known, 5), "verify");
-    assert_string_equal(nearest_word("insp", known, 5), "inspect");
-    assert_string_equal(nearest_word("stauts", known, 5), "status");
-    assert_null(nearest_word("erode", known, 5));
-    assert_null(nearest_word("", known, 5));
-    assert_null(nearest_word("aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa", known, 5));
-}
-
 /* What `draw` writes to the file descriptor `fd`, in `out`. */
 static void capture(int fd, void (*draw)(void), char *out, size_t size)
 {
@@ -253,9 +240,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(understands_what_users_write), cmocka_unit_test(refuses_the_rest_and_says_why),
-        cmocka_unit_test(suggests_only_what_is_near),   cmocka_unit_test(progress_for_openjd),
-        cmocka_unit_test(progress_for_people),          cmocka_unit_test(durations_in_words),
-        cmocka_unit_test(signals_ask_for_a_stop),
+        cmocka_unit_test(progress_for_openjd),          cmocka_unit_test(progress_for_people),
+        cmocka_unit_test(durations_in_words),           cmocka_unit_test(signals_ask_for_a_stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -249,7 +249,7 @@ static void particles_come_in_order_inside_their_voxels(void **state)
     assert_close(volume, M_PI / 3 * (4 * 91.125 - 0.25 * (3 * 4.5 - 0.5)), 0.005);
     for (int c = 0; c < 3; c++)
         assert_true(fabs(moved[c] / (double)rock.n) < 0.02);
-    assert_close(square / (3 * (double)rock.n), 0.64 / 12, 0.05);
+    assert_close(square / (3 * (double)rock.n), 0.25 / 12, 0.05);
     assert_null(rock.stress);
     rock_free(&rock);
 }

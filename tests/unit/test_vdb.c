@@ -15,7 +15,7 @@
 
 #include "base/atomic_file.h"
 #include "base/hash.h"
-#include "output/json.h"
+#include "base/json.h"
 #include "unit/damage.h"
 #include "unit/sample_frame.h"
 

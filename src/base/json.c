@@ -1,13 +1,12 @@
-#include "output/json.h"
+#include "base/json.h"
 
-#include <errno.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/json_text.h"
 #include "base/memory.h"
 
-enum { DEEPEST = 32, MOST_MEMBERS = 4096 };
+enum { DEEPEST = 32 };
 
 /* Nodes and texts come from blocks that live and die together; the first block starts with the root. */
 struct block {
@@ -22,14 +21,25 @@ struct document {
 };
 
 struct reader {
-    const char *path, *at, *end;
+    const char *path, *begin, *at, *end;
     struct document *document;
-    int line, depth;
+    int depth;
 };
 
 static status wrong(const struct reader *r, const char *what)
 {
-    return fail(E_INPUT, "%s:%d: not the JSON hoodoo writes: %s", r->path, r->line, what);
+    size_t line = 1, column = 1;
+    for (const char *c = r->begin; c < r->at; c++) {
+        column = *c == '\n' ? 1 : column + 1;
+        line += *c == '\n';
+    }
+    return fail(E_INPUT, "%s%sline %zu, column %zu: %s", r->path ? r->path : "",
+                r->path ? ": not JSON: " : "", line, column, what);
+}
+
+static const char *name(const struct reader *r)
+{
+    return r->path ? r->path : "a JSON text";
 }
 
 static status take(struct reader *r, size_t n, void *out)
@@ -38,7 +48,7 @@ static status take(struct reader *r, size_t n, void *out)
     n = (n + sizeof(max_align_t) - 1) / sizeof(max_align_t) * sizeof(max_align_t);
     if (!b || b->size - b->used < n) {
         const size_t size = n > 16384 ? n : 16384;
-        status st = memory_alloc(sizeof *b + size, 1, r->path, &b);
+        status st = memory_alloc(sizeof *b + size, 1, name(r), &b);
         if (st != OK)
             return st;
         *b = (struct block){.older = r->document->blocks, .size = size};
@@ -52,8 +62,8 @@ static status take(struct reader *r, size_t n, void *out)
 
 static void skip_space(struct reader *r)
 {
-    for (; r->at < r->end && strchr(" \t\r\n", *r->at) && *r->at; r->at++)
-        r->line += *r->at == '\n';
+    while (r->at < r->end && *r->at && strchr(" \t\r\n", *r->at))
+        r->at++;
 }
 
 static bool skip(struct reader *r, const char *word)
@@ -65,90 +75,25 @@ static bool skip(struct reader *r, const char *word)
     return true;
 }
 
-static bool read_hex(struct reader *r, unsigned *out)
-{
-    *out = 0;
-    if (r->end - r->at < 4)
-        return false;
-    for (int i = 0; i < 4; i++) {
-        const char c = *r->at++;
-        const int digit = c >= '0' && c <= '9'   ? c - '0'
-                          : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                          : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                                 : -1;
-        if (digit < 0)
-            return false;
-        *out = *out << 4 | (unsigned)digit;
-    }
-    return true;
-}
-
-static char *put_utf8(char *to, unsigned c)
-{
-    if (c < 0x80) {
-        *to++ = (char)c;
-        return to;
-    }
-    const int tail = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
-    *to++ = (char)((0xf0U << (3 - tail) & 0xff) | c >> 6 * tail);
-    for (int i = tail - 1; i >= 0; i--)
-        *to++ = (char)(0x80 | (c >> 6 * i & 0x3f));
-    return to;
-}
-
-static status read_escape(struct reader *r, char **to)
-{
-    static const char from[] = "\"\\/bfnrt", as[] = "\"\\/\b\f\n\r\t";
-    unsigned c, low;
-    const char *known = r->at < r->end && *r->at ? strchr(from, *r->at) : NULL;
-    if (known) {
-        *(*to)++ = as[known - from];
-        r->at++;
-        return OK;
-    }
-    if (!skip(r, "u") || !read_hex(r, &c))
-        return wrong(r, "a bad escape in a text");
-    if (c >= 0xd800 && c < 0xdc00) {
-        if (!skip(r, "\\u") || !read_hex(r, &low) || low < 0xdc00 || low > 0xdfff)
-            return wrong(r, "half a character in a text");
-        c = 0x10000 + ((c & 0x3ff) << 10 | (low & 0x3ff));
-    } else if (c == 0 || (c >= 0xdc00 && c < 0xe000)) {
-        return wrong(r, "a bad character in a text");
-    }
-    *to = put_utf8(*to, c);
-    return OK;
-}
-
 static status read_text(struct reader *r, const char **out)
 {
-    status st = OK;
-    char *text = NULL, *to;
+    char *text = NULL;
     const char *end = r->at + 1;
     if (!skip(r, "\""))
-        return wrong(r, "a text was expected");
+        return wrong(r, "a key in quotes is missing");
     while (end < r->end && *end != '"')
         end += *end == '\\' && r->end - end > 1 ? 2 : 1;
     if (end >= r->end)
         return wrong(r, "a text does not end");
-    TRY(take(r, (size_t)(end - r->at) + 1, &text));
-    to = text;
-    while (r->at < end) {
-        if ((unsigned char)*r->at < 0x20) {
-            st = wrong(r, "a control character in a text");
-            goto done;
-        }
-        if (*r->at == '\\') {
-            r->at++;
-            TRY(read_escape(r, &to));
-        } else {
-            *to++ = *r->at++;
-        }
-    }
-    *to = '\0';
+    status st = take(r, (size_t)(end - r->at) + 1, &text);
+    if (st != OK)
+        return st;
+    const char *bad = json_unescape(&r->at, end, text);
+    if (bad)
+        return wrong(r, bad);
     r->at = end + 1;
     *out = text;
-done:
-    return st;
+    return OK;
 }
 
 static size_t skip_digits(struct reader *r)
@@ -188,6 +133,40 @@ static status read_number(struct reader *r, struct json *json)
 
 static status read_value(struct reader *r, struct json *json);
 
+static int by_key(const void *a, const void *b)
+{
+    return strcmp((*(const struct json *const *)a)->key, (*(const struct json *const *)b)->key);
+}
+
+/* Sorts: an object of a hostile file may have millions of members. */
+static status refuse_twins(const struct reader *r, const struct json *object)
+{
+    status st = OK;
+    const struct json **item = NULL;
+    size_t n = 0;
+    if (object->n < 2)
+        return OK;
+    TRY(memory_alloc(object->n, sizeof *item, name(r), &item));
+    for (const struct json *i = object->first; i; i = i->next)
+        item[n++] = i;
+    qsort(item, n, sizeof *item, by_key);
+    for (size_t i = 1; i < n && st == OK; i++)
+        if (by_key(&item[i - 1], &item[i]) == 0)
+            st = wrong(r, "a key stands twice in the object that ends here");
+done:
+    free(item);
+    return st;
+}
+
+static status read_key(struct reader *r, struct json *item)
+{
+    status st = read_text(r, &item->key);
+    if (st != OK)
+        return st;
+    skip_space(r);
+    return skip(r, ":") ? OK : wrong(r, "':' is missing");
+}
+
 static status read_items(struct reader *r, struct json *json, enum json_kind kind)
 {
     status st = OK;
@@ -195,7 +174,7 @@ static status read_items(struct reader *r, struct json *json, enum json_kind kin
     struct json **link = &json->first;
     json->kind = kind;
     if (++r->depth > DEEPEST)
-        return wrong(r, "too many levels");
+        return wrong(r, "nested too deeply");
     skip_space(r);
     if (skip(r, close))
         goto done;
@@ -204,18 +183,8 @@ static status read_items(struct reader *r, struct json *json, enum json_kind kin
         TRY(take(r, sizeof *item, &item));
         *item = (struct json){0};
         skip_space(r);
-        if (kind == JSON_OBJECT) {
-            TRY(read_text(r, &item->key));
-            if (json_member(json, item->key) || json->n >= MOST_MEMBERS) {
-                st = wrong(r, "a key stands twice, or there are too many");
-                goto done;
-            }
-            skip_space(r);
-            if (!skip(r, ":")) {
-                st = wrong(r, "a ':' was expected");
-                goto done;
-            }
-        }
+        if (kind == JSON_OBJECT)
+            TRY(read_key(r, item));
         TRY(read_value(r, item));
         *link = item;
         link = &item->next;
@@ -223,7 +192,9 @@ static status read_items(struct reader *r, struct json *json, enum json_kind kin
         skip_space(r);
     } while (skip(r, ","));
     if (!skip(r, close))
-        st = wrong(r, kind == JSON_OBJECT ? "a ',' or '}' was expected" : "a ',' or ']' was expected");
+        return wrong(r, kind == JSON_OBJECT ? "',' or '}' is missing" : "',' or ']' is missing");
+    if (kind == JSON_OBJECT)
+        TRY(refuse_twins(r, json));
 done:
     r->depth--;
     return st;
@@ -249,6 +220,10 @@ static status read_value(struct reader *r, struct json *json)
     json->number = 0;
     if (skip(r, "false"))
         return OK;
+    if (r->at == r->end)
+        return wrong(r, "it ends too early");
+    if (!strchr("-0123456789", *r->at) || !*r->at)
+        return wrong(r, "neither a value nor an end");
     return read_number(r, json);
 }
 
@@ -256,13 +231,13 @@ status json_read(const char *path, const char *bytes, size_t n, struct json **ou
 {
     status st = OK;
     struct document *document = NULL;
-    struct reader r = {.path = path, .at = bytes, .end = bytes + n, .line = 1};
-    TRY(memory_alloc(1, sizeof *document, path, &document));
+    struct reader r = {.path = path, .begin = bytes, .at = bytes, .end = bytes + n};
+    TRY(memory_alloc(1, sizeof *document, name(&r), &document));
     r.document = document;
     TRY(read_value(&r, &document->root));
     skip_space(&r);
     if (r.at != r.end) {
-        st = wrong(&r, "something follows after the end");
+        st = wrong(&r, "more follows after the end");
         goto done;
     }
     *out = &document->root;
@@ -285,40 +260,4 @@ void json_free(struct json **json)
     }
     free(document);
     *json = NULL;
-}
-
-const struct json *json_member(const struct json *object, const char *key)
-{
-    if (!object || object->kind != JSON_OBJECT)
-        return NULL;
-    for (const struct json *item = object->first; item; item = item->next)
-        if (strcmp(item->key, key) == 0)
-            return item;
-    return NULL;
-}
-
-bool json_to_uint64(const struct json *json, uint64_t *out)
-{
-    if (!json || json->kind != JSON_NUMBER || strspn(json->text, "0123456789") != strlen(json->text))
-        return false;
-    errno = 0;
-    const unsigned long long value = strtoull(json->text, NULL, 10);
-    if (errno != 0)
-        return false;
-    *out = value;
-    return true;
-}
-
-bool json_to_int(const struct json *json, int *out)
-{
-    if (!json || json->kind != JSON_NUMBER || strpbrk(json->text, ".eE") || json->number < INT_MIN ||
-        json->number > INT_MAX)
-        return false;
-    *out = (int)json->number;
-    return true;
-}
-
-const char *json_to_text(const struct json *json)
-{
-    return json && json->kind == JSON_TEXT ? json->text : NULL;
 }

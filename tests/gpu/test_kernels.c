@@ -1,0 +1,372 @@
+/* Kernels against plain C twins: stress, normals, surface, blocks, erodibility, and the distance field against a sphere. */
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "blocks/blocks.h"
+#include "erosion/erosion.h"
+#include "field/field.h"
+#include "physics/model_help.h"
+#include "stress/elastic.h"
+#include "tests/ref/elastic_ref.h"
+#include "tests/ref/rock_ref.h"
+
+static uint32_t noise(uint32_t *state)
+{
+    *state = *state * 747796405u + 2891336453u;
+    uint32_t word = ((*state >> ((*state >> 28) + 4)) ^ *state) * 277803737u;
+    return (word >> 22) ^ word;
+}
+
+/* 0 <= x < 1 */
+static float chance(uint32_t *state)
+{
+    return (float)(noise(state) >> 8) / 16777216.0f;
+}
+
+static struct gpu_buffer *buffer_of(struct gpu *gpu, const void *data, size_t n, size_t item)
+{
+    struct gpu_buffer *b = NULL;
+    assert_ok(gpu_buffer_create(gpu, "test", n, item, &b));
+    if (data)
+        assert_ok(gpu_upload(gpu, b, 0, data, n));
+    return b;
+}
+
+static struct gpu *open_gpu(void)
+{
+    struct gpu *gpu = NULL;
+    assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &gpu));
+    return gpu;
+}
+
+/* ---- stress */
+
+static void stress_agrees_with_quadrature(void **state)
+{
+    struct elastic_grid g = {{9, 8, 7}, 12e9, 15e9, 0.7};
+    size_t n_cells = elastic_ref_cell(&g, 0, 0, g.cells[2]),
+           n_nodes = elastic_ref_node(&g, 0, 0, g.cells[2] + 1), n = 0;
+    float *fill = calloc(n_cells, sizeof *fill), *u = calloc(n_nodes, 16), *image = calloc(n_nodes, 16);
+    float *normal = calloc(n_cells, 16), *shear = calloc(n_cells, 16), *product = calloc(n_nodes, 4);
+    uint32_t *list = calloc(n_nodes, 4), random = 1;
+    double *force = calloc(4 * n_nodes, sizeof *force);
+    struct gpu *gpu = open_gpu();
+    (void)state;
+    for (int k = 1; k < g.cells[2]; k++)
+        for (int j = 1; j < g.cells[1]; j++)
+            for (int i = 1; i < g.cells[0]; i++) {
+                /* Some cells are empty, some nearly. */
+                float share = chance(&random) * 1.4f - 0.2f;
+                if (i < g.cells[0] - 1 && j < g.cells[1] - 1 && k < g.cells[2] - 1)
+                    fill[elastic_ref_cell(&g, i, j, k)] = fminf(fmaxf(share, 0), 1);
+                list[n++] = (uint32_t)elastic_ref_node(&g, i, j, k);
+            }
+    for (size_t i = 0; i < n_nodes; i++)
+        for (size_t c = 0; c < 3; c++)
+            u[4 * i + c] = chance(&random) - 0.5f;
+    struct gpu_buffer *b_list = buffer_of(gpu, list, n, 4), *b_u = buffer_of(gpu, u, n_nodes, 16),
+                      *b_fill = buffer_of(gpu, fill, n_cells, 4), *b_q = buffer_of(gpu, NULL, n_nodes, 16),
+                      *b_product = buffer_of(gpu, NULL, n_nodes, 4),
+                      *b_normal = buffer_of(gpu, NULL, n_cells, 16),
+                      *b_shear = buffer_of(gpu, NULL, n_cells, 16);
+    struct stress_params params = {.n = (uint)n,
+                                   .cx = (uint)g.cells[0],
+                                   .cy = (uint)g.cells[1],
+                                   .cz = (uint)g.cells[2],
+                                   .lambda = (float)g.lambda,
+                                   .mu = (float)g.mu,
+                                   .dx = (float)g.dx};
+    GPU_RUN(gpu, stress_matvec, n, params, b_list, b_u, b_fill, b_q, b_product);
+    params.n = (uint)n_cells;
+    GPU_RUN(gpu, stress_recover, n_cells, params, b_u, b_fill, b_normal, b_shear);
+    assert_ok(gpu_download(gpu, b_q, 0, image, n));
+    assert_ok(gpu_download(gpu, b_product, 0, product, n));
+    assert_ok(gpu_download(gpu, b_normal, 0, normal, n_cells));
+    assert_ok(gpu_download(gpu, b_shear, 0, shear, n_cells));
+
+    double most = 0, worst = 0, worst_product = 0;
+    elastic_ref_apply(&g, fill, u, force);
+    for (size_t i = 0; i < 4 * n_nodes; i++)
+        most = fmax(most, fabs(force[i]));
+    for (size_t i = 0; i < n; i++) {
+        double work = 0;
+        for (size_t c = 0; c < 3; c++) {
+            worst = fmax(worst, fabs((double)image[4 * i + c] - force[4 * list[i] + c]) / most);
+            work += force[4 * list[i] + c] * (double)u[4 * list[i] + c];
+        }
+        worst_product = fmax(worst_product, fabs((double)product[i] - work) / most);
+    }
+    print_message("# K u differs by %.2g, u . K u by %.2g of the largest force\n", worst, worst_product);
+    assert_true(worst < 1e-5 && worst_product < 1e-5);
+
+    double largest = 0, error = 0;
+    for (int k = 0; k < g.cells[2]; k++)
+        for (int j = 0; j < g.cells[1]; j++)
+            for (int i = 0; i < g.cells[0]; i++) {
+                size_t c = elastic_ref_cell(&g, i, j, k);
+                double s[6] = {0};
+                if (fill[c] > 0)
+                    elastic_ref_stress(&g, u, i, j, k, s);
+                double expected[8] = {
+                    s[0],
+                    s[1],
+                    s[2],
+                    -(s[0] + s[1] + s[2]),
+                    s[3],
+                    s[4],
+                    s[5],
+                    sqrt(0.5 * (pow(s[0] - s[1], 2) + pow(s[1] - s[2], 2) + pow(s[2] - s[0], 2)) +
+                         3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]))};
+                for (size_t e = 0; e < 8; e++) {
+                    double got = (double)(e < 4 ? normal[4 * c + e] : shear[4 * c + e - 4]);
+                    largest = fmax(largest, fabs(expected[e]));
+                    error = fmax(error, fabs(got - expected[e]));
+                }
+            }
+    print_message("# stress differs by %.2g of the largest\n", error / largest);
+    assert_true(error < 1e-5 * largest);
+
+    struct gpu_buffer **all[] = {&b_list, &b_u, &b_fill, &b_q, &b_product, &b_normal, &b_shear};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        gpu_buffer_destroy(gpu, all[i]);
+    gpu_destroy(&gpu);
+    free(fill);
+    free(u);
+    free(image);
+    free(normal);
+    free(shear);
+    free(product);
+    free(list);
+    free(force);
+}
+
+/* ---- rock */
+
+struct bed {
+    struct gpu *gpu;
+    struct gpu_work *work;
+    struct particles p;
+    struct rock rock; /* as on the device, in its order */
+    int n[3];
+    double h;
+};
+
+/* A particle somewhere in each voxel for which `inside` (of its middle, in voxels) holds. */
+static struct bed bed_of(const int n[3], double h,
+                         int (*inside)(const int n[3], double x, double y, double z, uint32_t *random),
+                         uint32_t seed)
+{
+    struct bed bed = {.gpu = open_gpu(), .n = {n[0], n[1], n[2]}, .h = h};
+    size_t voxels = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
+    struct rock rock;
+    uint32_t random = seed;
+    assert_ok(rock_alloc(&rock, voxels, STATE));
+    rock.n = 0;
+    for (int k = 0; k < n[2]; k++)
+        for (int j = 0; j < n[1]; j++)
+            for (int i = 0; i < n[0]; i++) {
+                if (!inside(n, i + 0.5, j + 0.5, k + 0.5, &random))
+                    continue;
+                int v[3] = {i, j, k};
+                for (size_t a = 0; a < 3; a++)
+                    rock.P[4 * rock.n + a] = (float)(h * (v[a] + 0.2 + 0.6 * (double)chance(&random)));
+                rock.id[rock.n] = (uint32_t)rock.n;
+                rock.viability[rock.n] = 0.4f + 0.6f * chance(&random);
+                rock.rate_factor[rock.n] = chance(&random);
+                rock.interlock_factor[rock.n] = 0.5f + chance(&random);
+                rock.layer[rock.n] = noise(&random) % 2;
+                rock.n++;
+            }
+    assert_ok(gpu_work_create(bed.gpu, voxels + 2, &bed.work));
+    assert_ok(particles_create(bed.gpu, bed.work, &rock, n, h, &bed.p));
+    assert_ok(particles_surface(bed.gpu, bed.work, &bed.p));
+    assert_ok(particles_download(bed.gpu, &bed.p, DERIVED, &bed.rock));
+    rock_free(&rock);
+    return bed;
+}
+
+static void bed_end(struct bed *bed)
+{
+    rock_free(&bed->rock);
+    particles_destroy(bed->gpu, &bed->p);
+    gpu_work_destroy(bed->gpu, &bed->work);
+    gpu_destroy(&bed->gpu);
+}
+
+static int in_boulder(const int n[3], double x, double y, double z, uint32_t *random)
+{
+    (void)random;
+    double dx = x - 0.5 * n[0], dy = y - 0.5 * n[1], dz = z - 0.3 * n[2];
+    return dx * dx + 1.4 * dy * dy + dz * dz < 0.16 * n[0] * n[0] && z < 0.55 * n[2];
+}
+
+static int in_rubble(const int n[3], double x, double y, double z, uint32_t *random)
+{
+    (void)n;
+    (void)x;
+    (void)y;
+    (void)z;
+    return chance(random) < 0.78f;
+}
+
+static void surface_and_normals_agree(void **state)
+{
+    struct bed bed = bed_of((int[]){24, 22, 20}, 0.4, in_boulder, 3);
+    uint8_t *rock = rock_ref_voxels(&bed.rock, bed.n, bed.h);
+    size_t n_bare = 0, n_close = 0, n_distinct = 0;
+    (void)state;
+    for (size_t i = 0; i < bed.rock.n; i++) {
+        const float *N = &bed.rock.N[4 * i];
+        double normal[3], margin;
+        int bare = rock_ref_bare(rock, bed.n, bed.h, &bed.rock.P[4 * i]);
+        n_bare += (size_t)bare;
+        assert_true(bare == (N[0] != 0 || N[1] != 0 || N[2] != 0));
+        if (!bare)
+            continue;
+        rock_ref_normal(&bed.rock, i, 20, bed.h, normal, &margin);
+        double cosine = (double)N[0] * normal[0] + (double)N[1] * normal[1] + (double)N[2] * normal[2];
+        double angle = acos(fmin(cosine, 1)) * 57.29578;
+        n_close += angle < 5;
+        /* Where the 20th and the 21st neighbour are apart by more than the kernel's bins, the sets are the same. */
+        if (margin > 0.03) {
+            n_distinct++;
+            if (angle > 0.5)
+                print_message("# particle %zu: %.2f degrees, margin %.3f\n", i, angle, margin);
+            assert_true(angle < 0.5);
+        }
+    }
+    assert_int_equal(n_bare, bed.p.n_surface);
+    print_message("# %zu of %zu normals within 5 degrees; %zu with one set of neighbours, all the same\n",
+                  n_close, n_bare, n_distinct);
+    assert_true(n_distinct > n_bare / 4);
+    assert_true((double)n_close > 0.95 * (double)n_bare);
+    free(rock);
+    bed_end(&bed);
+}
+
+static void the_same_blocks_fall(void **state)
+{
+    (void)state;
+    for (uint32_t seed = 1; seed <= 6; seed++) {
+        struct bed bed = bed_of((int[]){20, 18, 16}, 0.5, seed % 2 ? in_rubble : in_boulder, seed);
+        struct blocks blocks;
+        uint32_t n_fallen = 0;
+        uint8_t *falls = rock_ref_falls(&bed.rock, bed.n, bed.h);
+        float *viability = malloc(bed.rock.n * sizeof *viability);
+        size_t expected = 0;
+        assert_ok(blocks_create(bed.gpu, bed.n, &blocks));
+        assert_ok(blocks_fall(bed.gpu, bed.work, &blocks, &bed.p, &n_fallen));
+        assert_ok(gpu_download(bed.gpu, bed.p.field[ROCK_viability], 0, viability, bed.rock.n));
+        for (size_t i = 0; i < bed.rock.n; i++) {
+            assert_int_equal(falls[i], viability[i] == 0);
+            expected += falls[i];
+        }
+        assert_int_equal(n_fallen, expected);
+        print_message("# %zu of %zu particles fall\n", expected, bed.rock.n);
+        free(falls);
+        free(viability);
+        blocks_destroy(bed.gpu, &blocks);
+        bed_end(&bed);
+    }
+}
+
+static void erodibility_jumps_where_grains_interlock(void **state)
+{
+    const float layer[2][4] = {{0.2f, 0.002f, 1e6f, 0}, {0.05f, 0, 0.5e6f, 0}};
+    (void)state;
+    for (int smooth = 0; smooth < 2; smooth++) {
+        struct bed bed = bed_of((int[]){16, 16, 16}, 0.5, in_rubble, 5);
+        struct interlock_params k = {(uint)bed.p.n, smooth ? 0.6f : 0.0f};
+        uint32_t random = 9;
+        float *stress = malloc(bed.p.n * sizeof *stress), *got = malloc(bed.p.n * sizeof *got);
+        for (size_t i = 0; i < bed.p.n; i++)
+            stress[i] = 2.5e6f * chance(&random) - 0.5e6f;
+        assert_ok(gpu_upload(bed.gpu, bed.p.field[ROCK_stress], 0, stress, bed.p.n));
+        struct gpu_buffer *layers = buffer_of(bed.gpu, layer, 2, 16);
+        GPU_RUN(bed.gpu, erosion_interlock, bed.p.n, k, layers, bed.p.field[ROCK_layer],
+                bed.p.field[ROCK_rate_factor], bed.p.field[ROCK_interlock_factor], bed.p.field[ROCK_stress],
+                bed.p.field[ROCK_erodibility]);
+        assert_ok(gpu_download(bed.gpu, bed.p.field[ROCK_erodibility], 0, got, bed.p.n));
+        for (size_t i = 0; i < bed.p.n; i++) {
+            const float *l = layer[bed.rock.layer[i]];
+            double expected =
+                rock_ref_retreat((double)l[0], (double)l[1], (double)(l[2] * bed.rock.interlock_factor[i]),
+                                 (double)bed.rock.rate_factor[i], (double)stress[i], (double)k.band);
+            assert_true(fabs((double)got[i] - expected) <= 1e-5 * fmax(expected, 1e-3));
+        }
+        free(stress);
+        free(got);
+        gpu_buffer_destroy(bed.gpu, &layers);
+        bed_end(&bed);
+    }
+}
+
+/* ---- the surface field */
+
+static void distance_to_a_sphere(void **state)
+{
+    const double center[3] = {8, 8.13, 4.2}, radius = 5.1;
+    struct sim s =
+        sim_begin("hoodoo: 1\nname: ball\nframes: 1-2\ndomain: {size_m: [16, 16, 12], spacing_m: 0.25}\n"
+                  "scene: {sphere: {center_m: [8, 8.13, 4.2], radius_m: 5.1}}\n");
+    struct frame frame = sim_output(&s);
+    const struct frame_grids *g = &frame.grids;
+    const float *phi = g->grid[0].value;
+    size_t near = 0, within = 0, band = 0, step[3] = {1, (size_t)g->n[0], (size_t)g->n[0] * (size_t)g->n[1]};
+    double worst = 0, mean = 0, slope = 0, steepest = 0, flattest = 9;
+    (void)state;
+    for (int k = 1; k < g->n[2] - 1; k++)
+        for (int j = 1; j < g->n[1] - 1; j++)
+            for (int i = 1; i < g->n[0] - 1; i++) {
+                size_t at = (size_t)i + (size_t)j * step[1] + (size_t)k * step[2];
+                double x[3] = {g->origin[0] + i * g->voxel, g->origin[1] + j * g->voxel,
+                               g->origin[2] + k * g->voxel};
+                double exact =
+                    sqrt(pow(x[0] - center[0], 2) + pow(x[1] - center[1], 2) + pow(x[2] - center[2], 2)) -
+                    radius;
+                if (x[2] < 2.5) /* away from the ground, on which it stands cut off */
+                    continue;
+                if (fabs(exact) < 0.5 * g->voxel) {
+                    double error = fabs((double)phi[at] - exact) / g->voxel;
+                    worst = fmax(worst, error);
+                    mean += error;
+                    within += error < 0.1;
+                    near++;
+                }
+                if (fabs(exact) < 1.5 * g->voxel) {
+                    double sum = 0;
+                    for (size_t a = 0; a < 3; a++)
+                        sum += pow((double)(phi[at + step[a]] - phi[at - step[a]]) / (2 * g->voxel), 2);
+                    slope += sqrt(sum);
+                    steepest = fmax(steepest, sqrt(sum));
+                    flattest = fmin(flattest, sqrt(sum));
+                    band++;
+                }
+            }
+    print_message("# near the surface it is off by %.3f voxels on average, %.3f at most; |grad| is %.3f "
+                  "(%.2f .. %.2f)\n",
+                  mean / (double)near, worst, slope / (double)band, flattest, steepest);
+    assert_true(near > 500);
+    assert_true(mean / (double)near < 0.05 && worst < 0.12);
+    assert_true((double)within > 0.99 * (double)near);
+    assert_true(fabs(slope / (double)band - 1) < 0.05);
+    assert_true(flattest > 0.85 && steepest < 1.15);
+    frame_free(&frame);
+    sim_end(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(stress_agrees_with_quadrature),
+        cmocka_unit_test(surface_and_normals_agree),
+        cmocka_unit_test(the_same_blocks_fall),
+        cmocka_unit_test(erodibility_jumps_where_grains_interlock),
+        cmocka_unit_test(distance_to_a_sphere),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

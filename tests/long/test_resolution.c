@@ -1,0 +1,115 @@
+/* A coarse run shows the rock that the fine one makes: the demo at spacings of 1 and 0.5 m. Minutes. */
+#include "physics/model_help.h"
+
+#include <math.h>
+#include <string.h>
+
+struct course {
+    double frames_to_80, frames_to_50; /* until that share of the volume is left, interpolated */
+    struct frame_grids half;           /* of the first frame with no more than half of it */
+};
+
+static struct course erode(const char *spacing)
+{
+    struct course out = {0};
+    char path[4096], set[64];
+    const char *top = getenv("HOODOO_TOP");
+    snprintf(path, sizeof path, "%s/jobs/demo.yaml", top ? top : ".");
+    snprintf(set, sizeof set, "domain.spacing_m=%s", spacing);
+    struct sim s = sim_open(path, (const char *[]){set, "output.aov.cameras=[]"}, 2);
+    double before = 1;
+    for (;;) {
+        struct frame frame = sim_output(&s);
+        double share = frame.volume_m3 / frame.start_volume_m3, number = frame.number - s.job->frames.first;
+        bool done = frame.number >= s.job->frames.last;
+        if (share <= 0.8 && before > 0.8)
+            out.frames_to_80 = number - (0.8 - share) / (before - share);
+        if (share <= 0.5) {
+            out.frames_to_50 = number - (0.5 - share) / (before - share);
+            out.half = frame.grids;
+            memset(&frame.grids, 0, sizeof frame.grids);
+            done = true;
+        }
+        before = share;
+        frame_free(&frame);
+        if (done)
+            break;
+        assert_ok(s.type->step(s.model));
+    }
+    sim_end(&s);
+    assert_true(out.half.n_grids > 0);
+    return out;
+}
+
+/* A grid between its samples. */
+static double value_at(const struct frame_grids *g, int grid, const double x[3])
+{
+    double f[3], sum = 0;
+    int c[3];
+    for (int a = 0; a < 3; a++) {
+        double s = fmin(fmax((x[a] - g->origin[a]) / g->voxel, 0), g->n[a] - 1.001);
+        c[a] = (int)s;
+        f[a] = s - c[a];
+    }
+    for (int b = 0; b < 8; b++) {
+        int o[3] = {b & 1, (b >> 1) & 1, b >> 2};
+        double w = 1;
+        for (int a = 0; a < 3; a++)
+            w *= o[a] ? f[a] : 1 - f[a];
+        size_t i = ((size_t)(c[2] + o[2]) * (size_t)g->n[1] + (size_t)(c[1] + o[1])) * (size_t)g->n[0] +
+                   (size_t)(c[0] + o[0]);
+        sum += w * (double)g->grid[grid].value[i];
+    }
+    return sum;
+}
+
+/* How much of the rock of either is rock of both, by the surface and by the share of space. */
+static void overlap(const struct frame_grids *coarse, const struct frame_grids *fine, double *surface,
+                    double *density)
+{
+    size_t both = 0, either = 0;
+    double least = 0, most = 0;
+    assert_string_equal(fine->grid[0].name, "surface");
+    assert_string_equal(fine->grid[1].name, "density");
+    for (int k = 0; k < fine->n[2]; k++)
+        for (int j = 0; j < fine->n[1]; j++)
+            for (int i = 0; i < fine->n[0]; i++) {
+                double x[3] = {fine->origin[0] + i * fine->voxel, fine->origin[1] + j * fine->voxel,
+                               fine->origin[2] + k * fine->voxel};
+                if (x[2] < 0)
+                    continue;
+                int a = value_at(fine, 0, x) < 0, b = value_at(coarse, 0, x) < 0;
+                double da = value_at(fine, 1, x), db = value_at(coarse, 1, x);
+                both += a && b;
+                either += a || b;
+                least += fmin(da, db);
+                most += fmax(da, db);
+            }
+    *surface = (double)both / (double)either;
+    *density = least / most;
+}
+
+static void coarse_and_fine_are_the_same_rock(void **state)
+{
+    double surface, density;
+    (void)state;
+    struct course coarse = erode("1"), fine = erode("0.5");
+    overlap(&coarse.half, &fine.half, &surface, &density);
+    print_message("# frames until 80 %% is left: %.2f and %.2f; until 50 %%: %.2f and %.2f\n",
+                  coarse.frames_to_80, fine.frames_to_80, coarse.frames_to_50, fine.frames_to_50);
+    print_message("# at half: the surfaces enclose the same for %.1f %%, the densities for %.1f %%\n",
+                  100 * surface, 100 * density);
+    assert_true(fabs(coarse.frames_to_80 / fine.frames_to_80 - 1) < 0.15);
+    assert_true(fabs(coarse.frames_to_50 / fine.frames_to_50 - 1) < 0.15);
+    assert_true(surface >= 0.85);
+    frame_free(&(struct frame){.grids = coarse.half});
+    frame_free(&(struct frame){.grids = fine.half});
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(coarse_and_fine_are_the_same_rock),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
