@@ -30,17 +30,14 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b)
     gpu_buffer_destroy(gpu, &b->other);
 }
 
-status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
-                   uint32_t *n_fallen)
+status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const int voxels[3])
 {
     status st = OK;
-    size_t n = voxel_count(p->voxels), columns = n / (size_t)p->voxels[2];
-    struct voxel_params k = particles_params(p, n);
+    size_t n = voxel_count(voxels), columns = n / (size_t)voxels[2];
+    struct voxel_params k = {
+        .n = (uint)columns, .nx = (uint)voxels[0], .ny = (uint)voxels[1], .nz = (uint)voxels[2]};
     struct gpu_buffer *counts = gpu_work_words(work);
     uint32_t changed = 1;
-    particles_fill(gpu, p);
-    GPU_RUN(gpu, blocks_solid, n, k, p->fill, b->solid);
-    k.n = (uint)columns;
     GPU_RUN(gpu, blocks_column, columns, k, b->solid, b->pointer);
     k.n = (uint)n;
     while (changed) {
@@ -51,6 +48,20 @@ status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
         if (changed)
             TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
     }
+done:
+    return st;
+}
+
+status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
+                   uint32_t *n_fallen)
+{
+    status st = OK;
+    size_t n = voxel_count(p->voxels);
+    struct voxel_params k = particles_params(p, n);
+    struct gpu_buffer *counts = gpu_work_words(work);
+    particles_fill(gpu, p);
+    GPU_RUN(gpu, blocks_solid, n, k, p->fill, b->solid);
+    TRY(blocks_join(gpu, work, b, p->voxels));
     k.n = (uint)p->n;
     GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->field[ROCK_viability],
             counts);

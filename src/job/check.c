@@ -62,6 +62,9 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
     case SECTION_heightfield:
         return check_corners(map, ((const struct job_heightfield *)base)->min_m,
                              ((const struct job_heightfield *)base)->max_m);
+    case SECTION_jointmap:
+        return check_corners(map, ((const struct job_jointmap *)base)->min_m,
+                             ((const struct job_jointmap *)base)->max_m);
     case SECTION_cylinder:
         return check_cylinder(map, base);
     case SECTION_plane:

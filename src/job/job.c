@@ -92,6 +92,14 @@ static status folder_of(const char *path, char **out)
     return st;
 }
 
+size_t job_layer_at(const struct job *job, double z)
+{
+    size_t layer = 0;
+    while (layer + 1 < job->n_strata && z >= job->strata[layer].to_m)
+        layer++;
+    return layer;
+}
+
 status job_load(const char *path, const char *const *sets, size_t n_sets, struct job **out)
 {
     const struct yaml_source source = {.file = path};

@@ -27,7 +27,7 @@ double curve_at(const struct curve *c, double frame);
 double curve_max(const struct curve *c);
 
 enum job_node_kind { NODE_UNION, NODE_INTERSECTION, NODE_DIFFERENCE, NODE_SHAPE };
-enum job_shape { SHAPE_BOX, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_PLANE, SHAPE_MESH, SHAPE_HEIGHTFIELD };
+enum job_shape { SHAPE_BOX, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_PLANE, SHAPE_MESH, SHAPE_HEIGHTFIELD, SHAPE_JOINTMAP };
 
 /* The top section is the job itself: struct job, not struct job_job. */
 #define job_job job
@@ -70,10 +70,13 @@ struct job_node {
         struct job_plane plane;
         struct job_mesh mesh;
         struct job_heightfield heightfield;
+        struct job_jointmap jointmap;
         struct job_group group; /* operators */
     } u;
 };
 
+enum { MODEL_ARENITE, MODEL_GOBLINS };
+enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
@@ -90,11 +93,14 @@ void job_destroy(struct job **job);
  * gives an equal job. */
 MUST_USE status job_resolved(const struct job *job, struct text *out);
 
+/* The index of the stratum at a height, m. */
+size_t job_layer_at(const struct job *job, double z);
+
 /* XXH3-64 of everything that changes the simulation (keys.def's SIM), in canonical form, input files'
  * contents included. */
 MUST_USE status job_hash(const struct job *job, uint64_t *hash);
 
-/* A file the job reads (mesh, heightfield), with its content hash. */
+/* A file the job reads (mesh, heightfield, jointmap), with its content hash. */
 struct job_input {
     const char *path; /* borrowed from the job */
     uint64_t hash, size;

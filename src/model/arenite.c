@@ -20,6 +20,7 @@
 #include "field/aov.h"
 #include "field/field.h"
 #include "model/model.h"
+#include "model/sections.h"
 #include "particles/particles.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
@@ -164,20 +165,6 @@ done:
 
 /* ---- the state */
 
-static status add_section(struct checkpoint *c, const char *name, size_t item, size_t n, void **data)
-{
-    struct checkpoint_section *s = &c->section[c->n_sections];
-    size_t length = strlen(name);
-    memcpy(s->name, name, length < sizeof s->name ? length + 1 : sizeof s->name - 1);
-    s->item = item;
-    s->n = n;
-    status st = memory_alloc(n, item, name, &s->data);
-    if (st == OK)
-        c->n_sections++;
-    *data = s->data;
-    return st;
-}
-
 static status save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
@@ -189,16 +176,16 @@ static status save(struct model *m, struct checkpoint *out)
         if (rock_field_table[f].keep != STATE)
             continue;
         /* Shuffled by float, whatever the field's width. */
-        TRY(add_section(out, rock_field_table[f].name, 4, n * (size_t)rock_field_table[f].components, &data));
+        TRY(section_add(out, rock_field_table[f].name, 4, n * (size_t)rock_field_table[f].components, &data));
         TRY(gpu_download(m->gpu, m->particles.field[f], 0, data, n));
     }
-    TRY(add_section(out, "displacement", 4, 4 * nodes, &data));
+    TRY(section_add(out, "displacement", 4, 4 * nodes, &data));
     TRY(gpu_download(m->gpu, m->elastic.u, 0, data, nodes));
-    TRY(add_section(out, "ledger", 8, sizeof m->ledger / 8, &data));
+    TRY(section_add(out, "ledger", 8, sizeof m->ledger / 8, &data));
     memcpy(data, &m->ledger, sizeof m->ledger);
-    TRY(add_section(out, "start volume", 8, 1, &data));
+    TRY(section_add(out, "start volume", 8, 1, &data));
     memcpy(data, &m->start_volume, sizeof m->start_volume);
-    TRY(add_section(out, "iterations", 4, 1, &data));
+    TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &m->elastic.iterations, 4);
 done:
     if (st != OK)
@@ -206,36 +193,27 @@ done:
     return st;
 }
 
-static status section(const struct checkpoint *c, const char *name, size_t item, size_t n,
-                      const struct checkpoint_section **out)
-{
-    *out = checkpoint_find(c, name, item);
-    if (!*out || (n && (*out)->n != n))
-        return fail(E_CHECKPOINT, "the checkpoint of frame %d has no usable section '%s'", c->frame, name);
-    return OK;
-}
-
 static status restore(struct model *m, const struct checkpoint *c, const int voxels[3])
 {
     status st = OK;
     struct rock rock = {0};
     const struct checkpoint_section *s;
-    TRY(section(c, "id", 4, 0, &s));
+    TRY(section_find(c, "id", 4, 0, &s));
     rock.n = s->n;
     for (int f = 0; f < ROCK_FIELDS; f++) {
         const struct rock_field_info *info = &rock_field_table[f];
         if (info->keep != STATE)
             continue;
-        TRY(section(c, info->name, 4, rock.n * (size_t)info->components, &s));
+        TRY(section_find(c, info->name, 4, rock.n * (size_t)info->components, &s));
         rock.field[f] = s->data; /* borrowed: not freed here */
     }
-    TRY(section(c, "ledger", 8, sizeof m->ledger / 8, &s));
+    TRY(section_find(c, "ledger", 8, sizeof m->ledger / 8, &s));
     memcpy(&m->ledger, s->data, sizeof m->ledger);
-    TRY(section(c, "start volume", 8, 1, &s));
+    TRY(section_find(c, "start volume", 8, 1, &s));
     memcpy(&m->start_volume, s->data, sizeof m->start_volume);
-    TRY(section(c, "iterations", 4, 1, &s));
+    TRY(section_find(c, "iterations", 4, 1, &s));
     memcpy(&m->elastic.iterations, s->data, 4);
-    TRY(section(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
+    TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
     TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = c->frame;

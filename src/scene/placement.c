@@ -70,6 +70,8 @@ static struct keys keys_of(const struct job_node *node)
         return KEYS(node->u.mesh);
     case SHAPE_HEIGHTFIELD:
         return KEYS(node->u.heightfield);
+    case SHAPE_JOINTMAP:
+        return KEYS(node->u.jointmap);
     case SHAPE_BOX:
         break;
     }

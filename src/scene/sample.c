@@ -41,17 +41,9 @@ struct sampler {
     struct solid *solid;
     struct coverage *coverage;
     struct paint_set *paint;
-    struct noise noise;
-    uint32_t jitter[3]; /* what each axis hashes with */
+    struct noise *noise; /* by layer */
+    uint32_t jitter[3];  /* what each axis hashes with */
 };
-
-static uint32_t layer_at(const struct job *job, double z)
-{
-    size_t layer = 0;
-    while (layer + 1 < job->n_strata && z >= job->strata[layer].to_m)
-        layer++;
-    return (uint32_t)layer;
-}
 
 /* Where a voxel's particle sits: its middle and a jitter that depends on the seed and the voxel alone. */
 static void place(const struct sampler *s, const int voxel[3], float P[4])
@@ -64,21 +56,27 @@ static void place(const struct sampler *s, const int voxel[3], float P[4])
     P[3] = 0;
 }
 
+/* What the rates of the rock at x are multiplied with; 0: inert. */
+static double rate_factor(const struct sampler *s, const double x[3], const struct paint_values *paint)
+{
+    size_t layer = job_layer_at(s->job, x[2]);
+    double own = s->job->n_strata ? s->job->strata[layer].noise_amplitude : -1;
+    double amplitude = own >= 0 ? own : s->job->noise.amplitude;
+    if (paint->inert || solid_at(s->solid, x).inert)
+        return 0;
+    return paint->erodibility * (amplitude > 0 ? exp(amplitude * noise_at(&s->noise[layer], x)) : 1);
+}
+
 static void fill_particle(const struct sampler *s, const int voxel[3], unsigned share, struct rock *rock,
                           size_t p)
 {
     place(s, voxel, rock->P + 4 * p);
     const double x[3] = {(double)rock->P[4 * p], (double)rock->P[4 * p + 1], (double)rock->P[4 * p + 2]};
     struct paint_values paint = paint_at(s->paint, x);
-    double rate = paint.erodibility;
-    if (s->job->noise.amplitude > 0)
-        rate *= exp(s->job->noise.amplitude * noise_at(&s->noise, x));
-    if (paint.inert || solid_at(s->solid, x).inert)
-        rate = 0;
     rock->id[p] = (uint32_t)p;
     rock->viability[p] = (float)(paint.viability * share / COVERAGE_FULL);
-    rock->layer[p] = layer_at(s->job, x[2]);
-    rock->rate_factor[p] = (float)rate;
+    rock->layer[p] = (uint32_t)job_layer_at(s->job, x[2]);
+    rock->rate_factor[p] = (float)rate_factor(s, x, &paint);
     rock->interlock_factor[p] = (float)paint.interlock;
 }
 
@@ -116,7 +114,7 @@ static status no_rock(const struct sampler *s)
 }
 
 /* first[k]: particles below slab k. */
-static status count_particles(const struct sampler *s, size_t **first)
+static status count_particles(const struct sampler *s, bool floats, size_t **first)
 {
     status st = OK;
     const int nz = s->n[2];
@@ -130,7 +128,7 @@ static status count_particles(const struct sampler *s, size_t **first)
         count[k + 1] += count[k];
     if (count[nz] == 0)
         return no_rock(s);
-    if (count[1] == 0) {
+    if (count[1] == 0 && !floats) {
         int lowest = 1;
         while (count[lowest + 1] == 0)
             lowest++;
@@ -165,11 +163,32 @@ done:
     return st;
 }
 
+/* What sampling needs beside the shape. */
+static status sampler_fill(struct sampler *s)
+{
+    status st = OK;
+    uint32_t seed = (uint32_t)s->job->seed;
+    TRY(paint_create(s->job, &s->paint));
+    TRY(memory_alloc(s->job->n_strata + 1, sizeof *s->noise, "noise", &s->noise));
+    for (size_t i = 0; i <= s->job->n_strata; i++) {
+        struct job_noise own = s->job->noise;
+        if (i < s->job->n_strata && s->job->strata[i].noise_scale_m > 0)
+            own.scale_m = s->job->strata[i].noise_scale_m;
+        s->noise[i] = noise_init(&own, seed);
+    }
+    for (uint32_t a = 0; a < 3; a++)
+        s->jitter[a] = random_hash(seed, a, 0, RANDOM_JITTER);
+    TRY(coverage_create(s->solid, s->n, s->h, &s->coverage));
+done:
+    return st;
+}
+
 static void sampler_deinit(struct sampler *s)
 {
     solid_destroy(&s->solid);
     coverage_destroy(&s->coverage);
     paint_destroy(&s->paint);
+    free(s->noise);
 }
 
 status scene_sample(const struct job *job, struct rock *rock)
@@ -177,19 +196,43 @@ status scene_sample(const struct job *job, struct rock *rock)
     status st = OK;
     struct sampler s;
     size_t *first = NULL;
-    uint32_t seed = (uint32_t)job->seed;
     *rock = (struct rock){0};
     TRY(sampler_init(&s, job, COVERAGE_REACH));
-    TRY(paint_create(job, &s.paint));
-    s.noise = noise_init(&job->noise, seed);
-    for (uint32_t a = 0; a < 3; a++)
-        s.jitter[a] = random_hash(seed, a, 0, RANDOM_JITTER);
-    TRY(coverage_create(s.solid, s.n, s.h, &s.coverage));
-    TRY(count_particles(&s, &first));
+    TRY(sampler_fill(&s));
+    TRY(count_particles(&s, false, &first));
     TRY(rock_alloc(rock, first[s.n[2]], STATE));
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k < s.n[2]; k++)
         fill_slab(&s, k, first[k], rock);
+done:
+    free(first);
+    sampler_deinit(&s);
+    return st;
+}
+
+status scene_grid(const struct job *job, bool floats, float *share, float *factor)
+{
+    status st = OK;
+    struct sampler s;
+    size_t *first = NULL;
+    TRY(sampler_init(&s, job, COVERAGE_REACH));
+    TRY(sampler_fill(&s));
+    TRY(count_particles(&s, floats, &first));
+#pragma omp parallel for schedule(dynamic)
+    for (int k = 0; k < s.n[2]; k++) {
+        size_t v = (size_t)k * (size_t)s.n[1] * (size_t)s.n[0];
+        for (int j = 0; j < s.n[1]; j++)
+            for (int i = 0; i < s.n[0]; i++, v++) {
+                const double x[3] = {(i + 0.5) * s.h, (j + 0.5) * s.h, (k + 0.5) * s.h};
+                unsigned covered = coverage_at(s.coverage, i, j, k);
+                share[v] = factor[v] = 0;
+                if (covered == 0)
+                    continue;
+                struct paint_values paint = paint_at(s.paint, x);
+                share[v] = (float)(paint.viability * covered / COVERAGE_FULL);
+                factor[v] = (float)rate_factor(&s, x, &paint);
+            }
+    }
 done:
     free(first);
     sampler_deinit(&s);

@@ -70,6 +70,9 @@ double shape_distance(const struct shape *shape, const double x[3])
     case SHAPE_HEIGHTFIELD:
         d = heightfield_distance(shape->u.heightfield, p);
         break;
+    case SHAPE_JOINTMAP:
+        d = jointmap_distance(shape->u.jointmap, p);
+        break;
     case SHAPE_MESH:
         break;
     }
@@ -129,7 +132,7 @@ static status plane_init(struct shape *s, const struct job_plane *p)
     return OK;
 }
 
-/* The rule min_m < max_m, for boxes and heightfields. */
+/* The rule min_m < max_m, for boxes and images. */
 static status check_corners(const char *what, const double min[3], const double max[3])
 {
     for (int a = 0; a < 3; a++)
@@ -184,6 +187,13 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         placement_box(place, h->min_m, top, s->min, s->max);
         break;
     }
+    case SHAPE_JOINTMAP: {
+        const struct job_jointmap *j = &node->u.jointmap;
+        TRY(check_corners("jointmap", j->min_m, j->max_m));
+        TRY(jointmap_create(j, &s->u.jointmap));
+        placement_box(place, j->min_m, j->max_m, s->min, s->max);
+        break;
+    }
     }
 done:
     return st;
@@ -195,4 +205,6 @@ void shape_deinit(struct shape *shape)
         vdb_sdf_destroy(&shape->u.mesh);
     if (shape->kind == SHAPE_HEIGHTFIELD)
         heightfield_destroy(&shape->u.heightfield);
+    if (shape->kind == SHAPE_JOINTMAP)
+        jointmap_destroy(&shape->u.jointmap);
 }

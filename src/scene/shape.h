@@ -3,6 +3,7 @@
 #define HOODOO_SHAPE_H
 
 #include "scene/heightfield.h"
+#include "scene/jointmap.h"
 #include "scene/mesh_shim.h"
 #include "scene/placement.h"
 
@@ -21,6 +22,7 @@ struct shape {
         } plane;
         struct vdb_sdf *mesh; /* already in the world: its vertices were placed */
         struct heightfield *heightfield;
+        struct jointmap *jointmap;
     } u;
 };
 

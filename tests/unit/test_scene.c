@@ -292,7 +292,9 @@ static void layers_go_by_height(void **state)
     (void)state;
     struct job_node all = BOX(.min_m = {0, 0, 0}, .max_m = {8, 8, 8});
     struct job job = cube_job(&all, 16, 0.5);
-    struct job_layer strata[3] = {{.to_m = 2.2}, {.to_m = 5}, {.to_m = 6}};
+    struct job_layer strata[3] = {{.to_m = 2.2, .noise_amplitude = -1},
+                                  {.to_m = 5, .noise_amplitude = -1},
+                                  {.to_m = 6, .noise_amplitude = -1}};
     job.strata = strata;
     job.n_strata = 3;
     struct rock rock;

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Second step: what is gone is no rock any more; its bricks are noted.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+WRITE_U(0, bits)
+WRITE_U(1, gone_bricks)
+WRITE_U(2, words)
+PARAMS(voxels_params)
+#include "voxels/grid.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint w = word_number(i), gone = AT(bits, w);
+    if (gone != 0u) {
+        AT(bits, k.words + w) &= ~gone;
+        AT(gone_bricks, brick_of(word_place(i))) = 1u;
+        atomicAdd(AT(words, VOXELS_GONE), uint(bitCount(gone)));
+    }
+}

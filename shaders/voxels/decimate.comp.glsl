@@ -1,0 +1,30 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// First of the two steps: every active voxel loses its due, and those with nothing left say so. Nobody sees
+// them go before all have been asked.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_U(1, state)
+READ_V(2, layers)
+READ_U(3, layer_of)
+WRITE_F(4, left)
+WRITE_U(5, bits)
+PARAMS(voxels_params)
+#include "voxels/grid.glsl"
+#include "voxels/rate.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint v = LOAD_U(list, i);
+    float after = AT(left, v) - k.dt * decimation(LOAD_U(state, v), slab_of(v));
+    if (after <= VOXELS_SLIVER) {
+        atomicOr(AT(bits, v >> 5), 1u << (v & 31u));
+        after = 0.0;
+    }
+    AT(left, v) = after;
+}

@@ -1,0 +1,40 @@
+// Where a word of the bit sets lies. Needs PARAMS(voxels_params).
+
+// a / b, with 1 / b at hand: whole-number division is slow where it is not vectorised.
+uint divide(uint a, uint b, float per_b)
+{
+    uint q = uint(float(a) * per_b);
+    int rest = int(a - q * b);
+    return rest < 0 ? q - 1u : rest >= int(b) ? q + 1u : q;
+}
+
+// Word `i` of the domain's slabs as (word in its row, row, slab), margins counted.
+uvec3 word_place(uint i)
+{
+    uint z = divide(i, k.slab, k.per_slab), in_slab = i - z * k.slab;
+    uint y = divide(in_slab, k.row, k.per_row);
+    return uvec3(in_slab - y * k.row, y, z + k.margin);
+}
+
+// The same word's number in a bit set; the set begins with one word of margin.
+uint word_number(uint i)
+{
+    return 1u + k.margin * k.slab + i;
+}
+
+// The slab of a voxel, the ground being below 0.
+uint slab_of(uint voxel)
+{
+    return divide((voxel >> 5) - 1u, k.slab, k.per_slab) - k.margin;
+}
+
+uint brick_of(uvec3 word)
+{
+    return ((word.z / VOXELS_BRICK) * k.brick_rows + word.y / VOXELS_BRICK) * k.row + word.x;
+}
+
+// Voxel i of the domain, (z ny + y) nx + x, as its bit.
+uint voxel_bit(uint x, uint y, uint z)
+{
+    return (1u + (z + k.margin) * k.slab + (y + k.margin) * k.row) * 32u + x;
+}

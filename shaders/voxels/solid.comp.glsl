@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Voxels of the domain that hold others: those of which at least half is left.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_F(0, left)
+WRITE_U(1, solid)
+PARAMS(voxels_params)
+#include "voxels/grid.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(solid, i) = LOAD_F(left, voxel_bit(i % k.nx, (i / k.nx) % k.ny, i / (k.nx * k.ny))) >= 0.5 ? 1u : 0u;
+}
