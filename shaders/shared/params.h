@@ -158,27 +158,27 @@ SHARED_SIZE(shade_params, 60)
 /* ---- voxels: a bit a voxel, in words of 32 along x, with a margin of M rows and slabs around the domain and
  * one word of air between rows. A voxel's number is its bit's. See voxels/voxels.h. */
 
-#define VOXELS_BRICK 8u     /* rows and slabs of a brick, which is a word wide */
-#define VOXELS_PACERS 2048u /* threads that look for the next event */
-#define VOXELS_SLIVER 1e-5f /* a voxel with no more than this left is gone */
+#define VOXELS_BRICK 8u        /* rows and slabs of a brick, which is a word wide */
+#define VOXELS_PACERS 2048u    /* threads that look for the next event */
+#define VOXELS_SLIVER 1e-5f    /* a voxel with no more than this left is gone */
 #define VOXELS_UNKNOWN 0xffffu /* the air in the bubble of a voxel that has not been active */
 
 /* Words the device tells the host. */
-#define VOXELS_GONE 0u    /* how many vanished */
+#define VOXELS_GONE 0u /* how many vanished */
 #define VOXELS_CHANGED 1u
 
 struct voxels_params {
     uint n;
-    uint words;         /* of a bit set: gone in the first half of `bits`, rock in the second */
-    uint row, slab;     /* words from one row, or slab, to the next */
-    uint rows;          /* rows of a slab */
-    uint margin;        /* rows and slabs around the domain */
-    uint nx, ny, nz;    /* voxels of the domain */
-    uint reach;         /* bricks that a bubble reaches beyond its own, in y and z */
+    uint words;      /* of a bit set: gone in the first half of `bits`, rock in the second */
+    uint row, slab;  /* words from one row, or slab, to the next */
+    uint rows;       /* rows of a slab */
+    uint margin;     /* rows and slabs around the domain */
+    uint nx, ny, nz; /* voxels of the domain */
+    uint reach;      /* bricks that a bubble reaches beyond its own, in y and z */
     uint brick_rows, brick_slabs;
-    uint skin_rows;     /* rows of the skin's ball, at the end of the table of rows */
+    uint skin_rows; /* rows of the skin's ball, at the end of the table of rows */
     uint skin_first;
-    float dt;           /* kyr */
+    float dt;                /* kyr */
     float per_row, per_slab; /* 1 / row, 1 / slab */
 };
 SHARED_SIZE(voxels_params, 68)

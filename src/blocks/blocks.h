@@ -20,8 +20,8 @@ uint64_t blocks_bytes(const int voxels[3]);
 MUST_USE status blocks_create(struct gpu *gpu, const int voxels[3], struct blocks *out);
 void blocks_destroy(struct gpu *gpu, struct blocks *b);
 
-/* From `solid`, which the caller filled, to `pointer`: each solid voxel's is its block's lowest voxel, which is
- * in the first slab if the block stands on the ground. Leaves gpu_work_words() zero. Waits. */
+/* From `solid`, which the caller filled, to `pointer`: each solid voxel's is its block's lowest voxel, which
+ * is in the first slab if the block stands on the ground. Leaves gpu_work_words() zero. Waits. */
 MUST_USE status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const int voxels[3]);
 
 /* Takes the viability of unsupported particles and counts them; they are not yet removed. Waits. */

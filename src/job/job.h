@@ -27,7 +27,15 @@ double curve_at(const struct curve *c, double frame);
 double curve_max(const struct curve *c);
 
 enum job_node_kind { NODE_UNION, NODE_INTERSECTION, NODE_DIFFERENCE, NODE_SHAPE };
-enum job_shape { SHAPE_BOX, SHAPE_SPHERE, SHAPE_CYLINDER, SHAPE_PLANE, SHAPE_MESH, SHAPE_HEIGHTFIELD, SHAPE_JOINTMAP };
+enum job_shape {
+    SHAPE_BOX,
+    SHAPE_SPHERE,
+    SHAPE_CYLINDER,
+    SHAPE_PLANE,
+    SHAPE_MESH,
+    SHAPE_HEIGHTFIELD,
+    SHAPE_JOINTMAP
+};
 
 /* The top section is the job itself: struct job, not struct job_job. */
 #define job_job job

@@ -1,4 +1,5 @@
-/* Speed, as ratios within one run: bench HOODOO. Seconds are of this machine at this moment; the ratios are what to compare. */
+/* Speed, as ratios within one run: bench HOODOO. Seconds are of this machine at this moment; the ratios are
+ * what to compare. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -195,7 +196,8 @@ static void matvec(void)
 
 /* ---- the demo */
 
-/* Seconds of the demo's first frames, start not counted, and of CPU time in all threads; `root`: written there, too. */
+/* Seconds of the demo's first frames, start not counted, and of CPU time in all threads; `root`: written
+ * there, too. */
 static double demo(const struct job *job, const char *root, int stages, double *cpu)
 {
     struct gpu *gpu = NULL;

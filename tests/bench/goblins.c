@@ -1,5 +1,5 @@
-/* Goblins beside the paper's own times (Beardall et al. 2007, section 6, a 2.4 GHz Core 2): a cube of a million
- * voxels for bubbles of radius 1 to 8, and a column of ten million weathered to nothing.
+/* Goblins beside the paper's own times (Beardall et al. 2007, section 6, a 2.4 GHz Core 2): a cube of a
+ * million voxels for bubbles of radius 1 to 8, and a column of ten million weathered to nothing.
  *
  *   goblins [cube|column]
  */

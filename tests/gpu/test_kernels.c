@@ -1,4 +1,5 @@
-/* Kernels against plain C twins: stress, normals, surface, blocks, erodibility, and the distance field against a sphere. */
+/* Kernels against plain C twins: stress, normals, surface, blocks, erodibility, and the distance field
+ * against a sphere. */
 #include "check.h"
 
 #include <math.h>
@@ -231,7 +232,8 @@ static void surface_and_normals_agree(void **state)
         double cosine = (double)N[0] * normal[0] + (double)N[1] * normal[1] + (double)N[2] * normal[2];
         double angle = acos(fmin(cosine, 1)) * 57.29578;
         n_close += angle < 5;
-        /* Where the 20th and the 21st neighbour are apart by more than the kernel's bins, the sets are the same. */
+        /* Where the 20th and the 21st neighbour are apart by more than the kernel's bins, the sets are the
+         * same. */
         if (margin > 0.03) {
             n_distinct++;
             if (angle > 0.5)

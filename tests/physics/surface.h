@@ -75,8 +75,8 @@ static inline double surface_reach(const struct surface *s, const double from[3]
     }
 }
 
-/* The surface as seen from its centre, all of which must be in sight: its radii in m, and its sphericity (36 pi
- * V^2 / A^3)^(1/3), 1 for a ball and 0.806 for a cube, with V and A as means over 2000 directions. */
+/* The surface as seen from its centre, all of which must be in sight: its radii in m, and its sphericity (36
+ * pi V^2 / A^3)^(1/3), 1 for a ball and 0.806 for a cube, with V and A as means over 2000 directions. */
 struct roundness {
     double least, most, mean, sphericity;
 };
