@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One round of weathered rock clinging to what stands beside it. Nothing stands less for it, so that where the
-// rounds end does not depend on their order.
+// One round of weathered rock clinging to what stands beside it. Nothing stands less for it, so that where
+// the rounds end does not depend on their order.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -6,8 +6,8 @@
  *         -> unsupported blocks -> ledger
  *
  * output() then hands the voxels on as particles, one each, to the surface field, the stress solver and the
- * pictures. The state between frames is what is left of each voxel, its factor, and the ledger; air in bubbles
- * is counted anew when a run is continued, and comes out the same.
+ * pictures. The state between frames is what is left of each voxel, its factor, and the ledger; air in
+ * bubbles is counted anew when a run is continued, and comes out the same.
  */
 #include <math.h>
 #include <stdlib.h>

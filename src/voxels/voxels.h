@@ -1,8 +1,8 @@
 /* Rock as voxels, weathering as bubbles: Goblins by Spheroidal Weathering (Beardall et al. 2007).
  *
- * Which voxels are rock is a bit each. The active ones, a skin with air within a few voxels, lose what is left
- * of them by their layer's rate, their own factor, and the air in their bubble; both bit sets and the counts of
- * air are kept up by what vanishes in each cycle, near where it vanished.
+ * Which voxels are rock is a bit each. The active ones, a skin with air within a few voxels, lose what is
+ * left of them by their layer's rate, their own factor, and the air in their bubble; both bit sets and the
+ * counts of air are kept up by what vanishes in each cycle, near where it vanished.
  *
  * One cycle (two steps, synchronous: nobody sees a voxel go before all have been asked):
  *
@@ -39,8 +39,8 @@ struct voxels {
 /* Bytes on the device with so many active voxels; with *words, what gpu_work_create() must be good for. */
 uint64_t voxels_bytes(const struct job *job, const int n[3], size_t n_active, size_t *words);
 
-/* `share` and `factor` have a value for each voxel of the domain, (z ny + y) nx + x: what is left of it, 0 for
- * air, and what its layer's rate is multiplied with. Waits. E_USAGE: a bubble does not fit the voxels. */
+/* `share` and `factor` have a value for each voxel of the domain, (z ny + y) nx + x: what is left of it, 0
+ * for air, and what its layer's rate is multiplied with. Waits. E_USAGE: a bubble does not fit the voxels. */
 MUST_USE status voxels_create(struct gpu *gpu, struct gpu_work *work, const struct job *job, const int n[3],
                               const float *share, const float *factor, struct voxels *out);
 void voxels_destroy(struct gpu *gpu, struct voxels *v);
