@@ -38,7 +38,8 @@ void main()
     uint end = row + 2u * (fresh || LOAD_U(touched, brick_of(place)) != 0u ? n : 0u);
     uint base = fresh ? k.words : 0u, sum = 0u;
     for (; row < end; row += 8u)
-        sum += run_bits(v, base, row) + run_bits(v, base, row + 2u) + run_bits(v, base, row + 4u) + run_bits(v, base, row + 6u);
+        sum += run_bits(v, base, row) + run_bits(v, base, row + 2u) + run_bits(v, base, row + 4u) +
+               run_bits(v, base, row + 6u);
     uint air = fresh ? LOAD_U(bubbles, 3u * layer + 2u) - sum : (known & 0xffffu) + sum;
     AT(state, v) = (known & 0xffff0000u) | air;
 }

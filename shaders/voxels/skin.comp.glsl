@@ -24,7 +24,8 @@ void main()
     for (uint r = 0u; r < n; r++) {
         uint entry = k.skin_first + 2u * r;
         uint there = at + LOAD_U(rows, entry), run = LOAD_U(rows, entry + 1u);
-        uint before = ~LOAD_U(bits, there - 1u), here = ~LOAD_U(bits, there), after = ~LOAD_U(bits, there + 1u);
+        uint before = ~LOAD_U(bits, there - 1u), here = ~LOAD_U(bits, there);
+        uint after = ~LOAD_U(bits, there + 1u);
         near |= here;
         if (run >= 1u)
             near |= here << 1 | before >> 31 | here >> 1 | after << 31;

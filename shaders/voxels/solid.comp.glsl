@@ -12,6 +12,8 @@ PARAMS(voxels_params)
 void main()
 {
     uint i = THREAD;
-    if (i < k.n)
-        AT(solid, i) = LOAD_F(left, voxel_bit(i % k.nx, (i / k.nx) % k.ny, i / (k.nx * k.ny))) >= 0.5 ? 1u : 0u;
+    if (i >= k.n)
+        return;
+    uint v = voxel_bit(i % k.nx, (i / k.nx) % k.ny, i / (k.nx * k.ny));
+    AT(solid, i) = LOAD_F(left, v) >= 0.5 ? 1u : 0u;
 }

@@ -13,7 +13,8 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    int x = int(i % k.row), y = int((i / k.row) % k.brick_rows), z = int(i / (k.row * k.brick_rows)), r = int(k.reach);
+    int x = int(i % k.row), y = int((i / k.row) % k.brick_rows), z = int(i / (k.row * k.brick_rows));
+    int r = int(k.reach);
     uint any = 0u;
     for (int dz = max(-r, -z); dz <= min(r, int(k.brick_slabs) - 1 - z); dz++)
         for (int dy = max(-r, -y); dy <= min(r, int(k.brick_rows) - 1 - y); dy++)

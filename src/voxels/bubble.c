@@ -54,8 +54,8 @@ status bubble_create(const struct job_bubble *job, double h, struct bubble *b)
     return OK;
 }
 
-/* The share of the bubble beyond a flat face across `axis` when its own voxel lies `depth` below the face's.
- */
+/* The share of the bubble beyond a flat face across `axis`, its own voxel lying under `depth` others; -1:
+ * just outside. */
 static double flat_air(const struct bubble *b, int axis, int side, int depth)
 {
     uint32_t air = 0;
@@ -70,10 +70,12 @@ static double flat_air(const struct bubble *b, int axis, int side, int depth)
 struct bubble_rate bubble_rate(const struct bubble *b, double threshold, int depth)
 {
     double flat = 0, speed = 0;
-    for (int face = 0; face < 6; face++)
-        flat += flat_air(b, face / 2, face % 2 ? -1 : 1, 0) / 6;
-    for (int face = 0; face < 6; face++)
+    for (int face = 0; face < 6; face++) {
+        int axis = face / 2, side = face % 2 ? -1 : 1;
+        flat += (flat_air(b, axis, side, -1) + flat_air(b, axis, side, 0)) / 12;
         for (int d = 0; d < depth; d++)
-            speed += fmax(0, flat_air(b, face / 2, face % 2 ? -1 : 1, d) / flat - threshold) / 6;
+            speed += flat_air(b, axis, side, d) / 6;
+    }
+    speed /= flat;
     return (struct bubble_rate){1 / (flat * b->n * speed), threshold / speed};
 }
