@@ -16,6 +16,7 @@
     X(plan, "JOB", "what it would do: frames, particles, memory, disk, time (nothing is written)")           \
     X(status, "OUT", "frames done, missing and damaged, checkpoints, rate, time left")                       \
     X(verify, "OUT", "re-read every file against its manifest; names each damaged or missing one")           \
+    X(mesh, "OUT", "a surface mesh per frame (PLY and OBJ)")                                                 \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
     X(inspect, "FILE", "what a checkpoint, VDB, EXR or manifest holds, in words or --json")                  \
     X(devices, "", "the Vulkan devices, by index, name, UUID, PCI address, memory")
