@@ -126,6 +126,10 @@ test-long: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
 bench: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BENCH_BIN)
 	$(Q)for b in $(BENCH_BIN); do $$b $(BUILD)/hoodoo || exit 1; done
 
+## reference: write jobs/README.md anew from the key table
+reference: $(BUILD)/tests/unit/test_job
+	$(Q)cd $$(mktemp -d) && HOODOO_TOP=$(CURDIR) HOODOO_UPDATE=1 $(CURDIR)/$(BUILD)/tests/unit/test_job >/dev/null 2>&1
+
 ## format: lay out the C by .clang-format
 format:
 	$(Q)clang-format -i $(shell find src farm render tests -name '*.[ch]' -o -name '*_shim.cpp')
@@ -156,7 +160,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-peers demo test test-peers test-long bench format lint asan ubsan install clean help
+.PHONY: all deps deps-test deps-peers demo test test-peers test-long bench reference format lint asan ubsan install clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
