@@ -39,8 +39,8 @@ check("it loads", grids.load() and grids.error_message == "", grids.error_messag
 names = {grid.name: grid.data_type for grid in grids}
 check("the grids have their names", GRIDS <= names.keys(), names)
 check("they are scalars", all(names[name] == "FLOAT" for name in GRIDS & names.keys()), names)
-if up == "y":
-    volume.rotation_euler = (math.pi / 2, 0, 0)  # what a user gives a file from a y-up program
+turn = math.pi / 2 if up == "y" else 0
+check("Blender turns it upright by itself", math.isclose(volume.rotation_euler[0], turn, abs_tol=1e-6), volume.rotation_euler)
 bpy.context.view_layer.update()
 box = bounds(volume.matrix_world @ Vector(corner) for corner in volume.bound_box)
 check("its box holds the rock, in whole leaves of 8 voxels", near(box, 3 + 8) and all(
