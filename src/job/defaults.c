@@ -81,6 +81,7 @@ status read_default(const struct job_key *key, const struct yaml *map, const cha
         return default_section((enum job_section_id)key->child, map, below, member);
     case KEY_LIST:
     case KEY_MAP:
+    case KEY_POINTS:
     case KEY_NAMES:
     case KEY_NODE:
         break; /* zeroed: none */

@@ -143,6 +143,7 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
     struct frame_range range;
     const char *item;
     char **names;
+    const double *points;
     size_t n;
     switch (key->type) {
     case KEY_TEXT:
@@ -177,6 +178,12 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
         put_number(w, range.first);
         put_number(w, range.last);
         put_number(w, range.step);
+        break;
+    case KEY_POINTS:
+        points = key_items(key, base, &n);
+        put_count(w, n);
+        for (size_t i = 0; i < n * key->n; i++)
+            put_number(w, points[i]);
         break;
     case KEY_NAMES:
         names = key_items(key, base, &n);

@@ -49,6 +49,9 @@ void free_section(enum job_section_id section, void *base)
         case KEY_NODE:
             free_node(*(struct job_node **)member);
             break;
+        case KEY_POINTS:
+            free(key_items(key, base, &n));
+            break;
         case KEY_NAMES:
             items = key_items(key, base, &n);
             for (size_t k = 0; k < n; k++)

@@ -60,6 +60,9 @@ enum job_shape {
     size_t n_##key;
 #define MAP(section, key, child, meaning) LIST(section, key, child, meaning)
 #define NODE(section, key, meaning) struct job_node *key;
+#define POINTS(section, key, use, unit, n, min, max, meaning, source)                                        \
+    double(*key)[n];                                                                                         \
+    size_t n_##key;
 #define NAMES(section, key, use, meaning)                                                                    \
     char **key;                                                                                              \
     size_t n_##key;

@@ -92,6 +92,8 @@ static const char *type_name(const struct job_key *key)
         return "mapping of names";
     case KEY_NODE:
         return "shape";
+    case KEY_POINTS:
+        return "list of points";
     case KEY_NAMES:
         return "list of names";
     }
@@ -125,6 +127,7 @@ static void put_default(struct text *t, const struct job_key *key)
         text_add(t, "`%s`", key->preset);
         break;
     case KEY_LIST:
+    case KEY_POINTS:
     case KEY_NAMES:
         text_add(t, "`[]`");
         break;

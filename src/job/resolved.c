@@ -77,6 +77,7 @@ static void put_value(struct text *t, const struct job_key *key, const void *bas
     size_t n = 0;
     const char *item;
     char **names;
+    const double *points;
     switch (key->type) {
     case KEY_TEXT:
     case KEY_NAME:
@@ -104,6 +105,15 @@ static void put_value(struct text *t, const struct job_key *key, const void *bas
         break;
     case KEY_RANGE:
         text_add(t, "%s", range_text(*(const struct frame_range *)member, number));
+        break;
+    case KEY_POINTS:
+        points = key_items(key, base, &n);
+        text_add(t, "[");
+        for (size_t i = 0; i < n; i++, points += key->n) {
+            text_add(t, i ? ", " : "");
+            put_vec(t, points, key->n);
+        }
+        text_add(t, "]");
         break;
     case KEY_NAMES:
         names = key_items(key, base, &n);

@@ -51,6 +51,9 @@
 #define LIST(s_, key_, child_, meaning_) ITEMS(s_, key_, KEY_LIST, SECTION_##child_, meaning_)
 #define MAP(s_, key_, child_, meaning_) ITEMS(s_, key_, KEY_MAP, SECTION_##child_, meaning_)
 #define NODE(s_, key_, meaning_) ROW(s_, key_, KEY_NODE, SIM, "", meaning_, "", .preset = NULL)
+#define POINTS(s_, key_, use_, unit_, n_, min_, max_, meaning_, source_)                                     \
+    ROW(s_, key_, KEY_POINTS, use_, unit_, meaning_, source_, .n = n_, .min = min_, .max = max_,             \
+        .offset_n = offsetof(struct job_##s_, n_##key_))
 #define NAMES(s_, key_, use_, meaning_)                                                                      \
     ROW(s_, key_, KEY_NAMES, use_, "", meaning_, "", .offset_n = offsetof(struct job_##s_, n_##key_))
 #include "job/keys.def"
@@ -98,6 +101,7 @@ bool key_required(const struct job_key *key)
     case KEY_SUB:
     case KEY_LIST:
     case KEY_MAP:
+    case KEY_POINTS:
     case KEY_NAMES:
         break;
     }
@@ -173,6 +177,7 @@ const char *key_allowed(const struct job_key *key, char out[256])
     case KEY_CURVE:
     case KEY_INT:
     case KEY_VEC:
+    case KEY_POINTS:
         snprintf(out, 256, "%s..%s%s%s", key_number(key->min, low), key_number(key->max, high),
                  key->unit[0] ? " " : "", key->unit);
         return out;

@@ -33,6 +33,7 @@ enum key_type {
     KEY_LIST,
     KEY_MAP,
     KEY_NODE,
+    KEY_POINTS,
     KEY_NAMES
 };
 
@@ -43,11 +44,11 @@ struct job_key {
     enum key_use use; /* SIM for SUB, LIST, MAP and NODE: their own keys decide */
     const char *name, *unit, *meaning, *source;
     size_t offset;       /* of the member in its struct */
-    size_t offset_n;     /* LIST, MAP, NAMES: of the member n_<key> */
-    size_t n;            /* VEC: items */
+    size_t offset_n;     /* LIST, MAP, POINTS, NAMES: of the member n_<key> */
+    size_t n;            /* VEC, POINTS: numbers of one */
     const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, RANGE; NULL: required */
     double number;       /* NUM, CURVE, INT, BOOL: default; NaN: required */
-    double min, max;     /* NUM, CURVE, INT, VEC */
+    double min, max;     /* NUM, CURVE, INT, VEC, POINTS */
     const char *choices; /* CHOICE: "a|b|c" */
     int child;           /* SUB, LIST, MAP: its section */
 };

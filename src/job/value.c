@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "job/parse.h"
 
-enum { FRAME_LIMIT = 9999999, NAMES = 4096 };
+enum { FRAME_LIMIT = 9999999, NAMES = 4096, POINTS = 65536 };
 
 /* The short sentence of the last fail(), put behind a place. */
 static status at_place(const struct yaml *value, status st)
@@ -232,6 +232,23 @@ static status read_input(const struct yaml *v, const char *folder, char **out)
     return st;
 }
 
+static status read_points(const struct job_key *key, const struct yaml *v, void *base)
+{
+    double *point = NULL;
+    if (v->kind != YAML_LIST)
+        return yaml_fail(v, NULL, "%s, but a list of points is wanted ([] for none), each of %zu numbers",
+                         yaml_what(v), key->n);
+    if (v->n > POINTS)
+        return yaml_fail(v, NULL, "%zu points (at most %d)", v->n, POINTS);
+    status st = memory_alloc(v->n, key->n * sizeof *point, key->name, &point);
+    if (st != OK)
+        return st;
+    key_set_items(key, base, point, v->n);
+    for (const struct yaml *item = v->first; item && st == OK; item = item->next, point += key->n)
+        st = read_vec(key, item, point);
+    return st;
+}
+
 static status read_names(const struct job_key *key, const struct yaml *v, void *base)
 {
     char **names = NULL;
@@ -278,6 +295,8 @@ status read_value(const struct job_key *key, const struct yaml *v, const char *f
         return read_vec(key, v, member);
     case KEY_RANGE:
         return read_range(v, member);
+    case KEY_POINTS:
+        return read_points(key, v, base);
     case KEY_NAMES:
         return read_names(key, v, base);
     case KEY_SUB:
