@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Viability of the surface falls by erodibility times intensity (Arenite eqs. 1, 7, 8, 12), in retreat over
+// Viability of the surface falls by erodibility times intensity (Arenite eq. 1), in retreat over
 // the spacing.
 //
 // A bare face of a voxel stands for |n_i| h^2 of the surface, n being the surface's normal and i the face's
@@ -13,7 +13,7 @@
 READ_U(0, list)
 READ_V(1, position)
 READ_V(2, normal)
-READ_F(3, stress)
+READ_F(3, intensity) // by place in the list
 READ_F(4, erodibility)
 READ_U(5, start)
 WRITE_F(6, viability)
@@ -22,29 +22,6 @@ WRITE_U(8, counts)
 PARAMS(erosion_params)
 #include "particles/voxel.glsl"
 #include "particles/empty.glsl"
-
-float deflation(float t)
-{
-    float pull = max(0.0, k.cohesion + k.friction * t);
-    return k.deflation * exp(-(pull * pull - k.cohesion * k.cohesion) / (2.0 * k.strength * k.strength));
-}
-
-// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
-// particle's own bump.
-float reached_by_wind(vec3 x, vec3 n)
-{
-    vec3 wind = vec3(k.wind_x, k.wind_y, k.wind_z), at = x + 1.5 * k.h * n - 0.5 * k.h * wind;
-    int steps = int(k.shelter / k.h);
-    for (int s = 0; s < steps; s++) {
-        ivec3 v = ivec3(floor(at / k.h));
-        if (!voxel_inside(v))
-            return v.z < 0 ? 0.0 : 1.0;
-        if (!voxel_empty(v))
-            return 0.0;
-        at -= k.h * wind;
-    }
-    return 1.0;
-}
 
 // The surface a voxel's bare faces stand for, in units of h^2.
 float bare_area(ivec3 v, vec3 n)
@@ -64,11 +41,7 @@ void main()
     if (rate <= 0.0)
         return;
     vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
-    float against = -dot(n, vec3(k.wind_x, k.wind_y, k.wind_z));
-    float intensity = deflation(LOAD_F(stress, self));
-    if (k.abrasion > 0.0 && against > 0.0)
-        intensity += k.abrasion * against * reached_by_wind(x, n);
-    float step = intensity * k.dt / k.h;
+    float step = LOAD_F(intensity, i) * k.dt / k.h;
     float before = AT(viability, self), after = before - rate * step * bare_area(voxel_of(x), n);
     if (after <= 0.0) {
         AT(unspent, self) = step * (-after / (before - after));

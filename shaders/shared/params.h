@@ -104,20 +104,35 @@ SHARED_SIZE(interlock_params, 8)
 struct erosion_params {
     uint n;
     uint nx, ny, nz;
+    float h;  /* m */
+    float dt; /* kyr */
+};
+SHARED_SIZE(erosion_params, 24)
+
+/* Words the erosion counts into. */
+#define COUNT_ERODED 0u
+#define COUNT_FALLEN 1u
+#define COUNT_CHANGED 2u
+
+/* ---- wind */
+
+struct wind_params {
+    uint n;
+    uint nx, ny, nz;
     float h;                            /* m */
-    float dt;                           /* kyr */
     float deflation;                    /* k_d */
     float cohesion, friction, strength; /* mu_c (Pa), mu_f, alpha (Pa) */
     float abrasion;                     /* k_a (|v| / v_ref)^2 */
     float wind_x, wind_y, wind_z;       /* unit vector, where it blows to */
     float shelter;                      /* m */
 };
-SHARED_SIZE(erosion_params, 60)
+SHARED_SIZE(wind_params, 56)
 
-/* Words the erosion counts into. */
-#define COUNT_ERODED 0u
-#define COUNT_FALLEN 1u
-#define COUNT_CHANGED 2u
+/* ---- water */
+
+/* ---- deposits */
+
+/* ---- plants */
 
 /* ---- field: the surface field and what lies on it */
 

@@ -7,7 +7,7 @@
 
 uint64_t erosion_bytes(size_t n)
 {
-    return (uint64_t)n * 4;
+    return (uint64_t)n * 8;
 }
 
 status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, struct erosion *e)
@@ -15,6 +15,7 @@ status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, stru
     status st = OK;
     *e = (struct erosion){.n_layers = job->n_strata};
     TRY(gpu_buffer_create(gpu, "layers", e->n_layers, 16, &e->layers));
+    TRY(gpu_buffer_create(gpu, "intensity", n_max, 4, &e->intensity));
     TRY(gpu_buffer_create(gpu, "unspent steps", n_max, 4, &e->unspent));
 done:
     if (st != OK)
@@ -25,26 +26,19 @@ done:
 void erosion_destroy(struct gpu *gpu, struct erosion *e)
 {
     gpu_buffer_destroy(gpu, &e->layers);
+    gpu_buffer_destroy(gpu, &e->intensity);
     gpu_buffer_destroy(gpu, &e->unspent);
-}
-
-static double abrasion(const struct job *job, int frame)
-{
-    double ratio = curve_at(&job->wind.speed_m_s, frame) / job->wind.reference_m_s;
-    return curve_at(&job->wind.abrasion, frame) * ratio * ratio;
 }
 
 /* By the plane face of unstressed rock of the weakest layer, across the wind. Edges, tension, noise and paint
  * make single spots faster; there max_step is exceeded, and the carry makes up for it. */
-int erosion_steps(const struct job *job, int frame)
+int erosion_steps(const struct job *job, int frame, double intensity)
 {
     double weakest = 0;
-    const struct job_deflation *d = &job->wind.deflation;
     for (size_t i = 0; i < job->n_strata; i++)
         weakest = fmax(weakest, curve_at(&job->strata[i].weak_m_per_kyr, frame));
     double kyr = job->clock.years_per_frame / 1000;
-    double share =
-        weakest * (curve_at(&d->intensity, frame) + abrasion(job, frame)) * kyr / job->domain.spacing_m;
+    double share = weakest * intensity * kyr / job->domain.spacing_m;
     double steps = ceil(share / job->erosion.max_step);
     return steps < 1 ? 1 : steps > 1000 ? 1000 : (int)steps;
 }
@@ -78,13 +72,10 @@ done:
     return st;
 }
 
-status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, const struct job *job,
-                       int frame, double kyr, struct particles *p, uint32_t *n_eroded)
+status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,
+                       struct particles *p, uint32_t *n_eroded)
 {
     status st = OK;
-    const struct job_deflation *d = &job->wind.deflation;
-    const double *wind = job->wind.direction;
-    double length = sqrt(wind[0] * wind[0] + wind[1] * wind[1] + wind[2] * wind[2]);
     struct erosion_params k = {
         .n = (uint)p->n_surface,
         .nx = (uint)p->voxels[0],
@@ -92,23 +83,13 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
         .nz = (uint)p->voxels[2],
         .h = (float)p->h,
         .dt = (float)kyr,
-        .deflation = (float)curve_at(&d->intensity, frame),
-        .cohesion = (float)(1e6 * d->cohesion_MPa),
-        .friction = (float)d->friction,
-        .strength = (float)(1e6 * d->strength_MPa),
-        .abrasion = (float)abrasion(job, frame),
-        .wind_x = (float)(wind[0] / length),
-        .wind_y = (float)(wind[1] / length),
-        .wind_z = (float)(wind[2] / length),
-        .shelter = (float)job->wind.shelter_m,
     };
     struct voxel_params carry = particles_params(p, p->n);
     struct gpu_buffer *counts = gpu_work_words(work);
     gpu_fill(gpu, counts, 0);
     gpu_fill(gpu, e->unspent, 0);
     GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            p->field[ROCK_stress], p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent,
-            counts);
+            e->intensity, p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent, counts);
     GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->field[ROCK_N], p->start,
             p->field[ROCK_erodibility], e->unspent, p->field[ROCK_viability]);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));

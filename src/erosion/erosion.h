@@ -1,5 +1,5 @@
-/* How rock weathers: interlocking under stress, wind, and the viability they take (Arenite eqs. 1, 2, 7, 8,
- * 12). */
+/* How rock weathers: interlocking under stress, and the viability that wind and water take (Arenite eqs. 1,
+ * 2). */
 #ifndef HOODOO_EROSION_H
 #define HOODOO_EROSION_H
 
@@ -9,6 +9,9 @@
 #include "particles/particles.h"
 
 struct erosion {
+    /* float [n_max]: wind and water on each particle of the surface, in the order of particles.surface; the
+     * processes fill it before erosion_weather(). */
+    struct gpu_buffer *intensity;
     struct gpu_buffer *layers;  /* vec4 [n_layers]: weak, strong (m/kyr), I (Pa) in this frame */
     struct gpu_buffer *unspent; /* float [n_max]: of a step, by the particles it took */
     size_t n_layers;
@@ -18,18 +21,17 @@ uint64_t erosion_bytes(size_t n);
 MUST_USE status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, struct erosion *out);
 void erosion_destroy(struct gpu *gpu, struct erosion *e);
 
-/* Steps a frame is cut into, so that none takes more than erosion.max_step of a particle. Depends on the job
- * and the frame only. */
-int erosion_steps(const struct job *job, int frame);
+/* Steps a frame is cut into, so that none takes more than erosion.max_step of a particle of the weakest layer
+ * under this intensity. Depends on the job and the frame only. */
+int erosion_steps(const struct job *job, int frame, double intensity);
 
 /* Particles' `erodibility` from their stress, with the strata as they are in this frame. Waits. */
 MUST_USE status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame,
                                   struct particles *p);
 
-/* One step of wind on the surface: viability falls; those with none left are counted, not yet removed. Needs
- * surface, stress and erodibility of the current shape. Waits. */
-MUST_USE status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e,
-                                const struct job *job, int frame, double kyr, struct particles *p,
-                                uint32_t *n_eroded);
+/* One step: the surface's viability falls by e->intensity times erodibility; those with none left are
+ * counted, not yet removed. Needs surface and erodibility of the current shape. Waits. */
+MUST_USE status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,
+                                struct particles *p, uint32_t *n_eroded);
 
 #endif

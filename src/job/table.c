@@ -51,8 +51,8 @@
 #define LIST(s_, key_, child_, meaning_) ITEMS(s_, key_, KEY_LIST, SECTION_##child_, meaning_)
 #define MAP(s_, key_, child_, meaning_) ITEMS(s_, key_, KEY_MAP, SECTION_##child_, meaning_)
 #define NODE(s_, key_, meaning_) ROW(s_, key_, KEY_NODE, SIM, "", meaning_, "", .preset = NULL)
-#define POINTS(s_, key_, use_, unit_, n_, min_, max_, meaning_, source_)                                     \
-    ROW(s_, key_, KEY_POINTS, use_, unit_, meaning_, source_, .n = n_, .min = min_, .max = max_,             \
+#define POINTS(s_, key_, use_, unit_, width_, min_, max_, meaning_, source_)                                 \
+    ROW(s_, key_, KEY_POINTS, use_, unit_, meaning_, source_, .n = width_, .min = min_, .max = max_,         \
         .offset_n = offsetof(struct job_##s_, n_##key_))
 #define NAMES(s_, key_, use_, meaning_)                                                                      \
     ROW(s_, key_, KEY_NAMES, use_, "", meaning_, "", .offset_n = offsetof(struct job_##s_, n_##key_))

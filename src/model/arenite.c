@@ -24,6 +24,7 @@
 #include "particles/particles.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
+#include "wind/wind.h"
 
 struct model {
     struct gpu *gpu;
@@ -93,12 +94,15 @@ done:
 static status step(struct model *m)
 {
     status st = OK;
-    int steps = erosion_steps(m->job, ++m->frame);
+    m->frame++;
+    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame));
     double kyr = m->job->clock.years_per_frame / 1000 / steps;
     for (int i = 0; i < steps && m->particles.n > 0; i++) {
         uint32_t n_eroded;
         gpu_stage(m->gpu, "wind");
-        TRY(erosion_weather(m->gpu, m->work, &m->erosion, m->job, m->frame, kyr, &m->particles, &n_eroded));
+        wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
+        gpu_stage(m->gpu, "viability");
+        TRY(erosion_weather(m->gpu, m->work, &m->erosion, kyr, &m->particles, &n_eroded));
         gpu_stage(m->gpu, "particles");
         TRY(remove_eroded(m, n_eroded));
         if (n_eroded)
@@ -317,7 +321,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
                        (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
     out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels));
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
-        out->steps += erosion_steps(job, f);
+        out->steps += erosion_steps(job, f, wind_intensity(job, f));
 done:
     return st;
 }

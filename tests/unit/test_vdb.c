@@ -389,7 +389,8 @@ static void description_says_what_is_in_it(void **state)
     const struct json *points = item(json_member(json, "grids"), 0);
     assert_string_equal(json_to_text(json_member(points, "name")), "points");
     assert_true(json_member(points, "points")->number == (double)rock.n);
-    const char *const names[] = {"P", "pscale", "v", "Cd", "id", "viability", "layer", "phase", "stress"};
+    const char *const names[] = {"P",         "pscale", "v",     "Cd",         "id",
+                                 "viability", "layer",  "phase", "vegetation", "stress"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         assert_string_equal(json_to_text(json_member(item(json_member(points, "attributes"), i), "name")),
                             names[i]);

@@ -1,0 +1,53 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Wind on each particle of the surface (Arenite eqs. 7, 8, 12), as an intensity: deflation, and abrasion
+// where the wind reaches it.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_V(1, position)
+READ_V(2, normal)
+READ_F(3, stress)
+READ_U(4, start)
+WRITE_F(5, intensity)
+PARAMS(wind_params)
+#include "particles/voxel.glsl"
+#include "particles/empty.glsl"
+
+float deflation(float t)
+{
+    float pull = max(0.0, k.cohesion + k.friction * t);
+    return k.deflation * exp(-(pull * pull - k.cohesion * k.cohesion) / (2.0 * k.strength * k.strength));
+}
+
+// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
+// particle's own bump.
+float reached_by_wind(vec3 x, vec3 n)
+{
+    vec3 wind = vec3(k.wind_x, k.wind_y, k.wind_z), at = x + 1.5 * k.h * n - 0.5 * k.h * wind;
+    int steps = int(k.shelter / k.h);
+    for (int s = 0; s < steps; s++) {
+        ivec3 v = ivec3(floor(at / k.h));
+        if (!voxel_inside(v))
+            return v.z < 0 ? 0.0 : 1.0;
+        if (!voxel_empty(v))
+            return 0.0;
+        at -= k.h * wind;
+    }
+    return 1.0;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint self = LOAD_U(list, i);
+    vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
+    float against = -dot(n, vec3(k.wind_x, k.wind_y, k.wind_z));
+    float sum = deflation(LOAD_F(stress, self));
+    if (k.abrasion > 0.0 && against > 0.0)
+        sum += k.abrasion * against * reached_by_wind(x, n);
+    AT(intensity, i) = sum;
+}
