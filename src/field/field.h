@@ -31,9 +31,10 @@ void field_destroy(struct gpu *gpu, struct field *f);
 /* From the particles, whose stress must be current. Records only. */
 void field_build(struct gpu *gpu, struct field *f, struct particles *p);
 
-/* The grids of DESIGN 2 that exist so far: surface, density, stress, von_mises, viability. Freed with
- * field_grids_free(). Waits. */
-MUST_USE status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out);
+/* The grids surface, density, stress, von_mises and viability, and one for each field of `skin`: values that
+ * only the surface's particles have, such as discharge. Freed with field_grids_free(). Waits. */
+MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p,
+                               const enum rock_field *skin, size_t n_skin, struct frame_grids *out);
 void field_grids_free(struct frame_grids *grids);
 
 #endif

@@ -12,12 +12,19 @@
 /* A dense scalar field sampled at voxel centres: origin + (i, j, k) * voxel, numbered (k ny + j) nx + i. */
 enum grid_class { GRID_LEVEL_SET, GRID_FOG, GRID_PLAIN };
 
+struct grid_lattice {
+    int n[3];
+    double voxel, origin[3]; /* m */
+};
+
 struct frame_grid {
     const char *name; /* surface, density, stress, ... */
     const char *unit;
     enum grid_class kind;
     int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
     float *value;   /* owned by the frame */
+    /* Where it is sampled otherwise than the frame's other grids; n[0] is 0 where it is not. */
+    struct grid_lattice own;
 };
 
 struct frame_grids {

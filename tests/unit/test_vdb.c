@@ -181,6 +181,38 @@ static void volumes_come_back(void **state)
         }
 }
 
+/* The wind is known on a coarser and wider lattice than the rock. */
+static void a_grid_with_its_own_lattice_comes_back(void **state)
+{
+    (void)state;
+    for (int up = 0; up < 2; up++) {
+        const struct vdb_options options = options_of(up);
+        struct frame_grids in, out;
+        struct vdb_bytes file;
+        float wind[5 * 4 * 3][3];
+        assert_int_equal(sample_grids(0.5, &in), OK);
+        for (int v = 0; v < 5 * 4 * 3; v++)
+            for (int a = 0; a < 3; a++)
+                wind[v][a] = (float)(v + 1) * (a == 1 ? -1.0F : 0.5F);
+        free(in.grid[3].value);
+        in.grid[3].value = &wind[0][0];
+        in.grid[3].own = (struct grid_lattice){{5, 4, 3}, 6.5, {-8, -7, 3.25}};
+        assert_int_equal(vdb_volumes(&in, &options, &file), OK);
+        assert_int_equal(atomic_file_write("own.vdb", file.bytes, file.size), OK);
+        assert_int_equal(vdb_volumes_read("own.vdb", &out), OK);
+        assert_memory_equal(in.n, out.n, sizeof in.n);
+        assert_memory_equal(in.origin, out.origin, sizeof in.origin);
+        assert_string_equal(out.grid[3].name, "vel");
+        assert_memory_equal(&out.grid[3].own, &in.grid[3].own, sizeof in.grid[3].own);
+        assert_int_equal(out.grid[2].own.n[0], 0);
+        assert_memory_equal(out.grid[3].value, wind, sizeof wind);
+        in.grid[3].value = NULL;
+        sample_grids_free(&in);
+        vdb_volumes_free(&out);
+        free(file.bytes);
+    }
+}
+
 static void half_volumes_come_back_to_three_digits(void **state)
 {
     (void)state;
@@ -561,6 +593,7 @@ int main(void)
         cmocka_unit_test(equal_input_gives_equal_bytes_on_any_number_of_cores),
         cmocka_unit_test(another_identity_is_another_archive),
         cmocka_unit_test(volumes_come_back),
+        cmocka_unit_test(a_grid_with_its_own_lattice_comes_back),
         cmocka_unit_test(half_volumes_come_back_to_three_digits),
         cmocka_unit_test(points_come_back),
         cmocka_unit_test(surface_points_are_those_with_a_normal),
