@@ -23,6 +23,7 @@ PARAMS(shade_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
 
+const vec3 SAND = vec3(0.52, 0.36, 0.22);
 const vec3 GREEN = vec3(0.085, 0.115, 0.045); // dry shrubs
 
 void main()
@@ -75,7 +76,10 @@ void main()
     float sky = 0.5 + 0.5 * normal.z;
     vec3 light = sun * vec3(2.6, 2.3, 1.9) + mix(vec3(0.22, 0.17, 0.13), vec3(0.32, 0.40, 0.55), sky);
     uint strata = LOAD_U(layer, found);
-    vec3 stone = mix(LOAD_V(palette, strata).rgb, GREEN, LOAD_F(vegetation, found));
+    vec3 stone = LOAD_V(palette, strata).rgb;
+    if (LOAD_U(phase, found) == PHASE_DEPOSIT)
+        stone = mix(stone, SAND, 0.6);
+    stone = mix(stone, GREEN, LOAD_F(vegetation, found));
     AT(color, i) = vec4(stone * light, 1.0);
     AT(fields, i) = vec4(sum.xyz, LOAD_F(erodibility, found));
     AT(ids, 3u * i) = strata;

@@ -56,6 +56,10 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
+#define PHASE_ROCK 0u
+#define PHASE_DEPOSIT 1u
+#define PHASE_FALLING 2u
+
 /* The share of space that is rock around a voxel's middle, from its own fill, its 6 face and its 12 edge
  * neighbours': the surface is where this is 1/2. The weights are those of (1 - r^2 / 4 h^2)^3, rounded so
  * that they add up to 1; on a plane face the surface lies exactly where the fill puts it. */

@@ -120,8 +120,8 @@ static void record(struct gpu *gpu, struct aov *a, const struct camera *c, const
     };
     GPU_RUN(gpu, field_march, march.n, march, f->distance, a->hit, a->facing);
     GPU_RUN(gpu, field_shade, shade.n, shade, a->hit, a->facing, f->means, p->field[ROCK_P], p->start,
-            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility],
-            p->field[ROCK_vegetation], a->palette, a->color, a->fields, a->ids);
+            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility], p->field[ROCK_vegetation],
+            a->palette, a->color, a->fields, a->ids);
     const struct grid_lattice still = {{1, 1, 1}, 1, {0}}, *l = air ? &air->lattice : &still;
     struct pixel_weather_params weather = {
         .n = march.n,
@@ -170,7 +170,8 @@ enum { CHANNELS = sizeof channels / sizeof *channels };
 /* Depth of pixels without rock: farther than anything. */
 static const float NOTHING = 1e10f;
 
-static void split(struct aov_image *image, size_t n, float *const source[FROM_IDS], const uint32_t *ids, int up)
+static void split(struct aov_image *image, size_t n, float *const source[FROM_IDS], const uint32_t *ids,
+                  int up)
 {
     float *plane = image->memory;
     for (size_t c = 0; c < CHANNELS; c++, plane += n) {
@@ -200,8 +201,8 @@ static void split(struct aov_image *image, size_t n, float *const source[FROM_ID
 }
 
 status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const struct job_camera *camera,
-                  const struct field *f, const struct particles *p,
-                  const struct aov_air *air, struct aov_image *out)
+                  const struct field *f, const struct particles *p, const struct aov_air *air,
+                  struct aov_image *out)
 {
     status st = OK;
     struct camera c = camera_of(camera);

@@ -71,7 +71,7 @@ void field_build(struct gpu *gpu, struct field *f, struct particles *p)
     particles_fill(gpu, p);
     GPU_RUN(gpu, field_share, k.n, k, p->fill, f->share);
     GPU_RUN(gpu, field_means, k.n, k, p->start, p->field[ROCK_stress], p->field[ROCK_von_mises],
-            p->field[ROCK_viability], f->share, f->means);
+            p->field[ROCK_viability], p->field[ROCK_phase], f->share, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->share, f->distance);
     /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
@@ -129,8 +129,17 @@ status field_download(struct gpu *gpu, struct field *f, struct particles *p, con
         mises[i] = means[4 * i + 1];
         viability[i] = means[4 * i + 2];
     }
-    for (size_t g = 0; g < n_skin; g++)
-        TRY(download_skin(gpu, f, p, skin[g], &out->grid[out->n_grids++]));
+    for (size_t s = 0; s < n_skin; s++) {
+        struct frame_grid *grid = &out->grid[out->n_grids++];
+        if (skin[s] != ROCK_phase) {
+            TRY(download_skin(gpu, f, p, skin[s], grid));
+            continue;
+        }
+        *grid = (struct frame_grid){.name = "deposit", .unit = "", .kind = GRID_PLAIN};
+        TRY(memory_alloc(n, sizeof(float), grid->name, &grid->value));
+        for (size_t i = 0; i < n; i++)
+            grid->value[i] = means[4 * i + 3];
+    }
 done:
     free(means);
     if (st != OK)

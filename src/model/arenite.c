@@ -142,7 +142,7 @@ static status measure(const struct model *m, struct frame *out)
 }
 
 /* Which values of the surface this job can have. */
-static size_t skin_fields(const struct job *job, enum rock_field out[2])
+static size_t skin_fields(const struct job *job, enum rock_field out[3])
 {
     size_t n = 0;
     bool plants = false;
@@ -152,6 +152,8 @@ static size_t skin_fields(const struct job *job, enum rock_field out[2])
         plants |= job->paint[i].vegetation > 0;
     if (plants)
         out[n++] = ROCK_vegetation;
+    if (curve_max(&job->deposition.viability) > 0)
+        out[n++] = ROCK_phase;
     return n;
 }
 
@@ -159,7 +161,7 @@ static status output(struct model *m, struct frame *out)
 {
     status st = OK;
     const struct job *job = m->job;
-    enum rock_field skin[2];
+    enum rock_field skin[3];
     size_t n_skin = skin_fields(job, skin);
     *out = (struct frame){.number = m->frame,
                           .years = (m->frame - job->frames.first) * job->clock.years_per_frame,

@@ -151,8 +151,7 @@ status check_lattice(const grid_lattice &l, int frame)
 openvdb::math::Transform::Ptr transform_of(const grid_lattice &l, bool y_up)
 {
     auto transform = openvdb::math::Transform::createLinearTransform(l.voxel);
-    transform->postTranslate(
-        vdb::file_from_sim(openvdb::Vec3d(l.origin[0], l.origin[1], l.origin[2]), y_up));
+    transform->postTranslate(vdb::file_from_sim(openvdb::Vec3d(l.origin[0], l.origin[1], l.origin[2]), y_up));
     return transform;
 }
 } // namespace

@@ -113,7 +113,7 @@ static void mesh_of_a_ball_is_closed_and_true(void **state)
         const struct vdb_options options = options_of(up);
         struct vdb_mesh mesh;
         write_volumes("ball.vdb", 0.25, &options);
-        assert_int_equal(vdb_mesh_read("ball.vdb", 0, names, 1, &mesh), OK);
+        assert_int_equal(vdb_mesh_read("ball.vdb", 0, names, 1, 0, &mesh), OK);
         assert_true(mesh.n_vertices > 1000);
         r[up] = measure_mesh(&mesh);
         print_message("# area %g volume %g normal %g value %g centre %g %g %g\n", r[up].area, r[up].volume,
@@ -509,9 +509,13 @@ static void mesh_of_something_else_is_refused(void **state)
     struct frame_grids grids;
     write_points("points.vdb", 1, &options);
     write_volumes("volumes.vdb", 0.5, &options);
-    assert_int_equal(vdb_mesh_read("points.vdb", 0, NULL, 0, &mesh), E_INPUT);
-    assert_int_equal(vdb_mesh_read("volumes.vdb", 0, names, 1, &mesh), E_INPUT);
+    assert_int_equal(vdb_mesh_read("points.vdb", 0, NULL, 0, 0, &mesh), E_INPUT);
+    assert_int_equal(vdb_mesh_read("volumes.vdb", 0, names, 1, 0, &mesh), E_INPUT);
     assert_non_null(strstr(status_message(), "no such grid"));
+    assert_int_equal(vdb_mesh_read("volumes.vdb", 0, names, 1, 1, &mesh), OK);
+    for (size_t i = 0; i < mesh.n_vertices; i++)
+        assert_true(mesh.value[i] == 0);
+    vdb_mesh_free(&mesh);
     assert_int_equal(vdb_points_read("volumes.vdb", &rock), E_INPUT);
     assert_int_equal(vdb_volumes_read("points.vdb", &grids), E_INPUT);
     vdb_mesh_free(&mesh);
@@ -553,7 +557,7 @@ static void rock_on_the_floor_is_closed(void **state)
         assert_int_equal(vdb_volumes(&grids, &options, &file), OK);
         damage_put("floor.vdb", file.bytes, file.size);
         free(file.bytes);
-        assert_int_equal(vdb_mesh_read("floor.vdb", 0, NULL, 0, &mesh), OK);
+        assert_int_equal(vdb_mesh_read("floor.vdb", 0, NULL, 0, 0, &mesh), OK);
         const struct measure r = measure_mesh(&mesh);
         assert_int_equal(r.open_edges, 0);
         assert_true(fabs(r.volume / (8.5 * 12 * 9 + 3 * 3 * 9) - 1) < 0.03);
@@ -574,8 +578,8 @@ static void adaptive_mesh_is_smaller(void **state)
     const struct vdb_options options = options_of(OUTPUT_UP_Y);
     struct vdb_mesh fine, coarse;
     write_volumes("ball.vdb", 0.125, &options);
-    assert_int_equal(vdb_mesh_read("ball.vdb", 0, NULL, 0, &fine), OK);
-    assert_int_equal(vdb_mesh_read("ball.vdb", 0.02, NULL, 0, &coarse), OK);
+    assert_int_equal(vdb_mesh_read("ball.vdb", 0, NULL, 0, 0, &fine), OK);
+    assert_int_equal(vdb_mesh_read("ball.vdb", 0.02, NULL, 0, 0, &coarse), OK);
     assert_null(coarse.value);
     assert_true(coarse.n_triangles < fine.n_triangles * 3 / 4);
     const struct measure r = measure_mesh(&coarse);
