@@ -132,8 +132,8 @@ static void add_mesh(struct text *out, const struct scene *s)
         bare = ground_of(m, i) == 0;
     if (!bare)
         text_add(out, "}\n"
-                      "texture_list { 5, texture { Sandstone }, texture { Talus }, texture { Plants_1 }, "
-                      "texture { Plants_2 }, texture { Plants_3 }");
+                      "texture_list { 5, texture { Sandstone }, texture { Talus }, texture { Plants[0] }, "
+                      "texture { Plants[1] }, texture { Plants[2] }");
     text_add(out, "}\nface_indices { %zu", m->n_triangles);
     for (size_t i = 0; i < m->n_triangles; i++) {
         const uint32_t *t = m->triangle + 3 * i;
