@@ -39,6 +39,5 @@ MUST_USE status aov_render(struct gpu *gpu, struct aov *a, const struct job *job
  * frame. */
 MUST_USE status aov_render_all(struct gpu *gpu, struct aov *a, const struct job *job, const struct field *f,
                                const struct particles *p, const struct aov_air *air, struct frame *out);
-void aov_image_free(struct aov_image *image);
 
 #endif

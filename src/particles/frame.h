@@ -46,6 +46,12 @@ struct aov_channel {
     int half;           /* write as half */
 };
 
+/* A text attribute of the file. */
+struct aov_note {
+    char name[64];
+    char *value;
+};
+
 struct aov_image {
     const char *camera;
     int width, height; /* overscan included */
@@ -54,7 +60,10 @@ struct aov_image {
     size_t n_channels;
     struct aov_channel *channel;
     void *memory; /* holds every plane; owned by the frame */
+    size_t n_notes;
+    struct aov_note *note; /* owned by the frame */
 };
+void aov_image_free(struct aov_image *image);
 
 /* Where every particle of the start went. start = rock + deposit + fallen + left, exactly. */
 struct ledger {
