@@ -31,7 +31,7 @@ git grep -nE 'std::|openvdb::' -- '*.c' '*.h' && say "C++ outside *_shim.cpp"
 rank() {
     case $1 in
     base) echo 0 ;; gpu | job) echo 1 ;; particles) echo 2 ;;
-    scene | stress | erosion | blocks | voxels | field | output | checkpoint | wind | water | deposit | plants) echo 3 ;;
+    scene | stress | erosion | blocks | mpm | voxels | field | output | checkpoint | wind | water | deposit | plants) echo 3 ;;
     model) echo 4 ;; render | farm) echo 6 ;; cli) echo 5 ;; *) echo 9 ;;
     esac
 }

@@ -138,6 +138,47 @@ SHARED_SIZE(wind_params, 56)
 
 /* ---- plants */
 
+/* ---- mpm: material points on cells of 2 h. Nodes and base cells are numbered alike, on a lattice three longer
+ * than the domain's cells on every axis: node (1, 1, 1) is the origin, and a particle's base cell is that of
+ * the first of its 27 nodes. See mpm/mpm.h. */
+
+struct mpm_params {
+    uint n;
+    uint cx, cy, cz; /* cells of the domain */
+    uint n_cells;    /* occupied */
+    uint rock;       /* 1: resting rock is an obstacle */
+    float dx;        /* m */
+    float dt;        /* s */
+    float lambda, mu, viscosity; /* Pa, Pa, Pa s */
+    float push;                  /* m3/(kg m2): 4 / (density dx^2), or 0 to leave the stress out */
+    float mass;                  /* kg: of a whole particle */
+    float gravity;               /* m/s2 */
+    float friction;              /* on ground and resting rock */
+    float alpha;                 /* of Drucker and Prager's cone */
+    float fastest;               /* m/s: nodes are not let go faster */
+};
+SHARED_SIZE(mpm_params, 68)
+
+struct mpm_load_params {
+    uint n;
+    uint seed;
+    float strength; /* Pa */
+    float block;    /* m: size of the pieces that joints cut; 0: no joints */
+};
+SHARED_SIZE(mpm_load_params, 16)
+
+/* Of a particle that has not broken; others hold how much they have come apart, as a volume strain. */
+#define MPM_WHOLE (-1.0f)
+
+/* How many times stronger than a joint the rock between joints is. */
+#define MPM_BETWEEN_JOINTS 6.0f
+
+/* Words of the static solver's scalars. */
+#define MPM_LAST 0u
+#define MPM_KEEP 1u
+#define MPM_PEAK 2u
+#define MPM_ENERGY 3u
+
 /* ---- field: the surface field and what lies on it */
 
 struct field_params {

@@ -131,7 +131,8 @@ class leaf_maker
     {
         pscale_ = float(options.spacing / 2);
         attributes_.push_back({"pscale", CONSTANT, &pscale_});
-        attributes_.push_back({"v", CONSTANT, nullptr});
+        if (!r.v)
+            attributes_.push_back({"v", CONSTANT, nullptr});
         if (layer_ && options.color && options.n_colors)
             attributes_.push_back({"Cd", COLOR, nullptr});
         for (int f = 0; f < ROCK_FIELDS; f++) {

@@ -1,0 +1,98 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Grid to particles, for rock in motion: velocity, place and deformation; what breaks under tension (Rankine)
+// or slides; and the impulse of its stress, for the next step.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, home)
+READ_V(1, node_velocity)
+READ_V(2, place)
+READ_V(3, stretch_x)
+READ_V(4, stretch_y)
+READ_F(5, apart)
+READ_F(6, strength)
+READ_F(7, fill)
+WRITE_V(8, place_out)
+WRITE_V(9, velocity_out)
+WRITE_V(10, affine_x_out)
+WRITE_V(11, affine_y_out)
+WRITE_V(12, stretch_x_out)
+WRITE_V(13, stretch_y_out)
+WRITE_F(14, apart_out)
+WRITE_F(15, speed_out)
+PARAMS(mpm_params)
+#include "mpm/grid.glsl"
+#include "mpm/collect.glsl"
+#include "mpm/rock.glsl"
+
+bool resting_rock(vec3 x)
+{
+    ivec3 n = 2 * ivec3(k.cx, k.cy, k.cz), v = ivec3(floor(x / (0.5 * k.dx)));
+    if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, n)))
+        return false;
+    return LOAD_F(fill, (uint(v.z) * uint(n.y) + uint(v.y)) * uint(n.x) + uint(v.x)) > 0.5;
+}
+
+// The way from x by d as far as ground and resting rock let it go, axis by axis. Axes that are stopped lose
+// their velocity.
+vec3 go(vec3 x, vec3 d, inout vec3 v)
+{
+    vec3 to = x + d;
+    if (k.rock != 0u && resting_rock(to) && !resting_rock(x)) {
+        to = x;
+        for (int a = 0; a < 3; a++) {
+            vec3 next = to;
+            next[a] += d[a];
+            if (resting_rock(next))
+                v[a] = 0.0;
+            else
+                to = next;
+        }
+    }
+    if (to.z < 0.0) {
+        to.z = 0.0;
+        v.z = max(v.z, 0.0);
+    }
+    return to;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint at = LOAD_U(home, i);
+    vec4 xh = LOAD_V(place, i), hx = LOAD_V(stretch_x, i), hy = LOAD_V(stretch_y, i);
+    float loose = LOAD_F(apart, i);
+    mat3 h = mat3(hx.xyz, hy.xyz, vec3(hx.w, hy.w, xh.w)), g;
+    vec3 v;
+    collect(mpm_offset(xh.xyz, at), at, v, g[0], g[1], g[2]);
+    g /= k.dx;
+
+    mat3 next = h + k.dt * (g + g * h), f = next + mat3(1.0);
+    float volume = determinant(f);
+    if (volume < 0.1 || volume > 8.0) { // crushed or torn beyond what an elastic law describes
+        loose = max(loose, 0.0);
+        f = h + mat3(1.0);
+    }
+    mat3 r = rotation_of(f), e = strain_of(r, f);
+    if (loose < 0.0 && most_tension(body_stress(e)) > LOAD_F(strength, i))
+        loose = 0.0;
+    if (loose >= 0.0) {
+        e = slide(e, loose);
+        next = r * e + (r - mat3(1.0));
+    }
+    mat3 stress = r * body_stress(e) * transpose(r) + k.viscosity * (g + transpose(g));
+    mat3 q = g - k.dt * k.push * stress;
+    float speed = length(v);
+    vec3 to = go(xh.xyz, k.dt * v, v);
+    AT(place_out, i) = vec4(to, next[2].z);
+    AT(velocity_out, i) = vec4(v, q[2].z);
+    AT(affine_x_out, i) = vec4(q[0], q[2].x);
+    AT(affine_y_out, i) = vec4(q[1], q[2].y);
+    AT(stretch_x_out, i) = vec4(next[0], next[2].x);
+    AT(stretch_y_out, i) = vec4(next[1], next[2].y);
+    AT(apart_out, i) = loose;
+    AT(speed_out, i) = speed;
+}

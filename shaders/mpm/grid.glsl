@@ -1,0 +1,33 @@
+// The lattice of nodes and base cells, and the particles' place in it. Needs mpm_params.
+
+uint mpm_index(ivec3 a)
+{
+    return (uint(a.z) * (k.cy + 3u) + uint(a.y)) * (k.cx + 3u) + uint(a.x);
+}
+
+ivec3 mpm_at(uint i)
+{
+    uint nx = k.cx + 3u, ny = k.cy + 3u;
+    return ivec3(i % nx, (i / nx) % ny, i / (nx * ny));
+}
+
+bool mpm_in_domain(vec3 x)
+{
+    return all(greaterThanEqual(x, vec3(0.0))) && all(lessThan(x, vec3(k.cx, k.cy, k.cz) * k.dx));
+}
+
+// Where a particle lies in its 27 nodes: 1/2 to 3/2 from the first, in cells, when it was sorted; a little
+// beyond when it has moved since.
+vec3 mpm_offset(vec3 x, uint home)
+{
+    return x / k.dx - vec3(mpm_at(home) - 1);
+}
+
+// Quadratic B-splines at the three nodes. As polynomials they sum to 1, reproduce lines and have the variance
+// 1/4 for every f, so that nothing is lost when f leaves [1/2, 3/2]; all are positive while |f - 1| < 0.86.
+void mpm_weights(vec3 f, out vec3 w0, out vec3 w1, out vec3 w2)
+{
+    w0 = 0.5 * (1.5 - f) * (1.5 - f);
+    w1 = 0.75 - (f - 1.0) * (f - 1.0);
+    w2 = 0.5 * (f - 0.5) * (f - 0.5);
+}

@@ -1,0 +1,29 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The grid's velocity in the search for equilibrium, with the ground's nodes held; and the kinetic energy of
+// each node.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_U(1, slot)
+READ_V(2, partial)
+WRITE_V(3, node_velocity)
+WRITE_F(4, product)
+PARAMS(mpm_params)
+#include "mpm/grid.glsl"
+#include "mpm/sum.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint node = LOAD_U(list, i);
+    vec4 sum = node_sum(node);
+    vec3 v = vec3(0.0);
+    if (sum.w > 0.0 && mpm_at(node).z > 1)
+        v = sum.xyz / sum.w - vec3(0.0, 0.0, k.gravity * k.dt);
+    AT(node_velocity, node) = vec4(v, sum.w);
+    AT(product, i) = 0.5 * sum.w * dot(v, v);
+}

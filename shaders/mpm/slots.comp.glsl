@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Where each occupied cell's partial sums are, plus 1; the others' are 0.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+WRITE_U(1, slot)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(slot, LOAD_U(list, i)) = i + 1u;
+}

@@ -1,0 +1,44 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Material points back to the rock's particles: place, velocity, what is left, phase and stress.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, origin)
+READ_V(1, place)
+READ_V(2, velocity)
+READ_V(3, stretch_x)
+READ_V(4, stretch_y)
+READ_F(5, share)
+READ_F(6, apart)
+WRITE_V(7, position)
+WRITE_V(8, velocity_out)
+WRITE_F(9, viability)
+WRITE_U(10, phase)
+WRITE_F(11, stress)
+WRITE_F(12, von_mises)
+PARAMS(mpm_params)
+#include "mpm/grid.glsl"
+#include "mpm/rock.glsl"
+
+const float MOVING = 0.3; // m/s
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint j = LOAD_U(origin, i);
+    vec4 xh = LOAD_V(place, i), hx = LOAD_V(stretch_x, i), hy = LOAD_V(stretch_y, i);
+    vec3 v = LOAD_V(velocity, i).xyz;
+    mat3 f = mat3(hx.xyz, hy.xyz, vec3(hx.w, hy.w, xh.w)) + mat3(1.0);
+    mat3 r = rotation_of(f), s = body_stress(strain_of(r, f)) / determinant(f);
+    float mean = (s[0][0] + s[1][1] + s[2][2]) / 3.0;
+    mat3 d = s - mat3(mean);
+    AT(position, j) = vec4(xh.xyz, 0.0);
+    AT(velocity_out, j) = vec4(v, 0.0);
+    AT(viability, j) = mpm_in_domain(xh.xyz) ? LOAD_F(share, i) : 0.0;
+    AT(phase, j) = length(v) > MOVING ? PHASE_FALLING : LOAD_F(apart, i) >= 0.0 ? PHASE_DEPOSIT : PHASE_ROCK;
+    AT(stress, j) = -3.0 * mean;
+    AT(von_mises, j) = sqrt(1.5 * (dot(d[0], d[0]) + dot(d[1], d[1]) + dot(d[2], d[2])));
+}

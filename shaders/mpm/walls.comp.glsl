@@ -1,0 +1,40 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Nodes inside resting rock, where half or more of the eight voxels around is rock, and the normal out of it.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_F(1, fill)
+WRITE_V(2, wall)
+PARAMS(mpm_params)
+#include "mpm/grid.glsl"
+
+float fill_at(ivec3 v)
+{
+    ivec3 n = 2 * ivec3(k.cx, k.cy, k.cz);
+    if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, n)))
+        return 0.0;
+    return LOAD_F(fill, (uint(v.z) * uint(n.y) + uint(v.y)) * uint(n.x) + uint(v.x));
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint node = LOAD_U(list, i);
+    ivec3 corner = 2 * (mpm_at(node) - 1);
+    float inside = 0.0;
+    vec3 inward = vec3(0.0);
+    for (int z = -2; z < 2; z++)
+        for (int y = -2; y < 2; y++)
+            for (int x = -2; x < 2; x++) {
+                float rock = fill_at(corner + ivec3(x, y, z));
+                vec3 d = vec3(x, y, z) + 0.5;
+                inward += rock * d;
+                inside += x >= -1 && x < 1 && y >= -1 && y < 1 && z >= -1 && z < 1 ? rock : 0.0;
+            }
+    float size = length(inward);
+    AT(wall, node) = inside >= 4.0 ? vec4(size > 0.1 ? -inward / size : vec3(0.0, 0.0, 1.0), 1.0) : vec4(0.0);
+}

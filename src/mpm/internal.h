@@ -1,0 +1,17 @@
+/* What the files of mpm/ share. */
+#ifndef HOODOO_MPM_INTERNAL_H
+#define HOODOO_MPM_INTERNAL_H
+
+#include "mpm/mpm.h"
+
+enum { SCALARS = 8 };
+
+struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt);
+
+/* m/s: the fastest wave. */
+double mpm_wave(const struct mpm_options *o);
+
+/* Sorts the points and finds occupied cells and the nodes near them. Those that have left are dropped. Waits. */
+MUST_USE status mpm_sort(struct gpu *gpu, struct gpu_work *work, struct mpm *m);
+
+#endif

@@ -1,0 +1,107 @@
+/* Rock in motion and at rest by the material point method: moving least squares transfers (MLS-MPM), affine
+ * velocities (APIC), quadratic kernel, explicit steps.
+ *
+ * Cells are 2 h wide, eight particles each. Particles are sorted by base cell, those of one cell by id; one
+ * invocation per occupied cell sums its particles over their 27 nodes, then each node near them sums 27
+ * partial sums: no atomics, the same bits in every run. A sort holds until particles may have moved a seventh
+ * of a cell; the kernel's polynomials go on to be exact until then (shaders/mpm/grid.glsl).
+ *
+ * Deformation is kept as H = F - I: steps of F would fall below its last bit (research: an error of 38 % at a
+ * CFL number of 0.1). Between frames a particle's state is place, velocity, affine velocity, H, how much is left
+ * of it, how far it has come apart and its strength; steps() needs no more, whatever order they are in.
+ *
+ * source  Arenite section 4.2; Hu et al., A Moving Least Squares Material Point Method, 2018; Stomakhin et al.,
+ *         Energetically Consistent Invertible Elasticity, 2012; Klar et al., Drucker-Prager Elastoplasticity for
+ *         Sand Animation, 2016
+ * twin    tests/ref/mpm_ref.c
+ */
+#ifndef HOODOO_MPM_H
+#define HOODOO_MPM_H
+
+#include "gpu/gpu.h"
+#include "gpu/primitives.h"
+#include "particles/particles.h"
+
+struct mpm_options {
+    double lambda, mu; /* Pa */
+    double density;    /* kg/m3 */
+    double gravity;    /* m/s2 */
+    double cfl;        /* cells that the fastest wave may cross in a step; 0.3 to 0.5 */
+    double viscosity;  /* share of a crossing of one cell: damps vibration, not motion; 0 or more */
+    double friction;   /* on ground and resting rock */
+    double repose_deg; /* friction angle of broken rock */
+    double strength;   /* Pa: tension at which rock breaks */
+    double block;      /* m: spacing of joints, between which rock is MPM_BETWEEN_JOINTS as strong; 0: none */
+    uint32_t seed;     /* of the joints */
+};
+
+/* Elastic moduli lowered so that waves run at `speed` m/s; their ratio stays. Never raised. */
+void mpm_soften(struct mpm_options *o, double speed);
+
+/* The state's vectors and words, in the order of sections in checkpoints. */
+enum mpm_vector {
+    MPM_PLACE,
+    MPM_VELOCITY,
+    MPM_AFFINE_X,
+    MPM_AFFINE_Y,
+    MPM_STRETCH_X,
+    MPM_STRETCH_Y,
+    MPM_VECTORS
+};
+enum mpm_word { MPM_SHARE, MPM_APART, MPM_STRENGTH, MPM_ID, MPM_ORIGIN, MPM_WORDS };
+/* place = (x, H22), velocity = (v, C22), affine_x = (C's x column, C02), affine_y = (its y column, C12), stretch
+ * likewise of H. */
+extern const char *const mpm_vector_names[MPM_VECTORS], *const mpm_word_names[MPM_WORDS];
+
+struct mpm {
+    int cells[3]; /* of the domain */
+    double dx;    /* m */
+    struct mpm_options options;
+    size_t n, n_max;
+    struct gpu_buffer *vector[MPM_VECTORS]; /* vec4 [n_max] */
+    struct gpu_buffer *word[MPM_WORDS];     /* float or uint [n_max] */
+    struct gpu_buffer *home;                /* uint [n_max]: base cell */
+    struct gpu_buffer *speed;               /* float [n_max] */
+    struct gpu_buffer *spare_vector, *spare_word, *order, *unordered;
+    struct gpu_buffer *start, *slot, *flags, *place, *cell_list, *node_list; /* uint [nodes] */
+    struct gpu_buffer *node_velocity, *wall;                                 /* vec4 [nodes] */
+    struct gpu_buffer *partial, *product, *scalars;
+    struct gpu_buffer *fill; /* float [voxels]: resting rock; borrowed, NULL: none */
+    struct gpu_buffer *nothing;
+    size_t n_cells, n_nodes, n_partial; /* occupied, reached, room in `partial` */
+    size_t n_left;                      /* particles that have left the domain since they were loaded */
+    double fastest;                     /* m/s, as of the last look */
+    long steps;                         /* taken since the start of the last call */
+};
+
+/* Nodes of the lattice: gpu_work needs room for as many. */
+size_t mpm_nodes(const int voxels[3]);
+uint64_t mpm_bytes(size_t n_max, const int voxels[3]);
+MUST_USE status mpm_create(struct gpu *gpu, const int voxels[3], double h, size_t n_max,
+                           const struct mpm_options *options, struct mpm *out);
+void mpm_destroy(struct gpu *gpu, struct mpm *m);
+
+/* The particles of p whose number is in `list` become material points at rest. Their viability in p is 0 from
+ * here until mpm_store(). `resting`: the voxels' fill as of particles_fill() is an obstacle; take it after
+ * this. */
+void mpm_load(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_buffer *list, size_t n);
+
+/* Simulates `seconds` in equal steps no longer than the CFL number allows. Waits. E_NUMERIC if speeds are not
+ * finite. */
+MUST_USE status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double seconds);
+
+/* The particles of p they came from get place, velocity, viability (0 outside the domain), phase and stress. p
+ * must not have been indexed since mpm_load() or mpm_follow(); those whose point is gone keep viability 0. */
+void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p);
+
+/* After p was indexed: where each point's particle is now, by id. All ids are below n_ids; `table` is scratch of
+ * n_ids words. */
+void mpm_follow(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_buffer *table);
+
+/* Static equilibrium of p by kinetic damping: motion stops whenever its energy has passed a peak, until the
+ * energy of a peak is below tolerance^2 of the elastic energy. Fills p's stress and von_mises. *steps and *error
+ * say when it stopped. Waits. E_NUMERIC as above. */
+MUST_USE status mpm_rest(struct gpu *gpu, struct gpu_work *work, struct mpm *m, struct particles *p,
+                         double tolerance, int max_steps, int *steps, double *error);
+
+#endif

@@ -1,0 +1,86 @@
+/* Rock in motion: steps through time. */
+#include <math.h>
+
+#include "mpm/internal.h"
+
+/* Of a cell: how far particles may be expected to move, and may move at most, before they are sorted anew. At
+ * the most the kernel still has positive weights (0.5 + 0.36 = 0.86). */
+static const double EXPECTED = 0.14, MOST = 0.36;
+
+/* Steps that hold before the next sort, of `left`. */
+static long steps_until_sort(const struct mpm *m, double dt, long left)
+{
+    /* Speed after all `left` steps bounds that during fewer. What is not gravity's (rebounds, waves) gets as
+     * much again. */
+    double speed = 1.5 * m->fastest + m->options.gravity * dt * (double)left + 0.1 * m->dx;
+    double steps = floor(EXPECTED * m->dx / (dt * speed));
+    return steps < 1 ? 1 : steps < (double)left ? (long)steps : left;
+}
+
+static status look(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
+{
+    status st = OK;
+    float fastest;
+    gpu_max(gpu, work, m->speed, m->n, m->scalars, 0);
+    TRY(gpu_download(gpu, m->scalars, 0, &fastest, 1));
+    if (!isfinite(fastest)) {
+        st = fail(E_NUMERIC, "mpm: speeds are not finite after %ld steps of %zu particles", m->steps, m->n);
+        goto done;
+    }
+    m->fastest = (double)fastest;
+done:
+    return st;
+}
+
+static void prime(struct gpu *gpu, struct mpm *m, double dt)
+{
+    struct mpm_params k = mpm_params_of(m, m->n, dt);
+    GPU_RUN(gpu, mpm_prime, m->n, k, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY], m->vector[MPM_AFFINE_X],
+            m->vector[MPM_AFFINE_Y], m->vector[MPM_STRETCH_X], m->vector[MPM_STRETCH_Y],
+            m->vector[MPM_VELOCITY], m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y]);
+}
+
+static void step(struct gpu *gpu, struct mpm *m, const struct mpm_params *params, bool last)
+{
+    struct mpm_params k = *params;
+    k.n = (uint)m->n_cells;
+    GPU_RUN(gpu, mpm_scatter, k.n, k, m->cell_list, m->start, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
+            m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->word[MPM_SHARE], m->partial);
+    k.n = (uint)m->n_nodes;
+    GPU_RUN(gpu, mpm_node, k.n, k, m->node_list, m->slot, m->partial, m->wall, m->node_velocity);
+    k.n = (uint)m->n;
+    if (last) /* the next frame's steps may have another length: mpm_prime */
+        k.push = 0;
+    GPU_RUN(gpu, mpm_gather, k.n, k, m->home, m->node_velocity, m->vector[MPM_PLACE],
+            m->vector[MPM_STRETCH_X], m->vector[MPM_STRETCH_Y], m->word[MPM_APART], m->word[MPM_STRENGTH],
+            m->fill ? m->fill : m->nothing, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
+            m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->vector[MPM_STRETCH_X],
+            m->vector[MPM_STRETCH_Y], m->word[MPM_APART], m->speed);
+    m->steps++;
+}
+
+status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double seconds)
+{
+    status st = OK;
+    const struct mpm_options *o = &m->options;
+    double fastest = m->fastest + o->gravity * seconds;
+    /* A wave's limit and viscosity's: 1 / dt = c / (cfl dx) (1 + 4 viscosity). */
+    double most = o->cfl * m->dx / (mpm_wave(o) * (1 + 4 * o->viscosity) + fastest);
+    long n = (long)ceil(seconds / most);
+    double dt = seconds / (double)n;
+    m->steps = 0;
+    prime(gpu, m, dt);
+    while (m->steps < n && m->n > 0) {
+        TRY(mpm_sort(gpu, work, m));
+        long batch = steps_until_sort(m, dt, n - m->steps);
+        struct mpm_params k = mpm_params_of(m, m->n, dt);
+        k.fastest = (float)(MOST * m->dx / (dt * (double)batch));
+        for (long i = 0; i < batch; i++)
+            step(gpu, m, &k, m->steps + 1 == n);
+        TRY(look(gpu, work, m));
+    }
+    /* Those that left in the last steps go now. */
+    TRY(mpm_sort(gpu, work, m));
+done:
+    return st;
+}
