@@ -83,7 +83,7 @@ endef
 $(foreach v,$(VARIANTS),$(eval $(call spirv_rule,$(v))))
 
 $(BUILD)/gen/gpu/kernels.h: $(SHADER) src/gpu/embed.sh | $(BUILD)/.deps
-	$(Q)mkdir -p $(@D) && sh src/gpu/embed.sh header $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
+	$(Q)mkdir -p $(@D) && sh src/gpu/embed.sh header $(sort $(SHADER)) > $@.tmp && if cmp -s $@.tmp $@; then rm $@.tmp; else mv $@.tmp $@; fi
 $(BUILD)/gen/gpu/kernels.c: $(SPV) $(BUILD)/gen/gpu/kernels.h src/gpu/embed.sh
 	$(Q)sh src/gpu/embed.sh source $(BUILD)/shaders $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
 $(BUILD)/gen/gpu/kernels.o: $(BUILD)/gen/gpu/kernels.c $(BUILD)/gen/gpu/kernels.h

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Material points back to the rock's particles: place, velocity, what is left, phase and stress.
+// Material points back to the rock's particles: place, velocity, what is left, phase and stress. Those faster
+// than k.fastest are falling.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -21,8 +22,6 @@ PARAMS(mpm_params)
 #include "mpm/grid.glsl"
 #include "mpm/rock.glsl"
 
-const float MOVING = 0.3; // m/s
-
 void main()
 {
     uint i = THREAD;
@@ -38,7 +37,7 @@ void main()
     AT(position, j) = vec4(xh.xyz, 0.0);
     AT(velocity_out, j) = vec4(v, 0.0);
     AT(viability, j) = mpm_in_domain(xh.xyz) ? LOAD_F(share, i) : 0.0;
-    AT(phase, j) = length(v) > MOVING ? PHASE_FALLING : LOAD_F(apart, i) >= 0.0 ? PHASE_DEPOSIT : PHASE_ROCK;
+    AT(phase, j) = length(v) > k.fastest ? PHASE_FALLING : LOAD_F(apart, i) >= 0.0 ? PHASE_DEPOSIT : PHASE_ROCK;
     AT(stress, j) = -3.0 * mean;
     AT(von_mises, j) = sqrt(1.5 * (dot(d[0], d[0]) + dot(d[1], d[1]) + dot(d[2], d[2])));
 }

@@ -52,17 +52,35 @@ done:
     return st;
 }
 
+/* What stands on the ground, of the particles as they are. Waits. */
+static status find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p)
+{
+    size_t n = voxel_count(p->voxels);
+    struct voxel_params k = particles_params(p, n);
+    particles_fill(gpu, p);
+    GPU_RUN(gpu, blocks_solid, n, k, p->fill, b->solid);
+    return blocks_join(gpu, work, b, p->voxels);
+}
+
+status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p, size_t *n)
+{
+    status st = OK;
+    TRY(find(gpu, work, b, p));
+    struct voxel_params k = particles_params(p, p->n);
+    GPU_RUN(gpu, blocks_loose, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->flags);
+    TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, n));
+    p->n_surface = 0;
+done:
+    return st;
+}
+
 status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
                    uint32_t *n_fallen)
 {
     status st = OK;
-    size_t n = voxel_count(p->voxels);
-    struct voxel_params k = particles_params(p, n);
+    struct voxel_params k = particles_params(p, p->n);
     struct gpu_buffer *counts = gpu_work_words(work);
-    particles_fill(gpu, p);
-    GPU_RUN(gpu, blocks_solid, n, k, p->fill, b->solid);
-    TRY(blocks_join(gpu, work, b, p->voxels));
-    k.n = (uint)p->n;
+    TRY(find(gpu, work, b, p));
     GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->field[ROCK_viability],
             counts);
     TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_fallen, 1));

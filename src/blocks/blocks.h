@@ -24,6 +24,10 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b);
  * is in the first slab if the block stands on the ground. Leaves gpu_work_words() zero. Waits. */
 MUST_USE status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const int voxels[3]);
 
+/* Lists unsupported particles in p->surface, ascending; the surface is to be found anew after this. Waits. */
+MUST_USE status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
+                             size_t *n);
+
 /* Takes the viability of unsupported particles and counts them; they are not yet removed. Waits. */
 MUST_USE status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
                             uint32_t *n_fallen);

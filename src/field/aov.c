@@ -52,7 +52,7 @@ uint64_t aov_bytes(size_t n_pixels)
 uint64_t aov_picture_bytes(const struct job *job)
 {
     return (uint64_t)aov_pixels(job) * 4 *
-           (20 + (job->output.aov.cryptomatte ? (uint64_t)MATTE_CHANNELS : 0));
+           (22 + (job->output.aov.cryptomatte ? (uint64_t)MATTE_CHANNELS : 0));
 }
 
 status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struct aov *a)
@@ -188,6 +188,37 @@ done:
     return st;
 }
 
+/* Where each pixel's piece of the surface will be in the next frame's picture, in pixels from here, x to the
+ * right and y up: its own way and the camera's. */
+static status find_motion(struct gpu *gpu, const struct job *job, const struct job_camera *camera, int frame,
+                          const struct particles *p, const float *hit, const uint32_t *ids, float *motion)
+{
+    status st = OK;
+    const struct camera now = camera_of(camera, frame), next = camera_of(camera, frame + 1);
+    int margin[2];
+    float *v = NULL;
+    overscan_of(camera, margin);
+    size_t n = ((size_t)now.width + 2 * (size_t)margin[0]) * ((size_t)now.height + 2 * (size_t)margin[1]);
+    TRY(memory_alloc(4 * p->n, sizeof *v, "velocities", &v));
+    TRY(gpu_download(gpu, p->field[ROCK_v], 0, v, p->n));
+    for (size_t i = 0; i < n; i++) {
+        double from[2], to[2], x[3], then[3];
+        if (hit[4 * i + 3] < 0)
+            continue;
+        for (size_t a = 0; a < 3; a++) {
+            x[a] = (double)hit[4 * i + a];
+            then[a] = x[a] + job->clock.seconds_per_frame * (double)v[4 * (size_t)ids[3 * i + 2] + a];
+        }
+        if (!camera_project(&now, x, from) || !camera_project(&next, then, to))
+            continue;
+        motion[4 * i] = (float)(to[0] - from[0]);
+        motion[4 * i + 1] = (float)(from[1] - to[1]);
+    }
+done:
+    free(v);
+    return st;
+}
+
 status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const struct job_camera *camera,
                   int frame, const struct field *f, const struct particles *p, const struct aov_air *air,
                   struct aov_image *out)
@@ -201,7 +232,7 @@ status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const s
     float *source[AOV_SOURCES] = {NULL};
     uint32_t *ids = NULL;
     struct mattes *mattes = NULL;
-    struct gpu_buffer *from[AOV_SOURCES] = {a->hit, a->facing, a->color, a->fields, a->weather};
+    struct gpu_buffer *from[FROM_MOTION] = {a->hit, a->facing, a->color, a->fields, a->weather};
     *out = (struct aov_image){
         .camera = camera->name, .width = c.width, .height = c.height, .margin = {margin[0], margin[1]}};
     TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &ids));
@@ -209,11 +240,15 @@ status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const s
         TRY(mattes_create(job, n, &mattes));
     TRY(sample(gpu, a, job, &c, f, p, mattes, ids));
     record_weather(gpu, a, n, p, air);
-    for (int s = 0; s < AOV_SOURCES; s++) {
+    for (int s = 0; s < FROM_MOTION; s++) {
         TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &source[s]));
         TRY(gpu_download(gpu, from[s], 0, source[s], n));
     }
     TRY(gpu_download(gpu, a->ids, 0, ids, 3 * n));
+    if (job->clock.seconds_per_frame > 0 && job_wants_layer(job, AOV_motion)) {
+        TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &source[FROM_MOTION]));
+        TRY(find_motion(gpu, job, camera, frame, p, source[FROM_HIT], ids, source[FROM_MOTION]));
+    }
     TRY(aov_channels(job, source, ids, mattes, out));
     camera_matrices(&view, job->output.up, out->world_to_camera, out->world_to_ndc);
 done:

@@ -81,6 +81,17 @@ struct camera camera_overscan(struct camera c, const int margin[2])
     return c;
 }
 
+bool camera_project(const struct camera *c, const double x[3], double px[2])
+{
+    const double d[3] = {x[0] - c->eye[0], x[1] - c->eye[1], x[2] - c->eye[2]};
+    double depth = dot(d, c->ahead);
+    if (depth <= 0)
+        return false;
+    px[0] = 0.5 * c->width * (1 + dot(d, c->right) / dot(c->right, c->right) / depth);
+    px[1] = 0.5 * c->height * (1 + dot(d, c->down) / dot(c->down, c->down) / depth);
+    return true;
+}
+
 void camera_matrices(const struct camera *c, int up, double world_to_camera[16], double world_to_ndc[16])
 {
     double half_width = sqrt(dot(c->right, c->right)), half_height = sqrt(dot(c->down, c->down));

@@ -2,6 +2,8 @@
 #ifndef HOODOO_CAMERA_H
 #define HOODOO_CAMERA_H
 
+#include <stdbool.h>
+
 #include "job/job.h"
 
 struct camera {
@@ -20,6 +22,10 @@ struct camera camera_orbit(const double target[3], double distance, double azimu
 
 /* The same with a margin of pixels on every side. */
 struct camera camera_overscan(struct camera c, const int margin[2]);
+
+/* Where a point is in the picture: px from its upper left corner, x to the right, y down. False if it is not
+ * ahead of the camera. */
+bool camera_project(const struct camera *c, const double x[3], double px[2]);
 
 /* EXR's matrices, row vectors times matrix, from file axes (up y or z): to camera space (x right, y up, z
  * ahead: left-handed) and to normalised device coordinates (0, 0 upper left to 1, 1 lower right, after

@@ -32,6 +32,8 @@ static const struct {
     {AOV_vegetation, "vegetation.Y", FROM_WEATHER, 2, 0, 0},
     {AOV_layer, "layer.id", FROM_IDS, 0, 0, 0},
     {AOV_phase, "phase.id", FROM_IDS, 1, 0, 0},
+    {AOV_motion, "motion.X", FROM_MOTION, 0, 0, 0},
+    {AOV_motion, "motion.Y", FROM_MOTION, 1, 0, 0},
 };
 enum { TABLE = sizeof table / sizeof *table };
 
@@ -67,7 +69,8 @@ status aov_channels(const struct job *job, float *const source[AOV_SOURCES], con
     TRY(memory_alloc(n * (TABLE + n_mattes), sizeof(float), "a picture", &out->memory));
     float *plane = out->memory;
     for (size_t row = 0; row < TABLE; row++) {
-        if (!job_wants_layer(job, table[row].layer))
+        if (!job_wants_layer(job, table[row].layer) ||
+            (table[row].from < FROM_IDS && !source[table[row].from]))
             continue;
         struct aov_channel *c = &out->channel[out->n_channels++];
         *c = (struct aov_channel){

@@ -141,9 +141,28 @@ static status check_aov_cameras(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+/* Years or seconds: one of the two passes. */
+static status check_clock(const struct yaml *root, const struct job *job)
+{
+    const struct job_clock *c = &job->clock;
+    const struct yaml *map = yaml_get(root, "clock");
+    if (c->seconds_per_frame > 0 && c->years_per_frame > 0)
+        return yaml_fail(place(map, "seconds_per_frame"), NULL,
+                         "given beside years_per_frame (%g): leave one of them out, or set it to 0",
+                         c->years_per_frame);
+    if (c->seconds_per_frame == 0 && !(c->years_per_frame >= 1e-3))
+        return yaml_fail(place(map, "years_per_frame"), NULL, "%g, and no seconds_per_frame: no time passes",
+                         c->years_per_frame);
+    if (c->seconds_per_frame > 0 && job->model != MODEL_ARENITE)
+        return yaml_fail(place(map, "seconds_per_frame"), NULL,
+                         "only the model arenite has shots in real time");
+    return OK;
+}
+
 status check_job(const struct yaml *root, const struct job *job)
 {
     status st = OK;
+    TRY(check_clock(root, job));
     TRY(check_strata(root, job));
     TRY(check_aov_cameras(root, job));
     TRY(check_aov_layers(root, job));

@@ -98,6 +98,12 @@ status read_default(const struct job_key *key, const struct yaml *map, const cha
     return OK;
 }
 
+void read_default_clock(const struct yaml *root, struct job *job)
+{
+    if (job->clock.seconds_per_frame > 0 && !yaml_get(yaml_get(root, "clock"), "years_per_frame"))
+        job->clock.years_per_frame = 0;
+}
+
 status read_default_layer(const struct yaml *root, struct job *job)
 {
     if (job->n_strata)

@@ -143,6 +143,7 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     TRY(memory_alloc(1, sizeof *job, "the job", &job));
     TRY(read_section(SECTION_job, root, NULL, folder, job));
     TRY(read_default_layer(root, job));
+    read_default_clock(root, job);
     TRY(check_job(root, job));
     *out = job;
     job = NULL;

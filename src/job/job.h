@@ -92,6 +92,8 @@ struct job_node {
 enum { MODEL_ARENITE, MODEL_GOBLINS };
 enum { FLOW_SPH, FLOW_UNIFORM };
 enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
+enum { STRESS_PCG, STRESS_MPM };
+enum { COLLAPSE_VANISH, COLLAPSE_FALL };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
@@ -110,7 +112,8 @@ enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
     X(wind)                                                                                                  \
     X(vegetation)                                                                                            \
     X(layer)                                                                                                 \
-    X(phase)
+    X(phase)                                                                                                 \
+    X(motion)
 enum aov_layer {
 #define AOV_LAYER(name) AOV_##name,
     AOV_LAYERS(AOV_LAYER)

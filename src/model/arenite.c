@@ -19,6 +19,7 @@
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
+#include "model/collapse.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
@@ -35,6 +36,8 @@ struct model {
     struct gpu_work *work;
     struct particles particles;
     struct elastic elastic;
+    struct mpm mpm; /* stress.solver: mpm */
+    struct collapse collapse;
     struct erosion erosion;
     struct blocks blocks;
     struct field field;
@@ -60,6 +63,8 @@ static status remove_unsupported(struct model *m)
     status st = OK;
     uint32_t n_fallen = 0;
     gpu_stage(m->gpu, "blocks");
+    if (m->collapse.falls)
+        return collapse_blocks(m->gpu, m->work, &m->collapse, &m->blocks, &m->particles, &m->ledger);
     TRY(blocks_fall(m->gpu, m->work, &m->blocks, &m->particles, &n_fallen));
     m->ledger.rock -= n_fallen;
     m->ledger.fallen += n_fallen;
@@ -69,22 +74,35 @@ done:
     return st;
 }
 
-/* What follows from the shape: surface, normals, stress, erodibility. A resumed run has the displacement
- * already: `solved`. */
+/* Stress by the job's solver. The displacement is a resumed run's already: `solved`. */
+static status solve(struct model *m, bool solved)
+{
+    status st = OK;
+    struct elastic *e = &m->elastic;
+    if (m->job->stress.solver == STRESS_MPM)
+        return mpm_rest(m->gpu, m->work, &m->mpm, &m->particles, e->options.tolerance,
+                        e->options.max_iterations, &e->iterations, &e->error);
+    TRY(elastic_assemble(m->gpu, m->work, e, &m->particles));
+    if (!solved)
+        TRY(elastic_solve(m->gpu, m->work, e));
+    elastic_recover(m->gpu, e, &m->particles);
+done:
+    return st;
+}
+
+/* What follows from the shape: surface, normals, stress, erodibility. Rock in motion has its stress. */
 static status settle(struct model *m, bool solved)
 {
     status st = OK;
     gpu_stage(m->gpu, "surface");
     TRY(particles_surface(m->gpu, m->work, &m->particles));
     gpu_stage(m->gpu, "stress");
-    TRY(elastic_assemble(m->gpu, m->work, &m->elastic, &m->particles));
-    if (!solved)
-        TRY(elastic_solve(m->gpu, m->work, &m->elastic));
+    if (!m->collapse.shot)
+        TRY(solve(m, solved));
     if (m->elastic.iterations >= m->elastic.options.max_iterations)
         log_warn("frame %d: stress stopped after %d iterations with an error of %.2g (stress.max_iterations, "
                  "stress.tolerance %.2g)",
                  m->frame, m->elastic.iterations, m->elastic.error, m->elastic.options.tolerance);
-    elastic_recover(m->gpu, &m->elastic, &m->particles);
     gpu_stage(m->gpu, "erodibility");
     TRY(erosion_interlock(m->gpu, &m->erosion, m->job, m->frame, &m->particles));
 done:
@@ -95,6 +113,13 @@ static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
+    if (m->collapse.shot) {
+        gpu_stage(m->gpu, "collapse");
+        TRY(collapse_frame(m->gpu, m->work, &m->collapse, m->job->clock.seconds_per_frame, &m->particles,
+                           &m->ledger));
+        TRY(settle(m, false));
+        goto done;
+    }
     int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame));
     double kyr = m->job->clock.years_per_frame / 1000 / steps;
     for (int i = 0; i < steps && m->particles.n > 0; i++) {
@@ -204,6 +229,8 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->start_volume, sizeof m->start_volume);
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &m->elastic.iterations, 4);
+    if (m->collapse.shot)
+        TRY(collapse_save(m->gpu, &m->collapse, out));
 done:
     if (st != OK)
         checkpoint_free(out);
@@ -234,6 +261,12 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
     TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = c->frame;
+    TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+    /* A shot may begin where years have passed. */
+    if (m->collapse.shot && checkpoint_find(c, mpm_word_names[MPM_ID], 4))
+        TRY(collapse_restore(m->gpu, &m->collapse, &m->particles, c));
+    else if (m->collapse.shot)
+        TRY(collapse_load(m->gpu, &m->collapse, &m->particles));
 done:
     return st;
 }
@@ -246,7 +279,11 @@ static status begin(struct model *m, const int voxels[3])
     TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = m->job->frames.first;
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
-    TRY(remove_unsupported(m));
+    TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+    if (m->collapse.shot)
+        TRY(collapse_load(m->gpu, &m->collapse, &m->particles));
+    else
+        TRY(remove_unsupported(m));
     if (m->ledger.fallen)
         log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out",
                  m->frame, (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start);
@@ -268,6 +305,8 @@ static void destroy(struct model **handle)
     blocks_destroy(m->gpu, &m->blocks);
     erosion_destroy(m->gpu, &m->erosion);
     elastic_destroy(m->gpu, &m->elastic);
+    mpm_destroy(m->gpu, &m->mpm);
+    collapse_destroy(m->gpu, &m->collapse);
     particles_destroy(m->gpu, &m->particles);
     gpu_work_destroy(m->gpu, &m->work);
     free(m);
@@ -289,12 +328,20 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
         .tolerance = job->stress.tolerance,
         .max_iterations = (int)job->stress.max_iterations,
     };
+    const struct mpm_options material = {
+        .lambda = options.lambda,
+        .mu = options.mu,
+        .density = options.density,
+        .gravity = options.gravity,
+        .cfl = job->collapse.cfl,
+    };
     TRY(memory_alloc(1, sizeof *m, "the model", &m));
     m->gpu = gpu;
     m->job = job;
     gpu_stage(gpu, "start");
     TRY(scene_voxels(job, voxels));
-    TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
+    size_t nodes = mpm_nodes(voxels);
+    TRY(gpu_work_create(gpu, (nodes > voxel_count(voxels) ? nodes : voxel_count(voxels)) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
     TRY(field_create(gpu, voxels, h, &m->field));
@@ -302,6 +349,8 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(from ? restore(m, from, voxels) : begin(m, voxels));
     TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
+    if (job->stress.solver == STRESS_MPM && !m->collapse.shot)
+        TRY(mpm_create(gpu, voxels, h, m->particles.n_max, &material, &m->mpm));
     TRY(settle(m, from != NULL));
     *out = m;
     m = NULL;
@@ -324,7 +373,8 @@ static status estimate(const struct job *job, struct model_estimate *out)
         rock += n * rock_field_size((enum rock_field)f);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels);
+                        aov_bytes(pixels) + collapse_bytes(job, n, out->voxels) +
+                        (job->stress.solver == STRESS_MPM ? mpm_bytes(n, out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);

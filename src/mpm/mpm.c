@@ -127,9 +127,11 @@ void mpm_load(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_bu
             m->word[MPM_STRENGTH], m->word[MPM_ID], m->word[MPM_ORIGIN]);
 }
 
-void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p)
+void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p, bool moving)
 {
     struct mpm_params k = mpm_params_of(m, m->n, 0);
+    if (moving)
+        k.fastest = 0.3f;
     GPU_RUN(gpu, mpm_store, m->n, k, m->word[MPM_ORIGIN], m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
             m->vector[MPM_STRETCH_X], m->vector[MPM_STRETCH_Y], m->word[MPM_SHARE], m->word[MPM_APART],
             p->field[ROCK_P], p->field[ROCK_v], p->field[ROCK_viability], p->field[ROCK_phase],

@@ -90,9 +90,10 @@ void mpm_load(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_bu
  * finite. */
 MUST_USE status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double seconds);
 
-/* The particles of p they came from get place, velocity, viability (0 outside the domain), phase and stress. p
- * must not have been indexed since mpm_load() or mpm_follow(); those whose point is gone keep viability 0. */
-void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p);
+/* The particles of p they came from get place, velocity, viability (0 outside the domain), stress and phase:
+ * broken rock is deposit; what still moves is falling, unless it is said to have come to rest. p must not have
+ * been indexed since mpm_load() or mpm_follow(); those whose point is gone keep viability 0. */
+void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p, bool moving);
 
 /* After p was indexed: where each point's particle is now, by id. All ids are below n_ids; `table` is scratch of
  * n_ids words. */

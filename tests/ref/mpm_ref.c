@@ -170,7 +170,8 @@ void mpm_ref_step(const struct mpm_ref_rock *r, struct mpm_ref_particle *p, size
                 double d[3] = {i - 1 - (q)->x[0] / r->dx, j - 1 - (q)->x[1] / r->dx,                         \
                                k - 1 - (q)->x[2] / r->dx};                                                   \
                 double w = weight(d[0]) * weight(d[1]) * weight(d[2]);                                       \
-                double *node = grid[((size_t)k * (size_t)size[1] + (size_t)j) * (size_t)size[0] + (size_t)i]; \
+                double *node =                                                                               \
+                    grid[((size_t)k * (size_t)size[1] + (size_t)j) * (size_t)size[0] + (size_t)i];           \
                 if (w > 0) {
 #define END_NODE                                                                                             \
     }                                                                                                        \
@@ -181,9 +182,8 @@ void mpm_ref_step(const struct mpm_ref_rock *r, struct mpm_ref_particle *p, size
         kirchhoff(r, p[s].F, Q);
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++)
-                Q[a][b] = m * p[s].C[a][b] -
-                          4 * r->dt * volume / (r->dx * r->dx) *
-                              (Q[a][b] + r->viscosity * (p[s].C[a][b] + p[s].C[b][a]));
+                Q[a][b] = m * p[s].C[a][b] - 4 * r->dt * volume / (r->dx * r->dx) *
+                                                 (Q[a][b] + r->viscosity * (p[s].C[a][b] + p[s].C[b][a]));
         EACH_NODE(&p[s])
         for (int a = 0; a < 3; a++) {
             node[a] += w * m * p[s].v[a];

@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Which particles no block on the ground holds.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_V(0, position)
+READ_U(1, solid)
+READ_U(2, root)
+WRITE_U(3, flags)
+PARAMS(voxel_params)
+#include "particles/voxel.glsl"
+#include "blocks/stands.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(flags, i) = held(voxel_of(LOAD_V(position, i).xyz)) ? 0u : 1u;
+}

@@ -1,0 +1,217 @@
+#include "model/collapse.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "model/sections.h"
+
+bool collapse_shot(const struct job *job)
+{
+    return job->clock.seconds_per_frame > 0;
+}
+
+bool collapse_wanted(const struct job *job)
+{
+    return collapse_shot(job) || job->collapse.blocks == COLLAPSE_FALL;
+}
+
+uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3])
+{
+    return collapse_wanted(job) ? mpm_bytes(n, voxels) + 4 * (uint64_t)n : 0;
+}
+
+/* One more than the largest id. */
+static status count_ids(struct gpu *gpu, const struct particles *p, size_t *n)
+{
+    status st = OK;
+    uint32_t *ids = NULL;
+    *n = 1;
+    TRY(memory_alloc(p->n, sizeof *ids, "ids", &ids));
+    TRY(gpu_download(gpu, p->field[ROCK_id], 0, ids, p->n));
+    for (size_t i = 0; i < p->n; i++)
+        if (ids[i] >= *n)
+            *n = (size_t)ids[i] + 1;
+done:
+    free(ids);
+    return st;
+}
+
+status collapse_create(struct gpu *gpu, const struct job *job, const struct particles *p, struct collapse *c)
+{
+    status st = OK;
+    size_t n_ids;
+    const struct job_collapse *j = &job->collapse;
+    struct mpm_options options = {
+        .lambda = 1e9 * job->rock.lame_GPa,
+        .mu = 1e9 * job->rock.shear_GPa,
+        .density = job->rock.density_kg_m3,
+        .gravity = job->rock.gravity_m_s2,
+        .cfl = j->cfl,
+        .viscosity = j->viscosity,
+        .friction = j->friction,
+        .repose_deg = j->repose_deg,
+        .strength = 1e6 * j->strength_MPa,
+        .block = j->joints_m,
+        .seed = (uint32_t)job->seed,
+    };
+    *c = (struct collapse){
+        .shot = collapse_shot(job), .falls = j->blocks == COLLAPSE_FALL, .longest = j->longest_s};
+    if (!collapse_wanted(job))
+        return OK;
+    mpm_soften(&options, j->wave_m_s);
+    TRY(mpm_create(gpu, p->voxels, p->h, p->n_max, &options, &c->mpm));
+    if (c->shot) {
+        TRY(count_ids(gpu, p, &n_ids));
+        TRY(gpu_buffer_create(gpu, "particles by id", n_ids, 4, &c->table));
+    }
+done:
+    if (st != OK)
+        collapse_destroy(gpu, c);
+    return st;
+}
+
+void collapse_destroy(struct gpu *gpu, struct collapse *c)
+{
+    mpm_destroy(gpu, &c->mpm);
+    gpu_buffer_destroy(gpu, &c->table);
+}
+
+/* Rock and deposit by phase; what is in the air counts as fallen, beside what fell before. */
+static status count_phases(struct gpu *gpu, const struct particles *p, uint64_t fallen, struct ledger *ledger)
+{
+    status st = OK;
+    uint32_t *phase = NULL;
+    uint64_t n[3] = {0};
+    TRY(memory_alloc(p->n, sizeof *phase, "phases", &phase));
+    TRY(gpu_download(gpu, p->field[ROCK_phase], 0, phase, p->n));
+    for (size_t i = 0; i < p->n; i++)
+        n[phase[i] <= PHASE_FALLING ? phase[i] : PHASE_ROCK]++;
+    ledger->rock = n[PHASE_ROCK];
+    ledger->deposit = n[PHASE_DEPOSIT];
+    ledger->fallen = fallen + n[PHASE_FALLING];
+done:
+    free(phase);
+    return st;
+}
+
+/* ---- shots */
+
+status collapse_load(struct gpu *gpu, struct collapse *c, struct particles *p)
+{
+    struct count_params all = {(uint)p->n};
+    /* Loading takes viability out of p; the scratch of the surface is free here. */
+    GPU_RUN(gpu, gpu_iota, p->n, all, p->flags);
+    gpu_copy(gpu, c->mpm.speed, p->field[ROCK_viability], p->n);
+    mpm_load(gpu, &c->mpm, p, p->flags, p->n);
+    gpu_copy(gpu, p->field[ROCK_viability], c->mpm.speed, p->n);
+    return gpu_wait(gpu);
+}
+
+status collapse_frame(struct gpu *gpu, struct gpu_work *work, struct collapse *c, double seconds,
+                      struct particles *p, struct ledger *ledger)
+{
+    status st = OK;
+    uint64_t before = ledger->rock + ledger->deposit + ledger->fallen, fallen = before - p->n;
+    gpu_fill(gpu, p->field[ROCK_viability], 0);
+    TRY(mpm_run(gpu, work, &c->mpm, seconds));
+    mpm_store(gpu, &c->mpm, p, true);
+    TRY(particles_index(gpu, work, p));
+    mpm_follow(gpu, &c->mpm, p, c->table);
+    mpm_store(gpu, &c->mpm, p, true); /* what indexing does not carry along: velocity and stress */
+    ledger->left += before - fallen - p->n;
+    TRY(count_phases(gpu, p, fallen, ledger));
+done:
+    return st;
+}
+
+status collapse_save(struct gpu *gpu, const struct collapse *c, struct checkpoint *out)
+{
+    status st = OK;
+    const struct mpm *m = &c->mpm;
+    void *data;
+    for (int v = 0; v < MPM_VECTORS; v++) {
+        TRY(section_add(out, mpm_vector_names[v], 4, 4 * m->n, &data));
+        TRY(gpu_download(gpu, m->vector[v], 0, data, m->n));
+    }
+    for (int w = 0; w < MPM_ORIGIN; w++) {
+        TRY(section_add(out, mpm_word_names[w], 4, m->n, &data));
+        TRY(gpu_download(gpu, m->word[w], 0, data, m->n));
+    }
+    TRY(section_add(out, "mpm fastest", 8, 1, &data));
+    *(double *)data = m->fastest;
+done:
+    return st;
+}
+
+status collapse_restore(struct gpu *gpu, struct collapse *c, struct particles *p,
+                        const struct checkpoint *from)
+{
+    status st = OK;
+    struct mpm *m = &c->mpm;
+    const struct checkpoint_section *s;
+    TRY(section_find(from, mpm_word_names[MPM_ID], 4, p->n, &s));
+    m->n = p->n;
+    for (int v = 0; v < MPM_VECTORS; v++) {
+        TRY(section_find(from, mpm_vector_names[v], 4, 4 * m->n, &s));
+        TRY(gpu_upload(gpu, m->vector[v], 0, s->data, m->n));
+    }
+    for (int w = 0; w < MPM_ORIGIN; w++) {
+        TRY(section_find(from, mpm_word_names[w], 4, m->n, &s));
+        TRY(gpu_upload(gpu, m->word[w], 0, s->data, m->n));
+    }
+    TRY(section_find(from, "mpm fastest", 8, 1, &s));
+    m->fastest = *(const double *)s->data;
+    mpm_follow(gpu, m, p, c->table);
+    mpm_store(gpu, m, p, true);
+done:
+    return st;
+}
+
+/* ---- blocks within a frame */
+
+/* Until nothing has moved for REST looks in a row, a tenth of a second each. A body let go is faster than
+ * `still` after the first. */
+static status fall_to_rest(struct gpu *gpu, struct gpu_work *work, struct collapse *c, double *seconds)
+{
+    enum { REST = 3 };
+    const double look = 0.1, still = 0.05 * sqrt(c->mpm.options.gravity * c->mpm.dx);
+    status st = OK;
+    int at_rest = 0;
+    for (*seconds = 0; at_rest < REST && *seconds < c->longest && c->mpm.n > 0; *seconds += look) {
+        TRY(mpm_run(gpu, work, &c->mpm, look));
+        at_rest = c->mpm.fastest < still ? at_rest + 1 : 0;
+    }
+done:
+    return st;
+}
+
+status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *c, struct blocks *b,
+                       struct particles *p, struct ledger *ledger)
+{
+    status st = OK;
+    size_t n, before = p->n;
+    uint32_t crumbs;
+    double seconds;
+    TRY(blocks_loose(gpu, work, b, p, &n));
+    if (n == 0)
+        return OK;
+    mpm_load(gpu, &c->mpm, p, p->surface, n);
+    particles_fill(gpu, p);
+    c->mpm.fill = p->fill;
+    TRY(fall_to_rest(gpu, work, c, &seconds));
+    mpm_store(gpu, &c->mpm, p, false);
+    c->mpm.fill = NULL;
+    gpu_fill(gpu, p->field[ROCK_v], 0);
+    TRY(particles_index(gpu, work, p));
+    TRY(blocks_fall(gpu, work, b, p, &crumbs));
+    if (crumbs)
+        TRY(particles_index(gpu, work, p));
+    ledger->left += before - p->n;
+    TRY(count_phases(gpu, p, ledger->fallen, ledger));
+    log_note("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds, before - p->n,
+             (unsigned)crumbs);
+done:
+    return st;
+}

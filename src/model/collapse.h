@@ -1,0 +1,49 @@
+/* Falling rock, between the model and its material points: which particles move, for how long, and what they are
+ * afterwards. */
+#ifndef HOODOO_COLLAPSE_H
+#define HOODOO_COLLAPSE_H
+
+#include "blocks/blocks.h"
+#include "checkpoint/checkpoint.h"
+#include "job/job.h"
+#include "mpm/mpm.h"
+#include "particles/frame.h"
+
+struct collapse {
+    bool shot;  /* everything moves, in real time; else blocks fall within a frame */
+    bool falls; /* blocks fall instead of vanishing */
+    struct mpm mpm;
+    struct gpu_buffer *table; /* uint [ids]: scratch */
+    double longest;           /* s */
+};
+
+/* Is it a shot in real time? */
+bool collapse_shot(const struct job *job);
+
+/* Whether the job needs any of this. */
+bool collapse_wanted(const struct job *job);
+
+uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3]);
+MUST_USE status collapse_create(struct gpu *gpu, const struct job *job, const struct particles *p,
+                                struct collapse *out);
+void collapse_destroy(struct gpu *gpu, struct collapse *c);
+
+/* A shot's start: all of p, at rest. */
+MUST_USE status collapse_load(struct gpu *gpu, struct collapse *c, struct particles *p);
+
+/* A shot's frame. p is indexed after it; the ledger's `fallen` grows and shrinks with what is in the air. Waits.
+ */
+MUST_USE status collapse_frame(struct gpu *gpu, struct gpu_work *work, struct collapse *c, double seconds,
+                               struct particles *p, struct ledger *ledger);
+
+/* Blocks that nothing holds fall until they rest on ground and rock: p is indexed after it. What broke becomes
+ * deposit; what left the domain, and crumbs that rest without touching what stands, leave. Waits. */
+MUST_USE status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *c, struct blocks *b,
+                                struct particles *p, struct ledger *ledger);
+
+/* The shot's state, as sections of a checkpoint. */
+MUST_USE status collapse_save(struct gpu *gpu, const struct collapse *c, struct checkpoint *out);
+MUST_USE status collapse_restore(struct gpu *gpu, struct collapse *c, struct particles *p,
+                                 const struct checkpoint *from);
+
+#endif
