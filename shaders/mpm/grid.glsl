@@ -16,11 +16,17 @@ bool mpm_in_domain(vec3 x)
     return all(greaterThanEqual(x, vec3(0.0))) && all(lessThan(x, vec3(k.cx, k.cy, k.cz) * k.dx));
 }
 
+// In cells from node (1, 1, 1).
+vec3 mpm_cells(vec3 x)
+{
+    return x / k.dx + vec3(0.0, 0.0, k.lift);
+}
+
 // Where a particle lies in its 27 nodes: 1/2 to 3/2 from the first, in cells, when it was sorted; a little
 // beyond when it has moved since.
 vec3 mpm_offset(vec3 x, uint home)
 {
-    return x / k.dx - vec3(mpm_at(home) - 1);
+    return mpm_cells(x) - vec3(mpm_at(home) - 1);
 }
 
 // Quadratic B-splines at the three nodes. As polynomials they sum to 1, reproduce lines and have the variance

@@ -19,5 +19,5 @@ void main()
     vec3 x = LOAD_V(place, i).xyz;
     bool gone = LOAD_F(share, i) <= 0.0 || !mpm_in_domain(x);
     uint none = (k.cx + 3u) * (k.cy + 3u) * (k.cz + 3u);
-    AT(key, i) = gone ? none : mpm_index(ivec3(floor(x / k.dx - 0.5)) + 1);
+    AT(key, i) = gone ? none : mpm_index(ivec3(floor(mpm_cells(x) - 0.5)) + 1);
 }

@@ -30,7 +30,7 @@ void main()
     for (uint j = LOAD_U(start, cell); j < end; j++) {
         vec4 vq = LOAD_V(velocity, j), qx = LOAD_V(affine_x, j), qy = LOAD_V(affine_y, j);
         float m = k.mass * LOAD_F(share, j);
-        vec3 f = LOAD_V(place, j).xyz / k.dx - first, w[3];
+        vec3 f = mpm_cells(LOAD_V(place, j).xyz) - first, w[3];
         mpm_weights(f, w[0], w[1], w[2]);
         vec3 q0 = qx.xyz * k.dx, q1 = qy.xyz * k.dx, q2 = vec3(qx.w, qy.w, vq.w) * k.dx;
         vec3 v = vq.xyz - (f.x * q0 + f.y * q1 + f.z * q2);

@@ -24,7 +24,7 @@ void main()
     if (i >= k.n)
         return;
     uint node = LOAD_U(list, i);
-    ivec3 corner = 2 * (mpm_at(node) - 1);
+    ivec3 corner = 2 * (mpm_at(node) - 1) - ivec3(0, 0, int(2.0 * k.lift));
     float inside = 0.0;
     vec3 inward = vec3(0.0);
     for (int z = -2; z < 2; z++)

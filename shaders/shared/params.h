@@ -139,8 +139,9 @@ SHARED_SIZE(wind_params, 56)
 /* ---- plants */
 
 /* ---- mpm: material points on cells of 2 h. Nodes and base cells are numbered alike, on a lattice three longer
- * than the domain's cells on every axis: node (1, 1, 1) is the origin, and a particle's base cell is that of
- * the first of its 27 nodes. See mpm/mpm.h. */
+ * than the domain's cells on every axis; a particle's base cell is that of
+ * the first of its 27 nodes. Node (1, 1, 1) is the origin, or for rock in motion half a cell below: what lies on
+ * the ground then touches it without a gap. See mpm/mpm.h. */
 
 struct mpm_params {
     uint n;
@@ -156,8 +157,9 @@ struct mpm_params {
     float friction;              /* on ground and resting rock */
     float alpha;                 /* of Drucker and Prager's cone */
     float fastest;               /* m/s: nodes are not let go faster */
+    float lift;                  /* cells: of the domain above the nodes that are its ground */
 };
-SHARED_SIZE(mpm_params, 68)
+SHARED_SIZE(mpm_params, 72)
 
 struct mpm_load_params {
     uint n;

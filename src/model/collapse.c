@@ -55,6 +55,7 @@ status collapse_create(struct gpu *gpu, const struct job *job, const struct part
         .strength = 1e6 * j->strength_MPa,
         .block = j->joints_m,
         .seed = (uint32_t)job->seed,
+        .lift = 0.5,
     };
     *c = (struct collapse){
         .shot = collapse_shot(job), .falls = j->blocks == COLLAPSE_FALL, .longest = j->longest_s};

@@ -108,6 +108,7 @@ struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt)
         .friction = (float)o->friction,
         .alpha = (float)(sqrt(2.0 / 3) * 2 * sine / (3 - sine)),
         .fastest = 1e30f,
+        .lift = (float)o->lift,
     };
 }
 

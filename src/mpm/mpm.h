@@ -33,6 +33,7 @@ struct mpm_options {
     double strength;   /* Pa: tension at which rock breaks */
     double block;      /* m: spacing of joints, between which rock is MPM_BETWEEN_JOINTS as strong; 0: none */
     uint32_t seed;     /* of the joints */
+    double lift;       /* cells: 0 for equilibrium, whose ground is held; 0.5 for motion, see params.h */
 };
 
 /* Elastic moduli lowered so that waves run at `speed` m/s; their ratio stays. Never raised. */

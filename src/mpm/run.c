@@ -40,7 +40,7 @@ static void prime(struct gpu *gpu, struct mpm *m, double dt)
             m->vector[MPM_VELOCITY], m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y]);
 }
 
-static void step(struct gpu *gpu, struct mpm *m, const struct mpm_params *params, bool last)
+void mpm_step(struct gpu *gpu, struct mpm *m, const struct mpm_params *params, bool last)
 {
     struct mpm_params k = *params;
     k.n = (uint)m->n_cells;
@@ -64,8 +64,8 @@ status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double sec
     status st = OK;
     const struct mpm_options *o = &m->options;
     double fastest = m->fastest + o->gravity * seconds;
-    /* A wave's limit and viscosity's: 1 / dt = c / (cfl dx) (1 + 4 viscosity). */
-    double most = o->cfl * m->dx / (mpm_wave(o) * (1 + 4 * o->viscosity) + fastest);
+    /* A wave's limit and viscosity's: 1 / dt = c / (cfl dx) (1 + 2 viscosity). */
+    double most = o->cfl * m->dx / (mpm_wave(o) * (1 + 2 * o->viscosity) + fastest);
     long n = (long)ceil(seconds / most);
     double dt = seconds / (double)n;
     m->steps = 0;
@@ -76,7 +76,7 @@ status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double sec
         struct mpm_params k = mpm_params_of(m, m->n, dt);
         k.fastest = (float)(MOST * m->dx / (dt * (double)batch));
         for (long i = 0; i < batch; i++)
-            step(gpu, m, &k, m->steps + 1 == n);
+            mpm_step(gpu, m, &k, m->steps + 1 == n);
         TRY(look(gpu, work, m));
     }
     /* Those that left in the last steps go now. */

@@ -64,7 +64,8 @@ static inline struct mpm_options soft_rock(void)
                             .cfl = 0.4,
                             .friction = 0.6,
                             .repose_deg = 38,
-                            .strength = 1e12};
+                            .strength = 1e12,
+                            .lift = 0.5};
     mpm_soften(&o, 200);
     return o;
 }

@@ -19,6 +19,7 @@ static void rests_as_elastic_does(const char *name, const struct box *box, size_
     struct mpm_options o = soft_rock();
     o.lambda = 12e9;
     o.mu = 15e9;
+    o.lift = 0;
     struct body b = body_of(box, n_boxes, cells, 1, &o);
     struct elastic e;
     struct elastic_options options = {12e9, 15e9, 2300, 9.81, 1e-4, 20000};

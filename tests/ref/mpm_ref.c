@@ -6,7 +6,7 @@
 
 typedef double matrix[3][3];
 
-static void multiply(const matrix a, const matrix b, matrix out)
+static void multiply(matrix a, matrix b, matrix out)
 {
     matrix c;
     for (int i = 0; i < 3; i++)
@@ -18,21 +18,21 @@ static void multiply(const matrix a, const matrix b, matrix out)
     memcpy(out, c, sizeof c);
 }
 
-static void transposed(const matrix a, matrix out)
+static void transposed(matrix a, matrix out)
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             out[i][j] = a[j][i];
 }
 
-static double determinant(const matrix a)
+static double determinant(matrix a)
 {
     return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
            a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
            a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
 }
 
-static void inverse(const matrix a, matrix out)
+static void inverse(matrix a, matrix out)
 {
     double d = determinant(a);
     for (int i = 0; i < 3; i++)
@@ -43,7 +43,7 @@ static void inverse(const matrix a, matrix out)
 }
 
 /* F = R S, by many of Newton's steps. */
-static void polar(const matrix F, matrix R, matrix S)
+static void polar(matrix F, matrix R, matrix S)
 {
     memcpy(R, F, sizeof(matrix));
     for (int step = 0; step < 60; step++) {
@@ -60,7 +60,7 @@ static void polar(const matrix F, matrix R, matrix S)
 }
 
 /* Eigenvalues of a symmetric matrix by Jacobi's rotations; the largest. */
-static double largest_eigenvalue(const matrix symmetric)
+static double largest_eigenvalue(matrix symmetric)
 {
     matrix a;
     memcpy(a, symmetric, sizeof a);
@@ -82,7 +82,7 @@ static double largest_eigenvalue(const matrix symmetric)
 }
 
 /* tau = 2 mu (F - R) F^T + lambda (J - 1) J I */
-static void kirchhoff(const struct mpm_ref_rock *r, const matrix F, matrix tau)
+static void kirchhoff(const struct mpm_ref_rock *r, matrix F, matrix tau)
 {
     matrix R, S, d, Ft;
     polar(F, R, S);
@@ -98,9 +98,10 @@ static void kirchhoff(const struct mpm_ref_rock *r, const matrix F, matrix tau)
 
 double mpm_ref_energy(const struct mpm_ref_rock *r, const struct mpm_ref_particle *p)
 {
-    matrix R, S;
-    polar(p->F, R, S);
-    double sum = 0, J = determinant(p->F), volume = p->share * pow(r->dx / 2, 3);
+    matrix F, R, S;
+    memcpy(F, p->F, sizeof F);
+    polar(F, R, S);
+    double sum = 0, J = determinant(F), volume = p->share * pow(r->dx / 2, 3);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             sum += (S[i][j] - (i == j)) * (S[i][j] - (i == j));
@@ -168,7 +169,7 @@ void mpm_ref_step(const struct mpm_ref_rock *r, struct mpm_ref_particle *p, size
         for (int j = 0; j < size[1]; j++)                                                                    \
             for (int i = 0; i < size[0]; i++) {                                                              \
                 double d[3] = {i - 1 - (q)->x[0] / r->dx, j - 1 - (q)->x[1] / r->dx,                         \
-                               k - 1 - (q)->x[2] / r->dx};                                                   \
+                               k - 1.5 - (q)->x[2] / r->dx};                                                   \
                 double w = weight(d[0]) * weight(d[1]) * weight(d[2]);                                       \
                 double *node =                                                                               \
                     grid[((size_t)k * (size_t)size[1] + (size_t)j) * (size_t)size[0] + (size_t)i];           \

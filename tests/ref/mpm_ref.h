@@ -1,4 +1,6 @@
-/* One step of the material point method as the papers write it: particle by particle, node by node, in double
+/* The ground is the plane of nodes half a cell below the domain.
+
+ * One step of the material point method as the papers write it: particle by particle, node by node, in double
  * precision, with F itself and the stress's textbook forms. */
 #ifndef HOODOO_TESTS_MPM_REF_H
 #define HOODOO_TESTS_MPM_REF_H
