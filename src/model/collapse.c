@@ -107,6 +107,7 @@ status collapse_load(struct gpu *gpu, struct collapse *c, struct particles *p)
     gpu_copy(gpu, c->mpm.speed, p->field[ROCK_viability], p->n);
     mpm_load(gpu, &c->mpm, p, p->flags, p->n);
     gpu_copy(gpu, p->field[ROCK_viability], c->mpm.speed, p->n);
+    p->moving = true;
     return gpu_wait(gpu);
 }
 
@@ -154,6 +155,7 @@ status collapse_restore(struct gpu *gpu, struct collapse *c, struct particles *p
     const struct checkpoint_section *s;
     TRY(section_find(from, mpm_word_names[MPM_ID], 4, p->n, &s));
     m->n = p->n;
+    p->moving = true;
     for (int v = 0; v < MPM_VECTORS; v++) {
         TRY(section_find(from, mpm_vector_names[v], 4, 4 * m->n, &s));
         TRY(gpu_upload(gpu, m->vector[v], 0, s->data, m->n));

@@ -107,7 +107,10 @@ status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles 
 void particles_fill(struct gpu *gpu, struct particles *p)
 {
     struct voxel_params k = particles_params(p, voxel_count(p->voxels));
-    GPU_RUN(gpu, particles_fill, k.n, k, p->start, p->field[ROCK_viability], p->fill);
+    if (p->moving)
+        GPU_RUN(gpu, particles_spread, k.n, k, p->start, p->field[ROCK_P], p->field[ROCK_viability], p->fill);
+    else
+        GPU_RUN(gpu, particles_fill, k.n, k, p->start, p->field[ROCK_viability], p->fill);
 }
 
 status particles_surface(struct gpu *gpu, struct gpu_work *work, struct particles *p)

@@ -22,6 +22,7 @@ struct particles {
     size_t n_surface;
     struct gpu_buffer *flags, *place; /* scratch, uint [n_max] */
     struct gpu_buffer *spare_word, *spare_vector, *taken;
+    bool moving; /* particles are not in their voxels' middles: particles_fill() spreads them */
 };
 
 /* Bytes on the device for n particles in that many voxels. */

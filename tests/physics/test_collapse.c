@@ -165,7 +165,7 @@ static const char BLOCKS[] = "hoodoo: 1\nname: blocks\nframes: 1001-1100\nclock:
                              "    - box: {min_m: [2, 2, 0], max_m: [8, 10, 4]}\n"
                              "    - box: {min_m: [5, 4, 7], max_m: [11, 8, 10]}\n"
                              "collapse: {blocks: fall, strength_MPa: 0.5, joints_m: 2}\n"
-                             "wind: {abrasion: 0}\n";
+                             "wind: {abrasion: 0}\noutput: {aov: {samples: 1}}\n";
 
 static void blocks_become_rubble(void **state)
 {
