@@ -83,7 +83,7 @@ void main()
         e = slide(e, loose);
         next = r * e + (r - mat3(1.0));
     }
-    mat3 stress = r * body_stress(e) * transpose(r) + k.viscosity * (g + transpose(g));
+    mat3 stress = acting_stress(r * body_stress(e) * transpose(r), g);
     mat3 q = g - k.dt * k.push * stress;
     float speed = length(v);
     vec3 to = go(xh.xyz, k.dt * v, v);

@@ -20,6 +20,9 @@ WRITE_U(9, id)
 WRITE_U(10, origin)
 PARAMS(mpm_load_params)
 
+// Half a joint's width, in sizes of the pieces.
+const float JOINT = 0.1;
+
 // How far x is from the nearest face between the cells of two seeds, in units of the seeds' spacing.
 float to_joint(vec3 x)
 {
@@ -52,12 +55,12 @@ void main()
         return;
     uint j = LOAD_U(list, i);
     vec3 x = LOAD_V(position, j).xyz;
-    bool between = k.block > 0.0 && to_joint(x / k.block) > 0.12;
+    bool joint = k.block > 0.0 && to_joint(x / k.block) < JOINT;
     AT(place, i) = vec4(x, 0.0);
     AT(share, i) = AT(viability, j);
     AT(viability, j) = 0.0;
     AT(apart, i) = LOAD_U(phase, j) == PHASE_DEPOSIT ? 0.0 : MPM_WHOLE;
-    AT(strength, i) = between ? k.strength * MPM_BETWEEN_JOINTS : k.strength;
+    AT(strength, i) = joint ? k.joint : k.strength;
     AT(id, i) = LOAD_U(ids, j);
     AT(origin, i) = j;
 }

@@ -26,7 +26,7 @@ void main()
     mat3 c = mat3(cx.xyz, cy.xyz, vec3(cx.w, cy.w, v.w));
     mat3 f = mat3(hx.xyz, hy.xyz, vec3(hx.w, hy.w, LOAD_V(place, i).w)) + mat3(1.0);
     mat3 r = rotation_of(f), e = strain_of(r, f);
-    mat3 q = c - k.dt * k.push * (r * body_stress(e) * transpose(r) + k.viscosity * (c + transpose(c)));
+    mat3 q = c - k.dt * k.push * acting_stress(r * body_stress(e) * transpose(r), c);
     AT(velocity_out, i) = vec4(v.xyz, q[2].z);
     AT(affine_x_out, i) = vec4(q[0], q[2].x);
     AT(affine_y_out, i) = vec4(q[1], q[2].y);

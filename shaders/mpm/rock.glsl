@@ -36,6 +36,16 @@ mat3 body_stress(mat3 e)
     return 2.0 * k.mu * (e + e * e) + mat3(k.lambda * j * (1.0 + j));
 }
 
+// Kirchhoff stress as it acts: on the way back from an impact it is weaker, so that rock does not bounce like
+// rubber; and viscosity. `g` is the velocity's gradient.
+mat3 acting_stress(mat3 stress, mat3 g)
+{
+    float power = dot(stress[0], g[0]) + dot(stress[1], g[1]) + dot(stress[2], g[2]);
+    float size = sqrt(dot(stress[0], stress[0]) + dot(stress[1], stress[1]) + dot(stress[2], stress[2]));
+    float back = size > 0.0 ? clamp(-power / (size * MPM_REBOUND_RATE), 0.0, 1.0) : 0.0;
+    return stress * (1.0 + back * (k.rebound - 1.0)) + k.viscosity * (g + transpose(g));
+}
+
 // The largest principal value of a symmetric matrix.
 float most_tension(mat3 s)
 {

@@ -158,22 +158,24 @@ struct mpm_params {
     float alpha;                 /* of Drucker and Prager's cone */
     float fastest;               /* m/s: nodes are not let go faster */
     float lift;                  /* cells: of the domain above the nodes that are its ground */
+    float rebound;               /* share of elastic energy that comes back from an impact */
 };
-SHARED_SIZE(mpm_params, 72)
+SHARED_SIZE(mpm_params, 76)
+
+/* 1/s: unloading this fast gives back no more than the rebound's share; slower, more. */
+#define MPM_REBOUND_RATE 0.2f
 
 struct mpm_load_params {
     uint n;
     uint seed;
     float strength; /* Pa */
+    float joint;    /* Pa: at joints */
     float block;    /* m: size of the pieces that joints cut; 0: no joints */
 };
-SHARED_SIZE(mpm_load_params, 16)
+SHARED_SIZE(mpm_load_params, 20)
 
 /* Of a particle that has not broken; others hold how much they have come apart, as a volume strain. */
 #define MPM_WHOLE (-1.0f)
-
-/* How many times stronger than a joint the rock between joints is. */
-#define MPM_BETWEEN_JOINTS 6.0f
 
 /* Words of the static solver's scalars. */
 #define MPM_LAST 0u

@@ -50,10 +50,12 @@ status collapse_create(struct gpu *gpu, const struct job *job, const struct part
         .gravity = job->rock.gravity_m_s2,
         .cfl = j->cfl,
         .viscosity = j->viscosity,
+        .rebound = j->rebound,
         .friction = j->friction,
         .repose_deg = j->repose_deg,
         .strength = 1e6 * j->strength_MPa,
         .block = j->joints_m,
+        .joint = j->joint_strength,
         .seed = (uint32_t)job->seed,
         .lift = 0.5,
     };
@@ -213,7 +215,7 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
         TRY(particles_index(gpu, work, p));
     ledger->left += before - p->n;
     TRY(count_phases(gpu, p, ledger->fallen, ledger));
-    log_note("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds, before - p->n,
+    log_warn("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds, before - p->n,
              (unsigned)crumbs);
 done:
     return st;

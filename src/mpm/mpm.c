@@ -109,6 +109,7 @@ struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt)
         .alpha = (float)(sqrt(2.0 / 3) * 2 * sine / (3 - sine)),
         .fastest = 1e30f,
         .lift = (float)o->lift,
+        .rebound = (float)o->rebound,
     };
 }
 
@@ -117,6 +118,7 @@ void mpm_load(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_bu
     struct mpm_load_params k = {.n = (uint)n,
                                 .seed = m->options.seed,
                                 .strength = (float)m->options.strength,
+                                .joint = (float)(m->options.strength * m->options.joint),
                                 .block = (float)m->options.block};
     m->n = n;
     m->n_left = 0;

@@ -28,10 +28,12 @@ struct mpm_options {
     double gravity;    /* m/s2 */
     double cfl;        /* cells that the fastest wave may cross in a step; 0.3 to 0.5 */
     double viscosity;  /* share of a crossing of one cell: damps vibration, not motion; 0 or more */
+    double rebound;    /* share of elastic energy that comes back from an impact; 1: all */
     double friction;   /* on ground and resting rock */
     double repose_deg; /* friction angle of broken rock */
     double strength;   /* Pa: tension at which rock breaks */
-    double block;      /* m: spacing of joints, between which rock is MPM_BETWEEN_JOINTS as strong; 0: none */
+    double block;      /* m: size of the pieces between joints; 0: no joints */
+    double joint;      /* at joints, as a share of strength */
     uint32_t seed;     /* of the joints */
     double lift;       /* cells: 0 for equilibrium, whose ground is held; 0.5 for motion, see params.h */
 };

@@ -49,7 +49,7 @@ struct point {
 
 struct rock_c {
     int n[3]; /* nodes */
-    float dx, dt, lambda, mu, viscosity, push, mass, gravity, alpha;
+    float dx, dt, lambda, mu, viscosity, push, mass, gravity, alpha, rebound;
 };
 
 static void weights(float f, float w[3])
@@ -204,11 +204,19 @@ static void move_point(const struct rock_c *r, struct point *p, float (*grid)[4]
                 stress[j][i] = 2 * r->mu * S[j][i] + (i == j) * r->lambda * j1 * (1 + j1);
     }
     multiply(R, stress, t);
+    float tau[3][3], power = 0, size = 0;
     for (int j = 0; j < 3; j++)
         for (int i = 0; i < 3; i++) {
-            float tau = t[0][i] * R[0][j] + t[1][i] * R[1][j] + t[2][i] * R[2][j];
-            p->Q[j][i] = g[j][i] - r->dt * r->push * (tau + r->viscosity * (g[j][i] + g[i][j]));
+            tau[j][i] = t[0][i] * R[0][j] + t[1][i] * R[1][j] + t[2][i] * R[2][j];
+            power += tau[j][i] * g[j][i];
+            size += tau[j][i] * tau[j][i];
         }
+    size = sqrtf(size);
+    float back = size > 0 ? fminf(1, fmaxf(0, -power / (size * MPM_REBOUND_RATE))) : 0;
+    float give = 1 + back * (r->rebound - 1);
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++)
+            p->Q[j][i] = g[j][i] - r->dt * r->push * (give * tau[j][i] + r->viscosity * (g[j][i] + g[i][j]));
     for (int a = 0; a < 3; a++) {
         p->v[a] = v[a];
         p->x[a] += r->dt * v[a];
@@ -265,6 +273,7 @@ static void compare(void)
                             .gravity = 9.81,
                             .cfl = 0.4,
                             .viscosity = 0.1,
+                            .rebound = 0.1,
                             .friction = 0.6,
                             .repose_deg = 36,
                             .strength = 1e5,
@@ -317,7 +326,8 @@ static void compare(void)
                              .push = k.push,
                              .mass = k.mass,
                              .gravity = k.gravity,
-                             .alpha = k.alpha};
+                             .alpha = k.alpha,
+                             .rebound = k.rebound};
     float(*grid)[4] = need(nodes, 16);
     double device = INFINITY, plain = INFINITY, sorted = INFINITY, error = 0;
     for (int i = 0; i <= REPEATS; i++) { /* the first compiles */

@@ -62,6 +62,7 @@ static inline struct mpm_options soft_rock(void)
                             .density = 2300,
                             .gravity = 9.81,
                             .cfl = 0.4,
+                            .rebound = 1,
                             .friction = 0.6,
                             .repose_deg = 38,
                             .strength = 1e12,

@@ -13,7 +13,7 @@ static const char SHOT[] =
     "    - box: {min_m: [3, 3, 0], max_m: [6, 7, 7]}\n"
     "    - box: {min_m: [3, 3, 9.5], max_m: [14, 7, 12]}\n"
     "    - box: {min_m: [18, 4, 6], max_m: [19.9, 6, 8]}\n"
-    "collapse: {strength_MPa: 0.3, joints_m: 2}\n"
+    "collapse: {strength_MPa: 2, joints_m: 2}\n"
     "cameras: {main: {orbit: {target_m: [10, 5, 6], distance_m: 40, azimuth_deg: -90, elevation_deg: 0}, "
     "resolution: [160, 90]}}\n"
     "output: {aov: {cameras: [main]}}\n";
@@ -164,7 +164,7 @@ static const char BLOCKS[] = "hoodoo: 1\nname: blocks\nframes: 1001-1100\nclock:
                              "  union:\n"
                              "    - box: {min_m: [2, 2, 0], max_m: [8, 10, 4]}\n"
                              "    - box: {min_m: [5, 4, 7], max_m: [11, 8, 10]}\n"
-                             "collapse: {blocks: fall, strength_MPa: 0.5, joints_m: 2}\n"
+                             "collapse: {blocks: fall, strength_MPa: 2, joints_m: 2}\n"
                              "wind: {abrasion: 0}\noutput: {aov: {samples: 1}}\n";
 
 static void blocks_become_rubble(void **state)

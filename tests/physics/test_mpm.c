@@ -100,6 +100,7 @@ static void step_as_plain_c(void **state)
     struct mpm_options o = soft_rock();
     o.viscosity = 0.1;
     o.strength = 4e5;
+    o.rebound = 0.3;
     struct body b = body_of(box, 2, (int[]){6, 6, 8}, 1, &o);
     struct points s = points_of(&b);
     struct mpm_ref_particle *p = calloc(s.n, sizeof *p);
@@ -111,6 +112,7 @@ static void step_as_plain_c(void **state)
                              .lambda = o.lambda,
                              .mu = o.mu,
                              .viscosity = o.viscosity * o.density * wave,
+                             .rebound = o.rebound,
                              .gravity = o.gravity,
                              .friction = o.friction,
                              .alpha = sqrt(2.0 / 3) * 2 * sine / (3 - sine)};
@@ -295,7 +297,8 @@ static void slab_hits_and_rests(void **state)
     /* A cantilever cut off its wall, one end lower. */
     const struct box box[] = {{{3, 3, 6}, {13, 6, 8}}, {{3, 3, 4}, {6, 6, 6}}};
     struct mpm_options o = soft_rock();
-    o.viscosity = 0.1;
+    o.viscosity = 0.3;
+    o.rebound = 0.1;
     struct body b = body_of(box, 2, (int[]){16, 9, 10}, 1, &o);
     double lowest = 1e30, at_rest = -1, moved = 0;
     float *before = NULL;
@@ -342,7 +345,8 @@ static void blocks_do_not_pass(void **state)
 {
     const struct box box[] = {{{3, 3, 0}, {7, 7, 3}}, {{3.5, 3.5, 8}, {6.5, 6.5, 11}}};
     struct mpm_options o = soft_rock();
-    o.viscosity = 0.1;
+    o.viscosity = 0.3;
+    o.rebound = 0.1;
     struct body b = body_of(box, 2, (int[]){10, 10, 12}, 1, &o);
     size_t n_low = 4 * 4 * 3 * 8;
     double gap = 1e30, lower = 0, upper = 0;

@@ -169,7 +169,7 @@ void mpm_ref_step(const struct mpm_ref_rock *r, struct mpm_ref_particle *p, size
         for (int j = 0; j < size[1]; j++)                                                                    \
             for (int i = 0; i < size[0]; i++) {                                                              \
                 double d[3] = {i - 1 - (q)->x[0] / r->dx, j - 1 - (q)->x[1] / r->dx,                         \
-                               k - 1.5 - (q)->x[2] / r->dx};                                                   \
+                               k - 1.5 - (q)->x[2] / r->dx};                                                 \
                 double w = weight(d[0]) * weight(d[1]) * weight(d[2]);                                       \
                 double *node =                                                                               \
                     grid[((size_t)k * (size_t)size[1] + (size_t)j) * (size_t)size[0] + (size_t)i];           \
@@ -181,6 +181,16 @@ void mpm_ref_step(const struct mpm_ref_rock *r, struct mpm_ref_particle *p, size
         matrix Q;
         double m = whole * p[s].share, volume = m / r->density;
         kirchhoff(r, p[s].F, Q);
+        double power = 0, size = 0;
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++) {
+                power += Q[a][b] * p[s].C[a][b];
+                size += Q[a][b] * Q[a][b];
+            }
+        double back = fmin(1, fmax(0, -power / (0.2 * sqrt(size) + 1e-30)));
+        for (int a = 0; a < 3; a++)
+            for (int b = 0; b < 3; b++)
+                Q[a][b] *= 1 + back * (r->rebound - 1);
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++)
                 Q[a][b] = m * p[s].C[a][b] - 4 * r->dt * volume / (r->dx * r->dx) *

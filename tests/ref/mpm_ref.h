@@ -10,7 +10,7 @@
 struct mpm_ref_rock {
     int cells[3];
     double dx, dt; /* m, s */
-    double density, lambda, mu, viscosity, gravity, friction, alpha;
+    double density, lambda, mu, viscosity, rebound, gravity, friction, alpha;
 };
 
 struct mpm_ref_particle {
