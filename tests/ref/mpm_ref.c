@@ -181,13 +181,13 @@ void mpm_ref_step(const struct mpm_ref_rock *r, struct mpm_ref_particle *p, size
         matrix Q;
         double m = whole * p[s].share, volume = m / r->density;
         kirchhoff(r, p[s].F, Q);
-        double power = 0, size = 0;
+        double power = 0, square = 0;
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++) {
                 power += Q[a][b] * p[s].C[a][b];
-                size += Q[a][b] * Q[a][b];
+                square += Q[a][b] * Q[a][b];
             }
-        double back = fmin(1, fmax(0, -power / (0.2 * sqrt(size) + 1e-30)));
+        double back = fmin(1, fmax(0, -power / (0.2 * sqrt(square) + 1e-30)));
         for (int a = 0; a < 3; a++)
             for (int b = 0; b < 3; b++)
                 Q[a][b] *= 1 + back * (r->rebound - 1);
