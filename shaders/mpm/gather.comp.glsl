@@ -34,8 +34,16 @@ bool resting_rock(vec3 x)
     return LOAD_F(fill, (uint(v.z) * uint(n.y) + uint(v.y)) * uint(n.x) + uint(v.x)) > 0.5;
 }
 
-// The way from x by d as far as ground and resting rock let it go, axis by axis. Axes that are stopped lose
-// their velocity.
+// What is left of v once axis a is stopped: nothing along it, and less across it, by friction.
+vec3 stopped(vec3 v, int a)
+{
+    float into = abs(v[a]);
+    v[a] = 0.0;
+    float speed = length(v);
+    return speed > 0.0 ? v * max(1.0 - k.friction * into / speed, 0.0) : v;
+}
+
+// The way from x by d as far as ground and resting rock let it go, axis by axis.
 vec3 go(vec3 x, vec3 d, inout vec3 v)
 {
     vec3 to = x + d;
@@ -45,14 +53,15 @@ vec3 go(vec3 x, vec3 d, inout vec3 v)
             vec3 next = to;
             next[a] += d[a];
             if (resting_rock(next))
-                v[a] = 0.0;
+                v = stopped(v, a);
             else
                 to = next;
         }
     }
     if (to.z < 0.0) {
         to.z = 0.0;
-        v.z = max(v.z, 0.0);
+        if (v.z < 0.0)
+            v = stopped(v, 2);
     }
     return to;
 }

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Nodes inside resting rock, where half or more of the eight voxels around is rock, and the normal out of it.
+// Nodes inside resting rock, all around which is rock, and the normal out of it. Its faces themselves stop single
+// particles (mpm/gather), so that bodies touch what they rest on.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -36,5 +37,5 @@ void main()
                 inside += x >= -1 && x < 1 && y >= -1 && y < 1 && z >= -1 && z < 1 ? rock : 0.0;
             }
     float size = length(inward);
-    AT(wall, node) = inside >= 4.0 ? vec4(size > 0.1 ? -inward / size : vec3(0.0, 0.0, 1.0), 1.0) : vec4(0.0);
+    AT(wall, node) = inside >= 7.0 ? vec4(size > 0.1 ? -inward / size : vec3(0.0, 0.0, 1.0), 1.0) : vec4(0.0);
 }

@@ -140,7 +140,7 @@ SHARED_SIZE(wind_params, 56)
 
 /* ---- mpm: material points on cells of 2 h. Nodes and base cells are numbered alike, on a lattice three longer
  * than the domain's cells on every axis; a particle's base cell is that of
- * the first of its 27 nodes. Node (1, 1, 1) is the origin, or for rock in motion half a cell below: what lies on
+ * the first of its 27 nodes. Node (1, 1, 1) is the origin, or for rock in motion 3/4 of a cell below: what lies on
  * the ground then touches it without a gap. See mpm/mpm.h. */
 
 struct mpm_params {

@@ -57,7 +57,7 @@ status collapse_create(struct gpu *gpu, const struct job *job, const struct part
         .block = j->joints_m,
         .joint = j->joint_strength,
         .seed = (uint32_t)job->seed,
-        .lift = 0.5,
+        .lift = 0.75,
     };
     *c = (struct collapse){
         .shot = collapse_shot(job), .falls = j->blocks == COLLAPSE_FALL, .longest = j->longest_s};
@@ -215,7 +215,7 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
         TRY(particles_index(gpu, work, p));
     ledger->left += before - p->n;
     TRY(count_phases(gpu, p, ledger->fallen, ledger));
-    log_warn("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds, before - p->n,
+    log_note("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds, before - p->n,
              (unsigned)crumbs);
 done:
     return st;

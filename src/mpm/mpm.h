@@ -35,7 +35,7 @@ struct mpm_options {
     double block;      /* m: size of the pieces between joints; 0: no joints */
     double joint;      /* at joints, as a share of strength */
     uint32_t seed;     /* of the joints */
-    double lift;       /* cells: 0 for equilibrium, whose ground is held; 0.5 for motion, see params.h */
+    double lift;       /* cells: 0 for equilibrium, whose ground is held; 0.75 for motion, see params.h */
 };
 
 /* Elastic moduli lowered so that waves run at `speed` m/s; their ratio stays. Never raised. */

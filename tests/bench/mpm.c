@@ -67,7 +67,7 @@ static void scatter_cell(const struct rock_c *r, const struct point *p, size_t n
     for (size_t s = 0; s < n; s++) {
         float f[3], w[3][3], v[3], m = r->mass * p[s].share;
         for (int a = 0; a < 3; a++) {
-            f[a] = p[s].x[a] / r->dx + (a == 2 ? 0.5f : 0) - (float)(home[a] - 1);
+            f[a] = p[s].x[a] / r->dx + (a == 2 ? 0.75f : 0) - (float)(home[a] - 1);
             weights(f[a], w[a]);
         }
         for (int a = 0; a < 3; a++)
@@ -116,7 +116,7 @@ static void move_point(const struct rock_c *r, struct point *p, float (*grid)[4]
     int home[3];
     float f[3], w[3][3], v[3] = {0}, g[3][3] = {{0}}, F[3][3], R[3][3], S[3][3], t[3][3], stress[3][3];
     for (int a = 0; a < 3; a++) {
-        float at = p->x[a] / r->dx + (a == 2 ? 0.5f : 0);
+        float at = p->x[a] / r->dx + (a == 2 ? 0.75f : 0);
         home[a] = (int)(at - 0.5f) + 1;
         f[a] = at - (float)(home[a] - 1);
         weights(f[a], w[a]);
@@ -277,7 +277,7 @@ static void compare(void)
                             .friction = 0.6,
                             .repose_deg = 36,
                             .strength = 1e5,
-                            .lift = 0.5};
+                            .lift = 0.75};
     mpm_soften(&o, 200);
     check(gpu_create(&(struct gpu_options){.device = "auto"}, &gpu));
     check(gpu_work_create(gpu, nodes + 2, &work));

@@ -66,7 +66,7 @@ static inline struct mpm_options soft_rock(void)
                             .friction = 0.6,
                             .repose_deg = 38,
                             .strength = 1e12,
-                            .lift = 0.5};
+                            .lift = 0.75};
     mpm_soften(&o, 200);
     return o;
 }

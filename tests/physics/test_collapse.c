@@ -78,7 +78,8 @@ static void shot_falls(void **state)
         "px a frame (%.3f expected)\n",
         moving, frame.rock.n, most, -down, px);
     assert_true(lowest >= 0);
-    assert_true(moving > 1000);
+    /* The beam and the small block; the pillar stands. */
+    assert_true(moving > 900 && moving < 1000);
     assert_true(most > 4 && most < 5.5);
     assert_true(fabs(-down / px - 1) < 0.03);
     frame_free(&frame);
@@ -159,11 +160,11 @@ static void threads_do_not_matter(void **state)
 /* ---- blocks between frames */
 
 static const char BLOCKS[] = "hoodoo: 1\nname: blocks\nframes: 1001-1100\nclock: {years_per_frame: 500}\n"
-                             "domain: {size_m: [16, 12, 14], spacing_m: 0.5}\n"
+                             "domain: {size_m: [24, 12, 14], spacing_m: 0.5}\n"
                              "scene:\n"
                              "  union:\n"
                              "    - box: {min_m: [2, 2, 0], max_m: [8, 10, 4]}\n"
-                             "    - box: {min_m: [5, 4, 7], max_m: [11, 8, 10]}\n"
+                             "    - box: {min_m: [3.5, 4, 7], max_m: [6.5, 8, 9]}\n"
                              "collapse: {blocks: fall, strength_MPa: 2, joints_m: 2}\n"
                              "wind: {abrasion: 0}\noutput: {aov: {samples: 1}}\n";
 
@@ -171,28 +172,28 @@ static void blocks_become_rubble(void **state)
 {
     struct sim s = sim_begin(BLOCKS);
     struct frame frame = sim_output(&s);
-    size_t high = 0, inside = 0, block = 6 * 4 * 3 * 8, off = 0;
+    size_t hanging = 0, inside = 0, block = 3 * 4 * 2 * 8, on_top = 0;
     (void)state;
     adds_up(&frame);
     for (size_t i = 0; i < frame.rock.n; i++) {
         const float *x = frame.rock.P + 4 * i;
         bool fell = frame.rock.id[i] >= frame.ledger.start - block;
-        high += fell && (double)x[2] > 8;
-        off += fell && (double)x[0] > 8.5;
+        hanging += fell && (double)x[2] > 8.5;
+        on_top += fell && (double)x[2] > 4;
         /* The resting block's own voxels are full. */
         inside += fell && (double)x[0] < 7.9 && (double)x[0] > 2 && (double)x[2] < 3.9;
         assert_true(frame.rock.phase[i] != 2);
         assert_true((double)x[2] >= 0);
     }
     print_message(
-        "# a block of %zu particles over the edge of another: %llu rock, %llu deposit, %llu left; %zu "
-        "particles inside the other block, %zu beside it, %zu still hang\n",
+        "# a block of %zu particles dropped on another: %llu rock, %llu deposit, %llu left; %zu particles "
+        "inside the other block, %zu on it, %zu still hang\n",
         block, (unsigned long long)frame.ledger.rock, (unsigned long long)frame.ledger.deposit,
-        (unsigned long long)frame.ledger.left, inside, off, high);
+        (unsigned long long)frame.ledger.left, inside, on_top, hanging);
     assert_int_equal(frame.ledger.fallen, 0);
     assert_int_equal(inside, 0);
-    assert_int_equal(high, 0);
-    assert_true(off > block / 10);
+    assert_int_equal(hanging, 0);
+    assert_true(on_top > block / 2);
     assert_true(frame.ledger.left < block / 4);
     assert_true(frame.ledger.deposit > 0);
     frame_free(&frame);

@@ -295,10 +295,13 @@ static void spin_momentum_energy(void **state)
 static void slab_hits_and_rests(void **state)
 {
     /* A cantilever cut off its wall, one end lower. */
-    const struct box box[] = {{{3, 3, 6}, {13, 6, 8}}, {{3, 3, 4}, {6, 6, 6}}};
+    const struct box box[] = {{{3, 3, 6}, {13, 6, 8}}, {{3, 3, 5}, {5, 6, 6}}};
     struct mpm_options o = soft_rock();
     o.viscosity = 0.3;
     o.rebound = 0.1;
+    o.strength = 2e6;
+    o.block = 2.5;
+    o.joint = 0.05;
     struct body b = body_of(box, 2, (int[]){16, 9, 10}, 1, &o);
     double lowest = 1e30, at_rest = -1, moved = 0;
     float *before = NULL;
@@ -306,16 +309,14 @@ static void slab_hits_and_rests(void **state)
     for (int f = 1; f <= 96; f++) {
         assert_ok(mpm_run(b.gpu, b.work, &b.m, 1.0 / 24));
         struct points s = points_of(&b);
-        double fastest = 0;
+        struct totals whole = totals_of(&b, &s);
+        double speed = sqrt(2 * whole.kinetic / whole.mass);
         assert_int_equal(s.n, b.n);
-        for (size_t i = 0; i < s.n; i++) {
+        for (size_t i = 0; i < s.n; i++)
             lowest = fmin(lowest, (double)point_x(&s, i)[2]);
-            for (int a = 0; a < 3; a++)
-                fastest = fmax(fastest, fabs((double)point_v(&s, i)[a]));
-        }
-        if (fastest < 0.1 && at_rest < 0)
+        if (speed < 0.05 && at_rest < 0)
             at_rest = f / 24.0;
-        else if (fastest >= 0.1)
+        else if (speed >= 0.05)
             at_rest = -1;
         if (f >= 72) {
             float *x = calloc(b.n, 12);
@@ -330,10 +331,10 @@ static void slab_hits_and_rests(void **state)
         }
         points_free(&s);
     }
-    print_message(
-        "# a cantilever let go rests after %.2f s; its lowest particle is never below %.4f m; in the "
-        "following second no particle moves more than %.4f m\n",
-        at_rest, lowest, moved);
+    print_message("# a cantilever let go rests (rms speed below 0.05 m/s from there on) after %.2f s; its "
+                  "lowest particle is never below %.4f m; in the "
+                  "following second no particle moves more than %.4f m\n",
+                  at_rest, lowest, moved);
     assert_true(lowest >= 0);
     assert_true(at_rest > 0 && at_rest <= 3);
     assert_true(moved < 0.1);

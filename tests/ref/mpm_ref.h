@@ -1,4 +1,4 @@
-/* The ground is the plane of nodes half a cell below the domain.
+/* The ground is the plane of nodes three quarters of a cell below the domain.
 
  * One step of the material point method as the papers write it: particle by particle, node by node, in double
  * precision, with F itself and the stress's textbook forms. */
