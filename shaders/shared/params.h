@@ -128,7 +128,29 @@ struct wind_params {
 };
 SHARED_SIZE(wind_params, 56)
 
-/* ---- water */
+/* ---- water: see water/water.h. Cells are 2 x 2 x 2 voxels; voxel v lies in cell (v + shift) / 2. A column's
+ * cells are bits, `words` words of 32 levels each; its spans are nodes, numbered upwards, column by column. */
+
+#define WATER_EMPTY 0u
+#define WATER_SURF 1u
+#define WATER_WALL 2u
+#define WATER_SOLID 3u
+#define WATER_KIND 3u
+#define WATER_OUT 4u
+#define WATER_DEAD 8u
+
+struct water_params {
+    uint n;
+    uint vx, vy, vz; /* voxels of the domain */
+    uint sx, sy, sz; /* shift */
+    uint cx, cy, cz; /* cells */
+    uint words;      /* of a column */
+    uint nodes;      /* that many; also the number that stands for outside */
+    uint basins;     /* likewise */
+    uint leak;
+    uint random; /* hash of seed, frame and step */
+};
+SHARED_SIZE(water_params, 60)
 
 /* ---- deposits */
 
