@@ -139,6 +139,11 @@ SHARED_SIZE(wind_params, 56)
 #define WATER_OUT 4u
 #define WATER_DEAD 8u
 
+/* What a hash is for (with water_params.random). */
+#define RANDOM_ROUGHNESS 1u
+#define RANDOM_RECEIVER 2u
+#define RANDOM_SHIFT 3u
+
 struct water_params {
     uint n;
     uint vx, vy, vz; /* voxels of the domain */

@@ -30,6 +30,24 @@
 #include "job/job.h"
 #include "particles/particles.h"
 
+enum water_node_array {
+    WATER_CELL,      /* the span's lowest cell */
+    WATER_Z,         /* its altitude */
+    WATER_INITIAL,   /* receiver: a node, before pits overflow */
+    WATER_FINAL,     /* and after */
+    WATER_BASIN,     /* the number of the pit it first drains to */
+    WATER_COMPONENT, /* by basin: n_basins if it has a way out */
+    WATER_RAIN,      /* discharge, in rain_unit */
+    WATER_SPRING,    /* and in spring_unit */
+    WATER_FROM,      /* by basin: the pass it overflows, from node */
+    WATER_TO,        /* to node */
+    WATER_LOWEST,    /* by component, while they join */
+    WATER_PICK,
+    WATER_NEXT,
+    WATER_SCRATCH,
+    WATER_NODE_ARRAYS = WATER_SCRATCH + 4
+};
+
 struct water {
     /* Of the last routing: voxels / 2, one more on shifted axes. Voxel v lies in cell (v + shift) / 2. */
     int cells[3], shift[3];
@@ -45,19 +63,18 @@ struct water {
      *             to an OUT cell without a cycle */
     struct gpu_buffer *tag, *z, *receiver;
 
-    /* The rest is for water*.c and its kernels: columns as bits, nodes (spans of empty cells with the SURF
-     * cell or ground below them), basins. */
-    size_t n_nodes, n_basins, nodes_max;
-    uint32_t words; /* of 32 levels, in each column */
-    struct gpu_buffer *occupied, *surface, *first;
-    struct gpu_buffer *node_cell, *node_z, *neighbour, *initial, *final, *root, *basin;
-    struct gpu_buffer *scratch[4];
-    struct gpu_buffer *component, *next, *best_z, *best_edge, *out_from, *out_to;
-    struct gpu_buffer *rain, *spring;  /* uint [nodes]: discharge in units of the two below */
-    double rain_unit, spring_unit;     /* m3/yr */
-    struct gpu_buffer *source, *entry; /* of the job's sources: cell and amount; node it enters at */
+    /* The rest is for water's own files and kernels: columns as bits, spans of empty cells with the SURF cell
+     * or ground below them (nodes), basins. Node n_nodes and basin n_basins stand for outside. */
+    int voxels[3];
+    size_t columns, words, n_nodes, n_basins, nodes_max;
+    uint32_t random, leak;
+    struct gpu_buffer *occupied, *floors, *first; /* uint [columns * words + 1] */
+    struct gpu_buffer *node[WATER_NODE_ARRAYS];   /* uint [nodes_max + 1] */
+    struct gpu_buffer *pass;                      /* uint [4 nodes_max] */
+    struct gpu_buffer *source, *entry;            /* uint [4 n_sources], [2 n_sources] */
     size_t n_sources;
-    bool warned;
+    double rain_unit, spring_unit; /* m3/yr: of node[WATER_RAIN] and node[WATER_SPRING] */
+    bool entered;                  /* sources that enter elsewhere have been told of */
 };
 
 /* Bytes on the device, for a surface as large as is usual. */
@@ -83,15 +100,21 @@ struct water_routing {
 MUST_USE status water_route(struct gpu *gpu, struct gpu_work *work, struct water *w,
                             const struct water_routing *how, struct particles *p);
 
+/* The grid's shift and the hash from which a routing takes its random numbers. */
+uint32_t water_random(const struct water_routing *how, int shift[3]);
+
 /* The discharge of rain and sources along the receivers of the last routing. Rain counts voxel columns and
  * sources integer shares of their sum, each in its own unit, so that sums are exact: what falls and springs
  * leaves. Rain is never rounded; sources are, to 2^-31 of their sum but not to 0. Waits. */
 MUST_USE status water_discharge(struct gpu *gpu, struct gpu_work *work, struct water *w,
                                 const struct job *job, int frame, const struct particles *p);
 
-/* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14), and the field
- * `discharge` (m3/yr), which is 0 inside and on ceilings. Needs the surface and normals of the shape that was
+/* The field `discharge` (m3/yr): 0 inside the rock and on ceilings. For the surface of the shape that was
  * routed. Records only. */
+void water_show(struct gpu *gpu, struct water *w, struct particles *p);
+
+/* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14). For the surface
+ * and normals of the shape that was routed. Records only. */
 void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, struct particles *p,
                  struct gpu_buffer *intensity);
 

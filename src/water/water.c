@@ -1,0 +1,112 @@
+#include "water/water.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "water/internal.h"
+
+/* The most cells, columns and words of a column there can be, whatever the shift. */
+struct most {
+    size_t cells, columns, words;
+};
+
+static struct most most_of(const int voxels[3])
+{
+    size_t n[3];
+    for (int a = 0; a < 3; a++)
+        n[a] = (size_t)voxels[a] / 2 + 1;
+    return (struct most){n[0] * n[1] * n[2], n[0] * n[1], (n[2] + 31) / 32};
+}
+
+/* Room for as many spans as are usual: a surface that lies 8 times over itself. */
+static size_t usual_nodes(const struct most *m)
+{
+    size_t many = 8 * m->columns;
+    return many < m->cells ? many : m->cells;
+}
+
+uint64_t water_bytes(const int voxels[3])
+{
+    struct most m = most_of(voxels);
+    return 12 * (uint64_t)m.cells + 12 * (uint64_t)(m.columns * m.words + 1) +
+           4 * (WATER_NODE_ARRAYS + 4) * (uint64_t)(usual_nodes(&m) + 1);
+}
+
+status water_reserve(struct gpu *gpu, struct water *w, size_t n)
+{
+    status st = OK;
+    if (n <= w->nodes_max)
+        return OK;
+    struct most m = most_of(w->voxels);
+    size_t room = n + n / 4;
+    w->nodes_max = 0;
+    for (int i = 0; i < WATER_NODE_ARRAYS; i++)
+        gpu_buffer_destroy(gpu, &w->node[i]);
+    gpu_buffer_destroy(gpu, &w->pass);
+    if (room < usual_nodes(&m))
+        room = usual_nodes(&m);
+    for (int i = 0; i < WATER_NODE_ARRAYS; i++)
+        TRY(gpu_buffer_create(gpu, "water", room + 1, 4, &w->node[i]));
+    TRY(gpu_buffer_create(gpu, "water passes", 4 * room, 4, &w->pass));
+    w->nodes_max = room;
+done:
+    return st;
+}
+
+static status source_voxel(const struct job *job, size_t i, const int voxels[3], double h, uint32_t out[4])
+{
+    const struct job_source *s = &job->sources[i];
+    if (s->n_path_m == 0)
+        return fail(E_USAGE, "sources[%zu].path_m: needs at least one point, where the water enters", i);
+    const double *x = s->path_m[0];
+    for (int a = 0; a < 3; a++) {
+        double v = floor(x[a] / h);
+        if (!(x[a] >= 0 && x[a] <= voxels[a] * h))
+            return fail(
+                E_USAGE,
+                "sources[%zu].path_m: the water enters at %g, %g, %g m, outside the domain of %g x %g x "
+                "%g m",
+                i, x[0], x[1], x[2], voxels[0] * h, voxels[1] * h, voxels[2] * h);
+        out[a] = (uint32_t)fmin(v, voxels[a] - 1);
+    }
+    return OK;
+}
+
+status water_create(struct gpu *gpu, const struct job *job, const int voxels[3], double h, struct water *w)
+{
+    status st = OK;
+    uint32_t *source = NULL;
+    struct most m = most_of(voxels);
+    *w = (struct water){.n_sources = job->n_sources, .voxels = {voxels[0], voxels[1], voxels[2]}};
+    TRY(gpu_buffer_create(gpu, "water cells' kinds", m.cells, 4, &w->tag));
+    TRY(gpu_buffer_create(gpu, "water cells' altitudes", m.cells, 4, &w->z));
+    TRY(gpu_buffer_create(gpu, "water cells' receivers", m.cells, 4, &w->receiver));
+    TRY(gpu_buffer_create(gpu, "occupied cells", m.columns * m.words + 1, 4, &w->occupied));
+    TRY(gpu_buffer_create(gpu, "floors", m.columns * m.words + 1, 4, &w->floors));
+    TRY(gpu_buffer_create(gpu, "first spans", m.columns * m.words + 1, 4, &w->first));
+    TRY(gpu_buffer_create(gpu, "sources", 4 * w->n_sources + 1, 4, &w->source));
+    TRY(gpu_buffer_create(gpu, "sources' spans", 2 * w->n_sources + 1, 4, &w->entry));
+    TRY(memory_alloc(4 * w->n_sources + 1, 4, "sources", &source));
+    for (size_t i = 0; i < w->n_sources; i++)
+        TRY(source_voxel(job, i, voxels, h, source + 4 * i));
+    TRY(gpu_upload(gpu, w->source, 0, source, 4 * w->n_sources + 1));
+    TRY(water_reserve(gpu, w, 1));
+done:
+    free(source);
+    if (st != OK)
+        water_destroy(gpu, w);
+    return st;
+}
+
+void water_destroy(struct gpu *gpu, struct water *w)
+{
+    struct gpu_buffer **all[] = {&w->tag,   &w->z,    &w->receiver, &w->occupied, &w->floors,
+                                 &w->first, &w->pass, &w->source,   &w->entry};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        gpu_buffer_destroy(gpu, all[i]);
+    for (int i = 0; i < WATER_NODE_ARRAYS; i++)
+        gpu_buffer_destroy(gpu, &w->node[i]);
+    *w = (struct water){0};
+}
