@@ -157,6 +157,18 @@ struct water_params {
 };
 SHARED_SIZE(water_params, 60)
 
+struct water_surface_params {
+    uint n;
+    uint sx, sy, sz;
+    uint cx, cy, cz;
+    uint words;
+    float cell;                   /* m */
+    float rain_unit, spring_unit; /* m3/yr */
+    float rate, shear, threshold; /* k_t (1/Pa), k_f (Pa), tau_c (Pa) */
+    float steepest;
+};
+SHARED_SIZE(water_surface_params, 60)
+
 /* ---- deposits */
 
 /* ---- plants */
