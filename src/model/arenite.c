@@ -42,6 +42,7 @@ struct model {
     struct elastic elastic;
     struct erosion erosion;
     struct water water;
+    bool told; /* that water is held back */
     struct blocks blocks;
     struct field field;
     struct aov aov;
@@ -124,6 +125,12 @@ static status run_water(struct model *m, int step, double least, double *kyr)
     TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
     water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
     TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
+    if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {
+        log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
+                 "rain.steps (%d), or lower rain.erosion",
+                 m->frame, (double)WATER_DEPTH, (int)job->rain.steps);
+        m->told = true;
+    }
     /* Equal parts: at most as many as `least` goes into *kyr, now and after each. */
     if (fastest * *kyr > WATER_STEP * job->domain.spacing_m)
         *kyr /= ceil(*kyr / fmax(least, WATER_STEP * job->domain.spacing_m / fastest) - 1e-6);

@@ -109,14 +109,12 @@ status water_route(struct gpu *gpu, struct gpu_work *work, struct water *w, cons
                    struct particles *p)
 {
     status st = OK;
-    size_t n_border = 0, cells = 1;
+    size_t n_border = 0;
     struct gpu_buffer **node = w->node;
     w->random = water_random(how, w->shift);
     w->leak = how->leak;
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < 3; a++)
         w->cells[a] = w->voxels[a] / 2 + w->shift[a];
-        cells *= (size_t)w->cells[a];
-    }
     w->columns = (size_t)w->cells[0] * (size_t)w->cells[1];
     w->words = ((size_t)w->cells[2] + 31) / 32;
     w->n_basins = 0;
@@ -127,9 +125,9 @@ status water_route(struct gpu *gpu, struct gpu_work *work, struct water *w, cons
     struct water_params k = water_params(w, w->n_basins);
     GPU_RUN(gpu, water_carve, k.n, k, node[WATER_COMPONENT], node[WATER_FROM], node[WATER_TO],
             node[WATER_INITIAL], node[WATER_FINAL]);
-    k.n = (uint)cells;
+    k.n = (uint)(w->columns * w->words);
     if (how->cells)
-        GPU_RUN(gpu, water_cells, cells, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
+        GPU_RUN(gpu, water_cells, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
                 node[WATER_FINAL], node[WATER_BASIN], node[WATER_COMPONENT], w->tag, w->z, w->receiver);
 done:
     return st;
