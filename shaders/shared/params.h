@@ -161,9 +161,10 @@ struct water_params {
     uint nodes;      /* that many; also the number that stands for outside */
     uint basins;     /* likewise */
     uint leak;
-    uint random; /* hash of seed, frame and step */
+    uint random;             /* hash of seed, frame and step */
+    float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
 };
-SHARED_SIZE(water_params, 60)
+SHARED_SIZE(water_params, 68)
 
 struct water_surface_params {
     uint n;
@@ -204,7 +205,7 @@ struct march_params {
     float down_x, down_y, down_z;    /* half its height */
     float ahead_x, ahead_y, ahead_z;
     float sun_x, sun_y, sun_z; /* unit vector towards the sun */
-    uint ray, rays;      /* of the pixel; a single one has a sun without extent and an open sky */
+    uint ray, rays;            /* of the pixel; a single one has a sun without extent and an open sky */
     float film_x, film_y;      /* px: where in the pixel */
 };
 SHARED_SIZE(march_params, 116)

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Kind, altitude and receiver of every cell, for those who do not know of spans: 32 levels of a column, from
-// below. See water/water.h.
+// Kind, altitude and receiver of every cell, for those who do not know of spans. See water/water.h.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "shared/random.glsl"
@@ -18,84 +17,74 @@ WRITE_U(8, tag)
 WRITE_U(9, z)
 WRITE_U(10, receiver)
 PARAMS(water_params)
+#include "water/cell_of.glsl"
 #include "water/columns.glsl"
 
-uint dead(uint node)
+uint to_cell(uint node, uint self)
 {
-    return LOAD_U(component, LOAD_U(basin, node)) == k.basins ? 0u : WATER_DEAD;
+    return node == k.nodes ? self : LOAD_U(cell, node);
 }
 
-uint neighbour(uint column, int d)
+bool is_live(uint node)
 {
-    return d == 0 ? column + 1u : d == 1 ? column + k.cx : d == 2 ? column - 1u : column - k.cx;
+    return LOAD_U(component, LOAD_U(basin, node)) == k.basins;
 }
 
-// The span beside a wall that what breaks off it falls into: one of those whose column has a bit in `air`.
-uint beside(uint i, uint column, uint level, uint air)
+// Rock drains to an empty cell below or beside it, if it has one.
+void rock(uint i, uvec3 c, uint column, out uint kind, out uint to)
 {
-    int left = int(random_below(random_hash(k.random, i, 0u, RANDOM_RECEIVER), uint(bitCount(air))));
-    for (int d = 0; d < 4; d++)
-        if ((air >> d & 1u) != 0u && left-- == 0)
-            return node_at(neighbour(column, d), level);
-    return NONE;
+    kind = WATER_SOLID;
+    to = i;
+    if (is_side(c)) {
+        kind = WATER_WALL | WATER_OUT;
+        return;
+    }
+    uint node = NONE;
+    if (c.z > 0u && !is_occupied(column, c.z - 1u)) {
+        node = node_at(column, c.z - 1u);
+    } else {
+        uint column_at[4] = uint[4](column + 1u, column + k.cx, column - 1u, column - k.cx);
+        uint falls = 0u;
+        for (int d = 0; d < 4; d++)
+            falls += is_occupied(column_at[d], c.z) ? 0u : 1u;
+        int left = falls > 0u ? int(random_below(random_hash(k.random, i, 0u, RANDOM_RECEIVER), falls)) : 4;
+        for (int d = 0; d < 4; d++)
+            if (!is_occupied(column_at[d], c.z)) {
+                if (left == 0)
+                    node = node_at(column_at[d], c.z);
+                left--;
+            }
+    }
+    if (node != NONE) {
+        kind = WATER_WALL | (is_live(node) ? 0u : WATER_DEAD);
+        to = LOAD_U(cell, node);
+    }
 }
 
 void main()
 {
-    uint t = THREAD;
-    if (t >= k.n)
+    uint i = THREAD;
+    if (i >= k.n)
         return;
-    uint x = t % k.cx, y = (t / k.cx) % k.cy, word = t / (k.cx * k.cy), column = y * k.cx + x, layer = k.cx * k.cy;
-    uint at = column * k.words + word, rocky = LOAD_U(occupied, at), bottoms = LOAD_U(floors, at);
-    bool side = is_side(uvec3(x, y, 0u));
-    uint around[4];
-    for (int d = 0; d < 4; d++)
-        around[d] = side ? 0xffffffffu : LOAD_U(occupied, neighbour(column, d) * k.words + word);
-
-    // The span below, and whether what is in it cannot get out.
-    uint node = LOAD_U(first, at) - 1u, floor_cell = 0u, lost = 0u;
-    bool air_below = word > 0u && !is_occupied(column, 32u * word - 1u);
-    if (air_below || (word > 0u && (rocky & 1u) == 0u)) {
-        floor_cell = LOAD_U(cell, node);
-        lost = dead(node);
-    }
-    for (uint l = 0u; l < 32u && 32u * word + l < k.cz; l++) {
-        uint level = 32u * word + l, i = level * layer + column, kind = WATER_EMPTY, to = i, height = level << 16u;
-        bool rock = (rocky >> l & 1u) != 0u;
-        if ((bottoms >> l & 1u) != 0u) {
-            node++;
-            floor_cell = i;
-            lost = dead(node);
-            uint next = LOAD_U(final, node);
-            if (next != k.nodes)
-                to = LOAD_U(cell, next);
-            if (rock)
-                height = LOAD_U(altitude, node);
-            kind = rock ? WATER_SURF | lost : WATER_EMPTY | WATER_OUT;
-        } else if (!rock) {
-            to = floor_cell;
-            kind = WATER_EMPTY | lost;
-        } else {
-            uint air = 0u;
-            for (int d = 0; d < 4; d++)
-                air |= (~around[d] >> l & 1u) << d;
-            kind = WATER_SOLID;
-            if (air_below) {
-                to = floor_cell;
-                kind = WATER_WALL | lost;
-            } else if (air != 0u) {
-                uint other = beside(i, column, level, air);
-                to = LOAD_U(cell, other);
-                kind = WATER_WALL | dead(other);
-            }
-        }
-        if (side) {
+    uvec3 c = cell_of(i);
+    uint column = c.y * k.cx + c.x, node = node_at(column, c.z), kind, to, height = c.z << 16u;
+    if (node == NONE) {
+        rock(i, c, column, kind, to);
+    } else {
+        bool floors_it = LOAD_U(cell, node) == i;
+        kind = is_occupied(column, c.z) ? WATER_SURF : WATER_EMPTY;
+        if (kind == WATER_SURF)
+            height = LOAD_U(altitude, node);
+        if (is_side(c) || (floors_it && kind == WATER_EMPTY)) {
+            kind |= WATER_OUT;
             to = i;
-            kind = (kind & WATER_KIND) == WATER_SOLID ? WATER_WALL | WATER_OUT : (kind & WATER_KIND) | WATER_OUT;
+        } else {
+            if (!is_live(node))
+                kind |= WATER_DEAD;
+            to = floors_it ? to_cell(LOAD_U(final, node), i) : LOAD_U(cell, node);
         }
-        AT(tag, i) = kind;
-        AT(z, i) = height;
-        AT(receiver, i) = to;
-        air_below = !rock;
     }
+    AT(tag, i) = kind;
+    AT(z, i) = height;
+    AT(receiver, i) = to;
 }
