@@ -310,7 +310,7 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = c->frame;
 done:
     return st;
@@ -321,7 +321,7 @@ static status begin(struct model *m, const int voxels[3])
     status st = OK;
     struct rock rock = {0};
     TRY(scene_sample(m->job, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = m->job->frames.first;
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
     TRY(remove_unsupported(m));
@@ -407,7 +407,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
                         aov_bytes(pixels) + (routes(job) ? water_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
-    uint64_t picture = pixels * 17 * 4;
+    uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
     /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
      * 0.6. */
