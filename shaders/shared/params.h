@@ -130,7 +130,41 @@ SHARED_SIZE(wind_params, 56)
 
 /* ---- water */
 
-/* ---- deposits */
+#define WATER_EMPTY 0u
+#define WATER_SURF 1u
+#define WATER_WALL 2u
+#define WATER_SOLID 3u
+#define WATER_KIND 3u
+#define WATER_OUT 4u
+#define WATER_DEAD 8u
+
+/* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
+
+#define DEPOSIT_ROOM 4u      /* how many land in a cell in a round, at most */
+#define DEPOSIT_LAST 16u     /* and in the last round */
+#define DEPOSIT_WAITS 0u     /* a crumb's place: nowhere yet, */
+#define DEPOSIT_LEFT 0xffffffffu /* out of the domain, or the voxel it lies in, plus one */
+
+struct deposit_params {
+    uint n;
+    uint nx, ny, nz; /* voxels */
+    float h;         /* m */
+    uint words;      /* of a column */
+    uint cx, cy, cz; /* routing cells */
+    int sx, sy, sz;  /* a voxel v is in cell (v + shift) / 2 */
+    float repose;    /* tangent of the angle */
+    uint seed;       /* hash of the job's seed, the frame and the step in it */
+    uint round;
+    uint last;     /* 1: the round after which nothing waits */
+    float quicker; /* how many times faster than rock it was deposits erode */
+};
+SHARED_SIZE(deposit_params, 68)
+
+/* Words the deposition counts into. */
+#define COUNT_LANDED 0u
+#define COUNT_GONE 1u
+#define COUNT_SLID 2u
+#define COUNT_WAITING 3u
 
 /* ---- plants */
 
