@@ -9,10 +9,10 @@
 
 READ_U(0, crumb_id)
 READ_U(1, tag)
-READ_U(2, altitude)
-READ_U(3, receiver)
-READ_U(4, pointer)
-READ_U(5, room)
+READ_U(2, receiver)
+READ_U(3, pointer)
+READ_U(4, room)
+READ_U(5, bits)
 WRITE_U(6, cell)
 WRITE_U(7, place)
 WRITE_U(8, key)
@@ -20,44 +20,44 @@ PARAMS(deposit_params)
 #include "particles/voxel.glsl"
 #include "shared/random.glsl"
 #include "deposit/grid.glsl"
+#include "deposit/column.glsl"
+#include "deposit/slope.glsl"
 
-// The ground that a crumb reaches from cell c by a step to the side, and how much lower it is; 0: not at all.
-uint lower(ivec3 c, uint z, out uint to)
+// The cell of the ground that lies `drop` lower (in four columns) beside the cell with this top: over rock, or
+// where a fall ends.
+uint ground(ivec3 c, int top, uint drop)
 {
-    to = 0u;
+    c.z = (top - 1 - int(drop >> 2) + k.sz) >> 1;
     if (!cell_inside(c))
-        return 0u;
-    to = cell_index(c);
-    uint kind = LOAD_U(tag, to) & WATER_KIND;
-    if (kind == WATER_EMPTY)
-        to = LOAD_U(receiver, to);
-    else if (kind != WATER_SURF)
-        return 0u;
-    uint there = LOAD_U(altitude, to);
-    return there < z ? min(z - there, 0xfffffu) : 0u;
+        return 0xffffffffu;
+    uint i = cell_index(c), kind = LOAD_U(tag, i) & WATER_KIND;
+    if (kind == WATER_SURF)
+        return i;
+    uint above = i + k.cx * k.cy;
+    if (kind != WATER_EMPTY && c.z + 1 < int(k.cz) && (LOAD_U(tag, above) & WATER_KIND) == WATER_SURF)
+        return above;
+    return LOAD_U(receiver, i);
 }
 
 uint next(uint c, uint hash)
 {
-    if ((LOAD_U(tag, c) & WATER_KIND) != WATER_SURF)
+    if ((LOAD_U(tag, c) & (WATER_KIND | WATER_OUT)) != WATER_SURF)
         return LOAD_U(receiver, c);
-    ivec3 at = cell_at(c);
-    uint z = LOAD_U(altitude, c);
-    uvec4 to, drop;
-    drop.x = lower(at + ivec3(1, 0, 0), z, to.x);
-    drop.y = lower(at - ivec3(1, 0, 0), z, to.y);
-    drop.z = lower(at + ivec3(0, 1, 0), z, to.z);
-    drop.w = lower(at - ivec3(0, 1, 0), z, to.w);
-    uint sum = drop.x + drop.y + drop.z + drop.w;
+    ivec3 at = cell_at(c), base = cell_base(at);
+    int top = cell_top(base);
+    uvec4 drop = drops(base, top);
+    uint sum = drop.x + drop.y + drop.z + drop.w, pick = random_below(hash, sum), to;
     if (sum == 0u)
         return LOAD_U(receiver, c);
-    uint pick = random_below(hash, sum);
     if (pick < drop.x)
-        return to.x;
-    pick -= drop.x;
-    if (pick < drop.y)
-        return to.y;
-    return pick - drop.y < drop.z ? to.z : to.w;
+        to = ground(at + ivec3(1, 0, 0), top, drop.x);
+    else if (pick < drop.x + drop.y)
+        to = ground(at - ivec3(1, 0, 0), top, drop.y);
+    else if (pick < sum - drop.w)
+        to = ground(at + ivec3(0, 1, 0), top, drop.z);
+    else
+        to = ground(at - ivec3(0, 1, 0), top, drop.w);
+    return to == 0xffffffffu ? LOAD_U(receiver, c) : to;
 }
 
 void main()

@@ -4,8 +4,7 @@
 // column that lies deepest below the mean of those around it, so that the ground gets no rougher than it is and
 // keeps its slope. In the last round all land that find a free voxel; for the others there is no place.
 //
-// One invocation a crumb; the first of each cell places them all. No two cells share a voxel to land in: a
-// cell's are its own, those of the empty cell above it, and those of the cell below it if that is not empty.
+// One invocation a crumb; the first of each cell places them all.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -22,23 +21,7 @@ PARAMS(deposit_params)
 #include "shared/random.glsl"
 #include "deposit/grid.glsl"
 #include "deposit/column.glsl"
-
-const int NOWHERE = 0x7fffffff;
-
-// The free voxel over each of the cell's columns, NOWHERE if a crumb cannot lie there.
-ivec4 floors(ivec3 c, ivec3 base)
-{
-    bool deep = c.z > 0 && (LOAD_U(tag, cell_index(c - ivec3(0, 0, 1))) & WATER_KIND) != WATER_EMPTY;
-    int low = max(deep ? base.z - 2 : base.z, 0), high = min(base.z + 3, int(k.nz) - 1);
-    ivec4 f;
-    for (int q = 0; q < 4; q++) {
-        int x = base.x + (q & 1), y = base.y + (q >> 1);
-        f[q] = x >= 0 && x < int(k.nx) && y >= 0 && y < int(k.ny) ? floor_in(x, y, base.z) : NOWHERE;
-        if (f[q] < low || f[q] > high)
-            f[q] = NOWHERE;
-    }
-    return f;
-}
+#include "deposit/floors.glsl"
 
 int beside(int f, int z)
 {
@@ -81,6 +64,6 @@ void main()
         if (found < 0)
             break;
         AT(place, item) = 1u + voxel_index(ivec3(base.x + (found & 1), base.y + (found >> 1), f[found]));
-        f[found] = f[found] + 1 > min(base.z + 3, int(k.nz) - 1) ? NOWHERE : f[found] + 1;
+        f[found] = f[found] < ceiling(base) ? f[found] + 1 : NOWHERE;
     }
 }

@@ -39,7 +39,7 @@ void main()
     if (i >= k.n)
         return;
     ivec3 base = cell_base(cell_at(LOAD_U(list, i)));
-    if (slope_with(downhill(base, cell_top(base)), -0.5) <= k.repose)
+    if (slope_with(downhill(base, cell_top(base)), -0.5) <= k.repose+1e5)
         return;
     int highest = -1;
     uint found = 0xffffffffu;

@@ -13,13 +13,18 @@ int cell_top(ivec3 base)
                max(floor_in(base.x, base.y + 1, base.z), floor_in(base.x + 1, base.y + 1, base.z)));
 }
 
-float block(ivec3 low, ivec2 size, int z)
+int heights(ivec3 low, ivec2 size, int z)
 {
     int sum = 0;
     for (int y = 0; y < size.y; y++)
         for (int x = 0; x < size.x; x++)
             sum += floor_near(low.x + x, low.y + y, z);
-    return float(sum) / float(size.x * size.y);
+    return sum;
+}
+
+float block(ivec3 low, ivec2 size, int z)
+{
+    return float(heights(low, size, z)) / float(size.x * size.y);
 }
 
 // The larger downhill difference along x and y; below 0 where both sides are uphill.
@@ -35,4 +40,15 @@ vec2 downhill(ivec3 base, int top)
 float slope_with(vec2 d, float more)
 {
     return length(max(d + more * SLOPE_GRAIN, 0.0));
+}
+
+// How much lower the ground is in the cells beside this one, east, west, north and south, in voxels of four
+// columns; 0 where it is not.
+uvec4 drops(ivec3 base, int top)
+{
+    int own = heights(base, ivec2(2, 2), top);
+    return uvec4(max(own - ivec4(heights(base + ivec3(2, 0, 0), ivec2(2, 2), top),
+                                 heights(base - ivec3(2, 0, 0), ivec2(2, 2), top),
+                                 heights(base + ivec3(0, 2, 0), ivec2(2, 2), top),
+                                 heights(base - ivec3(0, 2, 0), ivec2(2, 2), top)), 0));
 }

@@ -141,12 +141,12 @@ static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
                             .n_keys = d->n_cells + 1,
                             .n_ordered = d->n_cells};
     k.n = (uint)d->n_ground;
-    GPU_RUN(gpu, deposit_room, k.n, k, d->ground, d->bits, d->room);
+    GPU_RUN(gpu, deposit_room, k.n, k, d->ground, d->bits, routing->tag, d->room);
     GPU_RUN(gpu, deposit_point, cells.n, cells, routing->receiver, d->room, d->pointer);
     TRY(gpu_double_pointers(gpu, work, d->pointer, d->other, d->n_cells));
     k.n = (uint)n_crumbs;
-    GPU_RUN(gpu, deposit_move, k.n, k, d->id, routing->tag, routing->z, routing->receiver, d->pointer,
-            d->room, d->cell, d->place, d->key);
+    GPU_RUN(gpu, deposit_move, k.n, k, d->id, routing->tag, routing->receiver, d->pointer,
+            d->room, d->bits, d->cell, d->place, d->key);
     gpu_sort(gpu, work, &sort);
     GPU_RUN(gpu, deposit_settle, k.n, k, d->order, d->start, d->key, d->id, routing->tag, d->room, d->bits,
             d->place);

@@ -3,7 +3,7 @@
  * Crumbs     are particles of which erosion left nothing, and deposits on ground that has become steeper than
  *            the angle of repose: those slide on, one of a routing cell in a step.
  * Way        From the ground to one of the lower cells beside it, by a hash of the crumb's id and as likely as
- *            it is lower, then along the routing's receivers to the next cell where there is room (pointer
+ *            it is lower now, then along the routing's receivers to the next cell where there is room (pointer
  *            doubling). Out of the domain: the crumb has left.
  * Room       A cell takes crumbs while its ground is not steeper than deposition.repose_deg, by the upwind
  *            gradient of the heights of the columns around it: sqrt(a^2 + b^2), a and b being the larger
@@ -31,7 +31,6 @@
 struct deposit_routing {
     int cells[3], shift[3];
     struct gpu_buffer *tag;      /* uint: kind and flags, WATER_* in params.h */
-    struct gpu_buffer *z;        /* uint: altitude of SURF cells, in any unit */
     struct gpu_buffer *receiver; /* uint: a cell; without cycles. Its end is an OUT cell, or itself */
 };
 

@@ -1,0 +1,173 @@
+/* A heap of deposits without a model: rock given by voxels, crumbs dropped on it frame by frame, their ways
+ * by tests/ref/routing_ref. */
+#ifndef HOODOO_TESTS_HEAP_H
+#define HOODOO_TESTS_HEAP_H
+
+#include "check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../ref/routing_ref.h"
+#include "base/random.h"
+#include "deposit/deposit.h"
+
+struct heap {
+    struct gpu *gpu;
+    struct gpu_work *work;
+    struct deposit deposit;
+    struct job job;
+    int n[3];
+    double h;
+    struct rock rock; /* after the last frame */
+    uint32_t next_id;
+    int frame;
+    uint64_t start, left, slid;
+    struct deposit_counts last;
+    int most_rounds;
+};
+
+static inline struct heap heap_begin(const int n[3], double h, double repose_deg)
+{
+    static double frame = 0, one = 1;
+    struct heap p = {.n = {n[0], n[1], n[2]}, .h = h};
+    p.job.seed = 7;
+    p.job.deposition.repose_deg = repose_deg;
+    p.job.deposition.viability.n = 1;
+    p.job.deposition.viability.frame = &frame;
+    p.job.deposition.viability.value = &one;
+    assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &p.gpu));
+    assert_ok(gpu_work_create(p.gpu, (size_t)n[0] * (size_t)n[1] * (size_t)n[2] + 2, &p.work));
+    assert_ok(deposit_create(p.gpu, n, &p.deposit));
+    return p;
+}
+
+static inline void heap_end(struct heap *p)
+{
+    rock_free(&p->rock);
+    deposit_destroy(p->gpu, &p->deposit);
+    gpu_work_destroy(p->gpu, &p->work);
+    gpu_destroy(&p->gpu);
+}
+
+/* One particle more, in a voxel. */
+static inline void heap_add(struct heap *p, int x, int y, int z)
+{
+    struct rock more;
+    size_t i = p->rock.n;
+    assert_ok(rock_alloc(&more, i + 1, STATE));
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (more.field[f] && i)
+            memcpy(more.field[f], p->rock.field[f], i * rock_field_size((enum rock_field)f));
+    rock_free(&p->rock);
+    p->rock = more;
+    const int v[3] = {x, y, z};
+    for (int a = 0; a < 3; a++)
+        more.P[4 * i + (size_t)a] = (float)((v[a] + 0.5) * p->h);
+    more.id[i] = p->next_id++;
+    more.viability[i] = 1;
+    more.rate_factor[i] = 1;
+    more.interlock_factor[i] = 1;
+    p->start++;
+}
+
+/* Rock in all voxels of a box. */
+static inline void heap_box(struct heap *p, const int low[3], const int high[3])
+{
+    size_t i = p->rock.n, more = (size_t)(high[0] - low[0]) * (size_t)(high[1] - low[1]) *
+                                 (size_t)(high[2] - low[2]);
+    struct rock all;
+    assert_ok(rock_alloc(&all, i + more, STATE));
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (all.field[f] && i)
+            memcpy(all.field[f], p->rock.field[f], i * rock_field_size((enum rock_field)f));
+    rock_free(&p->rock);
+    p->rock = all;
+    for (int z = low[2]; z < high[2]; z++)
+        for (int y = low[1]; y < high[1]; y++)
+            for (int x = low[0]; x < high[0]; x++, i++) {
+                const int v[3] = {x, y, z};
+                for (int a = 0; a < 3; a++)
+                    all.P[4 * i + (size_t)a] = (float)((v[a] + 0.5) * p->h);
+                all.id[i] = p->next_id++;
+                all.viability[i] = all.rate_factor[i] = all.interlock_factor[i] = 1;
+            }
+    p->start += more;
+}
+
+/* A frame: the particles with the n ids given are crumbs. In the air they hold up nothing. */
+static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int in_air)
+{
+    struct particles particles;
+    struct routing_ref way;
+    struct deposit_routing routing;
+    float *viability = malloc(p->rock.n * sizeof *viability);
+    assert_ok(particles_create(p->gpu, p->work, &p->rock, p->n, p->h, &particles));
+    rock_free(&p->rock);
+    assert_ok(particles_download(p->gpu, &particles, STATE, &p->rock));
+    struct rock ground = p->rock;
+    ground.n = 0;
+    ground.P = malloc(p->rock.n * 4 * sizeof *ground.P);
+    for (size_t i = 0; i < p->rock.n; i++) {
+        viability[i] = p->rock.viability[i];
+        for (size_t j = 0; j < n; j++)
+            if (p->rock.id[i] == ids[j])
+                viability[i] = 0;
+        if (!in_air || viability[i] > 0)
+            memcpy(&ground.P[4 * ground.n++], &p->rock.P[4 * i], 4 * sizeof *ground.P);
+    }
+    way = routing_ref(&ground, p->n, p->h,
+                      random_hash((uint32_t)p->job.seed, (uint32_t)++p->frame, 0, 99));
+    free(ground.P);
+    assert_ok(gpu_upload(p->gpu, particles.field[ROCK_viability], 0, viability, p->rock.n));
+    size_t cells = (size_t)way.cells[0] * (size_t)way.cells[1] * (size_t)way.cells[2];
+    memcpy(routing.cells, way.cells, sizeof routing.cells);
+    memcpy(routing.shift, way.shift, sizeof routing.shift);
+    assert_ok(gpu_buffer_create(p->gpu, "tag", cells, 4, &routing.tag));
+    assert_ok(gpu_buffer_create(p->gpu, "receiver", cells, 4, &routing.receiver));
+    assert_ok(gpu_upload(p->gpu, routing.tag, 0, way.tag, cells));
+    assert_ok(gpu_upload(p->gpu, routing.receiver, 0, way.receiver, cells));
+    assert_ok(deposit_land(p->gpu, p->work, &p->deposit, &p->job, p->frame, 0, &routing, &particles, &p->last));
+    if (getenv("DBG") && p->last.left) {
+        uint32_t *cell = malloc(p->last.crumbs * 4), *place = malloc(p->last.crumbs * 4), *room = malloc(cells*4);
+        assert_ok(gpu_download(p->gpu, p->deposit.cell, 0, cell, p->last.crumbs));
+        assert_ok(gpu_download(p->gpu, p->deposit.place, 0, place, p->last.crumbs));
+        assert_ok(gpu_download(p->gpu, p->deposit.room, 0, room, cells));
+        printf("frame %d cells %d %d %d rounds %d:", p->frame, way.cells[0], way.cells[1], way.cells[2], p->last.rounds);
+        for (uint32_t i = 0; i < p->last.crumbs; i++)
+            if (place[i] == 0 || place[i] == ~0u) {
+                uint32_t c = cell[i];
+                printf(" %s(%d %d %d tag %d room %d rec %d)", place[i] ? "L" : "W", c % way.cells[0], c / way.cells[0] % way.cells[1], c / way.cells[0] / way.cells[1], way.tag[c], room[c], way.receiver[c] != c);
+            }
+        printf("\n");
+    }
+    assert_int_equal(p->last.crumbs, p->last.landed + p->last.left);
+    assert_ok(particles_index(p->gpu, p->work, &particles));
+    p->left += p->last.left;
+    p->slid += p->last.slid;
+    p->most_rounds = (int)p->last.rounds > p->most_rounds ? (int)p->last.rounds : p->most_rounds;
+    rock_free(&p->rock);
+    assert_ok(particles_download(p->gpu, &particles, STATE, &p->rock));
+    assert_int_equal(p->start, p->rock.n + p->left);
+    gpu_buffer_destroy(p->gpu, &routing.tag);
+    gpu_buffer_destroy(p->gpu, &routing.receiver);
+    routing_ref_free(&way);
+    particles_destroy(p->gpu, &particles);
+    free(viability);
+}
+
+/* The free voxel over the highest particle of each column, for nx ny columns; the caller's to free. */
+static inline int *heap_heights(const struct heap *p)
+{
+    int *z = calloc((size_t)p->n[0] * (size_t)p->n[1], sizeof *z);
+    for (size_t i = 0; i < p->rock.n; i++) {
+        const float *P = &p->rock.P[4 * i];
+        int x = (int)((double)P[0] / p->h), y = (int)((double)P[1] / p->h), top = (int)((double)P[2] / p->h) + 1;
+        int *c = &z[y * p->n[0] + x];
+        *c = top > *c ? top : *c;
+    }
+    return z;
+}
+
+#endif
