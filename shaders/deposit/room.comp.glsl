@@ -1,8 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many crumbs may land in each cell of the ground before it is steeper than the angle of repose, by the
-// slope half way through the last one's landing; 0 where it is unstable. A
-// hollow always takes one: there is nowhere to go from it.
+// How many crumbs may land in each cell of the ground before it is unstable, by the slope half way through the
+// landing of each; 0 where it is unstable. A hollow always takes one: there is nowhere to go from it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -26,8 +25,8 @@ void main()
     ivec3 at = cell_at(c), base = cell_base(at);
     uint most = min(DEPOSIT_ROOM, free_voxels(base, floors(at, base)));
     int top = cell_top(base);
-    vec2 d = downhill(base, top);
-    while (n < most && slope_with(d, float(n) + 0.5) <= k.repose)
+    slope s = slope_of(base, top);
+    while (n < most && stable(s, float(n) + 0.5, k.repose))
         n++;
     AT(room, c) = n == 0u && most > 0u && drops(base, top) == uvec4(0u) ? 1u : n;
 }

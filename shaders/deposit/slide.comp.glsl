@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A deposit on ground steeper than the angle of repose, by the slope half way through its leaving, slides on:
-// the one on the highest column of the cell becomes a crumb. So a crumb that lands does not make its own cell
-// slide, and what slides comes to rest lower.
+// A deposit on ground steeper than the angle at which deposits begin to slide, by the slope half way through its
+// leaving, slides on: the one on the highest column of the cell becomes a crumb. That angle is larger than the
+// one at which they come to rest, as it is for sand, so that what has landed does not slide at once; and what
+// slides comes to rest lower.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -39,7 +40,7 @@ void main()
     if (i >= k.n)
         return;
     ivec3 base = cell_base(cell_at(LOAD_U(list, i)));
-    if (slope_with(downhill(base, cell_top(base)), -0.5) <= k.repose+1e5)
+    if (stable(slope_of(base, cell_top(base)), -0.5, k.repose + SLOPE_SLIDE))
         return;
     int highest = -1;
     uint found = 0xffffffffu;

@@ -1,10 +1,16 @@
-// How steep the ground of a cell is, as a tangent: the root of the squares of the larger downhill difference of
-// each axis. Means of normals, or central differences, are flat on the tip of a spike, and plain differences
-// would make diamonds of cones. Heights are means over the cell's four columns and over the twelve on each side
-// of it, two and a half voxels off.
+// How steep the ground of a cell is, from means of heights over its four columns and over twelve on each side of
+// it, two and a half voxels off. Two measures, for each fails where the other holds:
+//
+//   flank   the gradient between the sides, which a cell's own roughness does not blur: this one is held to the
+//           angle of repose. Uphill of it a wall may stand; then only the downhill side counts.
+//   tip     the upwind gradient, the root of the squares of the larger downhill difference of each axis. On the
+//           tip of a heap or on a crest the flank is flat, and spikes would grow; and it is what one crumb more in
+//           the cell changes. Plain differences instead of the root would make diamonds of cones.
 
 const float SLOPE_ARM = 2.5;                // voxels between the means
-const float SLOPE_GRAIN = 0.25 / SLOPE_ARM; // what one more particle adds
+const float SLOPE_GRAIN = 0.25 / SLOPE_ARM; // what one more particle adds to the tip
+const float SLOPE_TIP = 1.25;               // tips may be steeper than flanks by this factor: half of a cone's
+const float SLOPE_SLIDE = 0.15;             // tangent beyond that of repose at which deposits begin to slide
 
 // The free voxel over the highest column of the cell with this base.
 int cell_top(ivec3 base)
@@ -27,19 +33,31 @@ float block(ivec3 low, ivec2 size, int z)
     return float(heights(low, size, z)) / float(size.x * size.y);
 }
 
-// The larger downhill difference along x and y; below 0 where both sides are uphill.
-vec2 downhill(ivec3 base, int top)
+struct slope {
+    vec2 tip;    // the larger drop along x and y, as a tangent; below 0 where both sides are uphill
+    float flank; // tangent
+};
+
+// Along an axis, from the drops to its two sides.
+float across(float a, float b)
 {
-    float own = block(base, ivec2(2, 2), top);
-    float east = block(base + ivec3(2, -1, 0), ivec2(3, 4), top), west = block(base + ivec3(-3, -1, 0), ivec2(3, 4), top);
-    float north = block(base + ivec3(-1, 2, 0), ivec2(4, 3), top), south = block(base + ivec3(-1, -3, 0), ivec2(4, 3), top);
-    return vec2(own - min(east, west), own - min(north, south)) / SLOPE_ARM;
+    float down = max(a, b), up = -min(a, b);
+    return up > 2.0 * k.repose + 0.5 ? max(down, 0.0) : 0.5 * (down + up);
 }
 
-// The tangent with `more` particles more in the cell.
-float slope_with(vec2 d, float more)
+slope slope_of(ivec3 base, int top)
 {
-    return length(max(d + more * SLOPE_GRAIN, 0.0));
+    float own = block(base, ivec2(2, 2), top);
+    vec4 d = (own - vec4(block(base + ivec3(2, -1, 0), ivec2(3, 4), top), block(base + ivec3(-3, -1, 0), ivec2(3, 4), top),
+                         block(base + ivec3(-1, 2, 0), ivec2(4, 3), top), block(base + ivec3(-1, -3, 0), ivec2(4, 3), top))) /
+             SLOPE_ARM;
+    return slope(vec2(max(d.x, d.y), max(d.z, d.w)), length(vec2(across(d.x, d.y), across(d.z, d.w))));
+}
+
+// Is the ground stable with `more` particles more in the cell?
+bool stable(slope s, float more, float tan_repose)
+{
+    return s.flank <= tan_repose && length(max(s.tip + more * SLOPE_GRAIN, 0.0)) <= SLOPE_TIP * tan_repose;
 }
 
 // How much lower the ground is in the cells beside this one, east, west, north and south, in voxels of four

@@ -5,9 +5,9 @@
  * Way        From the ground to one of the lower cells beside it, by a hash of the crumb's id and as likely as
  *            it is lower now, then along the routing's receivers to the next cell where there is room (pointer
  *            doubling). Out of the domain: the crumb has left.
- * Room       A cell takes crumbs while its ground is not steeper than deposition.repose_deg, by the upwind
- *            gradient of the heights of the columns around it: sqrt(a^2 + b^2), a and b being the larger
- *            downhill differences along x and y. So cones come out round, and no spikes grow.
+ * Room       A cell takes crumbs while its ground is not steeper than deposition.repose_deg, by the gradient of
+ *            the heights of the columns around it, and no spike (deposit/slope.glsl). So cones come out round
+ *            and at that angle.
  * Rounds     Crumbs that find no room in one round go on in the next, over the ground as it has risen. After
  *            the last round what still waits lands where it waits if there is a free voxel, and slides on in
  *            later steps, or else leaves.
