@@ -128,7 +128,8 @@ struct wind_params {
 };
 SHARED_SIZE(wind_params, 56)
 
-/* ---- water */
+/* ---- water: see water/water.h. Cells are 2 x 2 x 2 voxels; voxel v lies in cell (v + shift) / 2. A column's
+ * cells are bits, `words` words of 32 levels each; its spans are nodes, numbered upwards, column by column. */
 
 #define WATER_EMPTY 0u
 #define WATER_SURF 1u
@@ -137,6 +138,36 @@ SHARED_SIZE(wind_params, 56)
 #define WATER_KIND 3u
 #define WATER_OUT 4u
 #define WATER_DEAD 8u
+
+/* What a hash is for (with water_params.random). */
+#define RANDOM_ROUGHNESS 1u
+#define RANDOM_RECEIVER 2u
+#define RANDOM_SHIFT 3u
+
+struct water_params {
+    uint n;
+    uint vx, vy, vz; /* voxels of the domain */
+    uint sx, sy, sz; /* shift */
+    uint cx, cy, cz; /* cells */
+    uint words;      /* of a column */
+    uint nodes;      /* that many; also the number that stands for outside */
+    uint basins;     /* likewise */
+    uint leak;
+    uint random; /* hash of seed, frame and step */
+};
+SHARED_SIZE(water_params, 60)
+
+struct water_surface_params {
+    uint n;
+    uint sx, sy, sz;
+    uint cx, cy, cz;
+    uint words;
+    float cell;                   /* m */
+    float rain_unit, spring_unit; /* m3/yr */
+    float rate, shear, threshold; /* k_t (1/Pa), k_f (Pa), tau_c (Pa) */
+    float steepest;
+};
+SHARED_SIZE(water_surface_params, 60)
 
 /* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
 
@@ -167,6 +198,18 @@ SHARED_SIZE(deposit_params, 68)
 #define COUNT_WAITING 3u
 
 /* ---- plants */
+
+struct plants_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;               /* m */
+    float steepest;        /* least upward part of a normal on which plants stand */
+    float growth, death;   /* in this step: e^(rate dt), e^(-rate dt) */
+    float binding, shelter;
+    uint seed;
+    uint spread; /* which voxel's step of this frame */
+};
+SHARED_SIZE(plants_params, 48)
 
 /* ---- field: the surface field and what lies on it */
 
