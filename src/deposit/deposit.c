@@ -145,8 +145,8 @@ static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
     GPU_RUN(gpu, deposit_point, cells.n, cells, routing->receiver, d->room, d->pointer);
     TRY(gpu_double_pointers(gpu, work, d->pointer, d->other, d->n_cells));
     k.n = (uint)n_crumbs;
-    GPU_RUN(gpu, deposit_move, k.n, k, d->id, routing->tag, routing->receiver, d->pointer,
-            d->room, d->bits, d->cell, d->place, d->key);
+    GPU_RUN(gpu, deposit_move, k.n, k, d->id, routing->tag, routing->receiver, d->pointer, d->room, d->bits,
+            d->cell, d->place, d->key);
     gpu_sort(gpu, work, &sort);
     GPU_RUN(gpu, deposit_settle, k.n, k, d->order, d->start, d->key, d->id, routing->tag, d->room, d->bits,
             d->place);

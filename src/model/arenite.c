@@ -3,9 +3,10 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
+ *   wind, plants -> viability -> eroded particles, deposits -> unsupported blocks -> surface, normals -> stress
+ *   -> erodibility
  *
- * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
+ * once or more, until the frame's years have passed; in the last of these steps plants grow. output() then adds the surface field and the pictures.
  * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
  * from them, so that a resumed run has the same bits.
  */
@@ -16,14 +17,17 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "blocks/blocks.h"
+#include "deposit/deposit.h"
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
+#include "plants/plants.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
+#include "water/water.h"
 #include "wind/wind.h"
 
 struct model {
@@ -37,6 +41,9 @@ struct model {
     struct elastic elastic;
     struct erosion erosion;
     struct blocks blocks;
+    struct water water;
+    struct deposit deposit;
+    bool deposits, plants; /* does the job have any? */
     struct field field;
     struct aov aov;
 };
@@ -48,11 +55,57 @@ static size_t voxel_count(const int voxels[3])
 
 /* ---- a frame */
 
-static status remove_eroded(struct model *m, uint32_t n_eroded)
+/* What the particles are now; where the others went is counted as they go. */
+static status count_rock(struct model *m)
 {
-    m->ledger.rock -= n_eroded;
-    m->ledger.left += n_eroded; /* carried away: nothing deposits them yet */
-    return n_eroded ? particles_index(m->gpu, m->work, &m->particles) : OK;
+    status st = OK;
+    uint32_t n_deposits = 0;
+    if (m->deposits)
+        TRY(deposit_count(m->gpu, m->work, &m->particles, &n_deposits));
+    m->ledger.deposit = n_deposits;
+    m->ledger.rock = m->particles.n - n_deposits;
+done:
+    return st;
+}
+
+/* Does what erodes in this frame stay in the domain? */
+static bool depositing(const struct model *m)
+{
+    return m->deposits && curve_at(&m->job->deposition.viability, m->frame) > 0;
+}
+
+/* Receivers for the shape as it is. */
+static status route(struct model *m, int i)
+{
+    struct water_routing how = {.seed = (uint32_t)m->job->seed,
+                                .frame = m->frame,
+                                .step = i,
+                                .leak = m->job->rain.leak,
+                                .cells = true};
+    return depositing(m) ? water_route(m->gpu, m->work, &m->water, &how, &m->particles) : OK;
+}
+
+/* Eroded particles, in the i-th step of the frame, leave, or come to rest elsewhere. Did anything move? */
+static status remove_eroded(struct model *m, int i, uint32_t n_eroded, bool *changed)
+{
+    status st = OK;
+    struct deposit_counts moved = {.crumbs = n_eroded, .left = n_eroded};
+    if (depositing(m) && (n_eroded > 0 || m->ledger.deposit > 0)) {
+        struct deposit_routing routing = {.tag = m->water.tag, .receiver = m->water.receiver};
+        memcpy(routing.cells, m->water.cells, sizeof routing.cells);
+        memcpy(routing.shift, m->water.shift, sizeof routing.shift);
+        gpu_stage(m->gpu, "deposition");
+        TRY(deposit_land(m->gpu, m->work, &m->deposit, m->job, m->frame, i, &routing, &m->particles, &moved));
+    }
+    m->ledger.left += moved.left;
+    *changed = moved.crumbs > 0;
+    gpu_stage(m->gpu, "particles");
+    if (*changed) {
+        TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
+done:
+    return st;
 }
 
 static status remove_unsupported(struct model *m)
@@ -61,21 +114,26 @@ static status remove_unsupported(struct model *m)
     uint32_t n_fallen = 0;
     gpu_stage(m->gpu, "blocks");
     TRY(blocks_fall(m->gpu, m->work, &m->blocks, &m->particles, &n_fallen));
-    m->ledger.rock -= n_fallen;
     m->ledger.fallen += n_fallen;
-    if (n_fallen)
+    if (n_fallen) {
         TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
 done:
     return st;
 }
 
 /* What follows from the shape: surface, normals, stress, erodibility. A resumed run has the displacement
- * already: `solved`. */
-static status settle(struct model *m, bool solved)
+ * already: `solved`. At the end of a frame plants grow, on the new surface. */
+static status settle(struct model *m, bool solved, bool grow)
 {
     status st = OK;
     gpu_stage(m->gpu, "surface");
     TRY(particles_surface(m->gpu, m->work, &m->particles));
+    if (m->plants && grow) {
+        gpu_stage(m->gpu, "plants");
+        plants_grow(m->gpu, m->job, m->frame, &m->particles);
+    }
     gpu_stage(m->gpu, "stress");
     TRY(elastic_assemble(m->gpu, m->work, &m->elastic, &m->particles));
     if (!solved)
@@ -87,6 +145,8 @@ static status settle(struct model *m, bool solved)
     elastic_recover(m->gpu, &m->elastic, &m->particles);
     gpu_stage(m->gpu, "erodibility");
     TRY(erosion_interlock(m->gpu, &m->erosion, m->job, m->frame, &m->particles));
+    if (m->plants)
+        plants_bind(m->gpu, m->job, &m->particles);
 done:
     return st;
 }
@@ -99,15 +159,19 @@ static status step(struct model *m)
     double kyr = m->job->clock.years_per_frame / 1000 / steps;
     for (int i = 0; i < steps && m->particles.n > 0; i++) {
         uint32_t n_eroded;
+        bool changed;
+        gpu_stage(m->gpu, "water");
+        TRY(route(m, i));
         gpu_stage(m->gpu, "wind");
         wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
+        if (m->plants)
+            plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
         gpu_stage(m->gpu, "viability");
         TRY(erosion_weather(m->gpu, m->work, &m->erosion, kyr, &m->particles, &n_eroded));
-        gpu_stage(m->gpu, "particles");
-        TRY(remove_eroded(m, n_eroded));
-        if (n_eroded)
+        TRY(remove_eroded(m, i, n_eroded, &changed));
+        if (changed)
             TRY(remove_unsupported(m));
-        TRY(settle(m, false));
+        TRY(settle(m, false, i + 1 == steps));
     }
 done:
     return st;
@@ -252,6 +316,8 @@ static void destroy(struct model **handle)
         return;
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
+    deposit_destroy(m->gpu, &m->deposit);
+    water_destroy(m->gpu, &m->water);
     blocks_destroy(m->gpu, &m->blocks);
     erosion_destroy(m->gpu, &m->erosion);
     elastic_destroy(m->gpu, &m->elastic);
@@ -284,12 +350,18 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
+    m->plants = plants_wanted(job);
+    m->deposits = deposit_wanted(job);
+    if (m->deposits) {
+        TRY(water_create(gpu, job, voxels, h, &m->water));
+        TRY(deposit_create(gpu, voxels, &m->deposit));
+    }
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(from ? restore(m, from, voxels) : begin(m, voxels));
     TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
-    TRY(settle(m, from != NULL));
+    TRY(settle(m, from != NULL, false));
     *out = m;
     m = NULL;
 done:
@@ -309,9 +381,11 @@ static status estimate(const struct job *job, struct model_estimate *out)
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
-    out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
-                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels);
+    if (deposit_wanted(job))
+        out->device_bytes = water_bytes(out->voxels) + deposit_bytes(out->voxels);
+    out->device_bytes += gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
+                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
+                         aov_bytes(pixels);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = pixels * 17 * 4;
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);

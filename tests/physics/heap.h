@@ -75,8 +75,8 @@ static inline void heap_add(struct heap *p, int x, int y, int z)
 /* Rock in all voxels of a box. */
 static inline void heap_box(struct heap *p, const int low[3], const int high[3])
 {
-    size_t i = p->rock.n, more = (size_t)(high[0] - low[0]) * (size_t)(high[1] - low[1]) *
-                                 (size_t)(high[2] - low[2]);
+    size_t i = p->rock.n,
+           more = (size_t)(high[0] - low[0]) * (size_t)(high[1] - low[1]) * (size_t)(high[2] - low[2]);
     struct rock all;
     assert_ok(rock_alloc(&all, i + more, STATE));
     for (int f = 0; f < ROCK_FIELDS; f++)
@@ -117,8 +117,7 @@ static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int 
         if (!in_air || viability[i] > 0)
             memcpy(&ground.P[4 * ground.n++], &p->rock.P[4 * i], 4 * sizeof *ground.P);
     }
-    way = routing_ref(&ground, p->n, p->h,
-                      random_hash((uint32_t)p->job.seed, (uint32_t)++p->frame, 0, 99));
+    way = routing_ref(&ground, p->n, p->h, random_hash((uint32_t)p->job.seed, (uint32_t)++p->frame, 0, 99));
     free(ground.P);
     assert_ok(gpu_upload(p->gpu, particles.field[ROCK_viability], 0, viability, p->rock.n));
     size_t cells = (size_t)way.cells[0] * (size_t)way.cells[1] * (size_t)way.cells[2];
@@ -128,17 +127,22 @@ static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int 
     assert_ok(gpu_buffer_create(p->gpu, "receiver", cells, 4, &routing.receiver));
     assert_ok(gpu_upload(p->gpu, routing.tag, 0, way.tag, cells));
     assert_ok(gpu_upload(p->gpu, routing.receiver, 0, way.receiver, cells));
-    assert_ok(deposit_land(p->gpu, p->work, &p->deposit, &p->job, p->frame, 0, &routing, &particles, &p->last));
+    assert_ok(
+        deposit_land(p->gpu, p->work, &p->deposit, &p->job, p->frame, 0, &routing, &particles, &p->last));
     if (getenv("DBG") && p->last.left) {
-        uint32_t *cell = malloc(p->last.crumbs * 4), *place = malloc(p->last.crumbs * 4), *room = malloc(cells*4);
+        uint32_t *cell = malloc(p->last.crumbs * 4), *place = malloc(p->last.crumbs * 4),
+                 *room = malloc(cells * 4);
         assert_ok(gpu_download(p->gpu, p->deposit.cell, 0, cell, p->last.crumbs));
         assert_ok(gpu_download(p->gpu, p->deposit.place, 0, place, p->last.crumbs));
         assert_ok(gpu_download(p->gpu, p->deposit.room, 0, room, cells));
-        printf("frame %d cells %d %d %d rounds %d:", p->frame, way.cells[0], way.cells[1], way.cells[2], p->last.rounds);
+        printf("frame %d cells %d %d %d rounds %d:", p->frame, way.cells[0], way.cells[1], way.cells[2],
+               p->last.rounds);
         for (uint32_t i = 0; i < p->last.crumbs; i++)
             if (place[i] == 0 || place[i] == ~0u) {
                 uint32_t c = cell[i];
-                printf(" %s(%d %d %d tag %d room %d rec %d)", place[i] ? "L" : "W", c % way.cells[0], c / way.cells[0] % way.cells[1], c / way.cells[0] / way.cells[1], way.tag[c], room[c], way.receiver[c] != c);
+                printf(" %s(%d %d %d tag %d room %d rec %d)", place[i] ? "L" : "W", c % way.cells[0],
+                       c / way.cells[0] % way.cells[1], c / way.cells[0] / way.cells[1], way.tag[c], room[c],
+                       way.receiver[c] != c);
             }
         printf("\n");
     }
@@ -163,7 +167,8 @@ static inline int *heap_heights(const struct heap *p)
     int *z = calloc((size_t)p->n[0] * (size_t)p->n[1], sizeof *z);
     for (size_t i = 0; i < p->rock.n; i++) {
         const float *P = &p->rock.P[4 * i];
-        int x = (int)((double)P[0] / p->h), y = (int)((double)P[1] / p->h), top = (int)((double)P[2] / p->h) + 1;
+        int x = (int)((double)P[0] / p->h), y = (int)((double)P[1] / p->h),
+            top = (int)((double)P[2] / p->h) + 1;
         int *c = &z[y * p->n[0] + x];
         *c = top > *c ? top : *c;
     }
