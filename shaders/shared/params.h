@@ -109,10 +109,11 @@ struct erosion_params {
 };
 SHARED_SIZE(erosion_params, 24)
 
-/* Words the erosion counts into. */
+/* Words the erosion counts into; COUNT_FASTEST is a float. */
 #define COUNT_ERODED 0u
 #define COUNT_FALLEN 1u
 #define COUNT_CHANGED 2u
+#define COUNT_FASTEST 3u
 
 /* ---- wind */
 
@@ -138,6 +139,9 @@ SHARED_SIZE(wind_params, 56)
 #define WATER_KIND 3u
 #define WATER_OUT 4u
 #define WATER_DEAD 8u
+
+/* Spacings that water takes in a step at most. */
+#define WATER_DEPTH 2.0f
 
 /* What a hash is for (with water_params.random). */
 #define RANDOM_ROUGHNESS 1u
@@ -166,8 +170,9 @@ struct water_surface_params {
     float rain_unit, spring_unit; /* m3/yr */
     float rate, shear, threshold; /* k_t (1/Pa), k_f (Pa), tau_c (Pa) */
     float steepest;
+    float most; /* m/kyr */
 };
-SHARED_SIZE(water_surface_params, 60)
+SHARED_SIZE(water_surface_params, 64)
 
 /* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What running water adds to the intensity on each particle of the surface (Arenite eq. 14): shear above the
-// threshold.
+// threshold, held to what a step can take.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -14,7 +14,8 @@ READ_U(5, first)
 READ_U(6, altitude)
 READ_U(7, rain)
 READ_U(8, spring)
-WRITE_F(9, intensity)
+READ_F(9, erodibility)
+WRITE_F(10, intensity)
 PARAMS(water_surface_params)
 #include "water/columns.glsl"
 #include "water/discharge.glsl"
@@ -28,10 +29,10 @@ void main()
     vec3 n = LOAD_V(normal, self).xyz;
     if (n.z <= 0.0)
         return;
-    float q = discharge_at(LOAD_V(position, self).xyz);
+    float rate = LOAD_F(erodibility, self), q = discharge_at(LOAD_V(position, self).xyz);
     float slope = min(length(n.xy) / n.z, k.steepest);
-    if (q <= 0.0 || slope <= 0.0)
+    if (rate <= 0.0 || q <= 0.0 || slope <= 0.0)
         return;
     float shear = k.shear * pow(q, 0.6) * pow(slope, 0.7);
-    AT(intensity, i) += k.rate * max(0.0, shear - k.threshold);
+    AT(intensity, i) += min(k.rate * max(0.0, shear - k.threshold), k.most / rate);
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The discharge of each particle of the surface; 0 on ceilings.
+// The discharge of each particle of the surface; on ceilings, as inside, it stays 0.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -3,10 +3,11 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   wind, plants -> viability -> eroded particles, deposits -> unsupported blocks -> surface, normals -> stress
- *   -> erodibility
+ *   plants -> wind -> water -> viability -> eroded particles, deposits -> unsupported blocks -> surface, normals
+ *   -> stress -> erodibility
  *
- * once or more, until the frame's years have passed; in the last of these steps plants grow. output() then adds the surface field and the pictures.
+ * all but the first once or more, until the frame's years have passed; output() then adds the surface field and
+ * the pictures.
  * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
  * from them, so that a resumed run has the same bits.
  */
@@ -30,6 +31,10 @@
 #include "water/water.h"
 #include "wind/wind.h"
 
+/* Spacings that a step may take where water is fast, before it is cut shorter: those the carry can still take
+ * off whole. */
+static const double WATER_STEP = 1.5;
+
 struct model {
     struct gpu *gpu;
     const struct job *job;
@@ -40,10 +45,10 @@ struct model {
     struct particles particles;
     struct elastic elastic;
     struct erosion erosion;
-    struct blocks blocks;
     struct water water;
     struct deposit deposit;
-    bool deposits, plants; /* does the job have any? */
+    struct blocks blocks;
+    bool deposits, plants; /* does the job ever have any? */
     struct field field;
     struct aov aov;
 };
@@ -74,19 +79,8 @@ static bool depositing(const struct model *m)
     return m->deposits && curve_at(&m->job->deposition.viability, m->frame) > 0;
 }
 
-/* Receivers for the shape as it is. */
-static status route(struct model *m, int i)
-{
-    struct water_routing how = {.seed = (uint32_t)m->job->seed,
-                                .frame = m->frame,
-                                .step = i,
-                                .leak = m->job->rain.leak,
-                                .cells = true};
-    return depositing(m) ? water_route(m->gpu, m->work, &m->water, &how, &m->particles) : OK;
-}
-
-/* Eroded particles, in the i-th step of the frame, leave, or come to rest elsewhere. Did anything move? */
-static status remove_eroded(struct model *m, int i, uint32_t n_eroded, bool *changed)
+/* Eroded particles, in a step of the frame, leave, or come to rest elsewhere. Did anything move? */
+static status remove_eroded(struct model *m, int step, uint32_t n_eroded, bool *changed)
 {
     status st = OK;
     struct deposit_counts moved = {.crumbs = n_eroded, .left = n_eroded};
@@ -95,7 +89,8 @@ static status remove_eroded(struct model *m, int i, uint32_t n_eroded, bool *cha
         memcpy(routing.cells, m->water.cells, sizeof routing.cells);
         memcpy(routing.shift, m->water.shift, sizeof routing.shift);
         gpu_stage(m->gpu, "deposition");
-        TRY(deposit_land(m->gpu, m->work, &m->deposit, m->job, m->frame, i, &routing, &m->particles, &moved));
+        TRY(deposit_land(m->gpu, m->work, &m->deposit, m->job, m->frame, step, &routing, &m->particles,
+                         &moved));
     }
     m->ledger.left += moved.left;
     *changed = moved.crumbs > 0;
@@ -124,16 +119,12 @@ done:
 }
 
 /* What follows from the shape: surface, normals, stress, erodibility. A resumed run has the displacement
- * already: `solved`. At the end of a frame plants grow, on the new surface. */
-static status settle(struct model *m, bool solved, bool grow)
+ * already: `solved`. */
+static status settle(struct model *m, bool solved)
 {
     status st = OK;
     gpu_stage(m->gpu, "surface");
     TRY(particles_surface(m->gpu, m->work, &m->particles));
-    if (m->plants && grow) {
-        gpu_stage(m->gpu, "plants");
-        plants_grow(m->gpu, m->job, m->frame, &m->particles);
-    }
     gpu_stage(m->gpu, "stress");
     TRY(elastic_assemble(m->gpu, m->work, &m->elastic, &m->particles));
     if (!solved)
@@ -151,28 +142,76 @@ done:
     return st;
 }
 
+/* Does anything in the job need to know where water runs? */
+static bool routes(const struct job *job)
+{
+    return water_ever_flows(job) || deposit_wanted(job);
+}
+
+/* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
+ * water is fast; cut into parts of `least` it would not be into fewer. */
+static status run_water(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    const struct job *job = m->job;
+    bool deposits = depositing(m), flows = water_flows(job, m->frame);
+    struct water_routing how = {.seed = (uint32_t)job->seed,
+                                .frame = m->frame,
+                                .step = step,
+                                .leak = job->rain.leak,
+                                .cells = deposits};
+    double fastest;
+    gpu_stage(m->gpu, "water");
+    if (deposits || flows)
+        TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    if (!flows)
+        goto done;
+    TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
+    water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
+    TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
+    /* Equal parts: at most as many as `least` goes into *kyr, now and after each. */
+    if (fastest * *kyr > WATER_STEP * job->domain.spacing_m)
+        *kyr /= ceil(*kyr / fmax(least, WATER_STEP * job->domain.spacing_m / fastest) - 1e-6);
+done:
+    return st;
+}
+
+/* One step of up to *kyr. */
+static status erode(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    uint32_t n_eroded;
+    bool changed;
+    gpu_stage(m->gpu, "wind");
+    wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
+    TRY(run_water(m, step, least, kyr));
+    if (m->plants)
+        plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
+    gpu_stage(m->gpu, "viability");
+    TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &n_eroded));
+    TRY(remove_eroded(m, step, n_eroded, &changed));
+    if (changed)
+        TRY(remove_unsupported(m));
+    TRY(settle(m, false));
+done:
+    return st;
+}
+
 static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
-    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame));
-    double kyr = m->job->clock.years_per_frame / 1000 / steps;
-    for (int i = 0; i < steps && m->particles.n > 0; i++) {
-        uint32_t n_eroded;
-        bool changed;
-        gpu_stage(m->gpu, "water");
-        TRY(route(m, i));
-        gpu_stage(m->gpu, "wind");
-        wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
-        if (m->plants)
-            plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
-        gpu_stage(m->gpu, "viability");
-        TRY(erosion_weather(m->gpu, m->work, &m->erosion, kyr, &m->particles, &n_eroded));
-        TRY(remove_eroded(m, i, n_eroded, &changed));
-        if (changed)
-            TRY(remove_unsupported(m));
-        TRY(settle(m, false, i + 1 == steps));
+    if (m->plants) {
+        gpu_stage(m->gpu, "plants");
+        plants_grow(m->gpu, m->job, m->frame, &m->particles);
     }
+    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame)), number = 0;
+    double whole = m->job->clock.years_per_frame / 1000 / steps, least = whole / (double)m->job->rain.steps;
+    for (int i = 0; i < steps; i++)
+        for (double left = whole, kyr; left > 0 && m->particles.n > 0; left -= kyr) {
+            kyr = left;
+            TRY(erode(m, number++, fmin(least, left), &kyr));
+        }
 done:
     return st;
 }
@@ -205,6 +244,24 @@ static status measure(const struct model *m, struct frame *out)
     return OK;
 }
 
+/* The discharge over the shape as it is now. One grid and one set of choices for all frames, so that streams
+ * move only where the rock has changed. */
+static status show_water(struct model *m)
+{
+    status st = OK;
+    struct water_routing how = {.seed = (uint32_t)m->job->seed, .leak = m->job->rain.leak};
+    if (!water_flows(m->job, m->frame)) {
+        gpu_fill(m->gpu, m->particles.field[ROCK_discharge], 0);
+        return OK;
+    }
+    gpu_stage(m->gpu, "water");
+    TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    TRY(water_discharge(m->gpu, m->work, &m->water, m->job, m->frame, &m->particles));
+    water_show(m->gpu, &m->water, &m->particles);
+done:
+    return st;
+}
+
 static status output(struct model *m, struct frame *out)
 {
     status st = OK;
@@ -213,6 +270,7 @@ static status output(struct model *m, struct frame *out)
                           .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
                           .ledger = m->ledger,
                           .stress_iterations = m->elastic.iterations};
+    TRY(show_water(m));
     gpu_stage(m->gpu, "field");
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
@@ -317,9 +375,9 @@ static void destroy(struct model **handle)
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
     deposit_destroy(m->gpu, &m->deposit);
-    water_destroy(m->gpu, &m->water);
     blocks_destroy(m->gpu, &m->blocks);
     erosion_destroy(m->gpu, &m->erosion);
+    water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
     particles_destroy(m->gpu, &m->particles);
     gpu_work_destroy(m->gpu, &m->work);
@@ -352,16 +410,16 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(blocks_create(gpu, voxels, &m->blocks));
     m->plants = plants_wanted(job);
     m->deposits = deposit_wanted(job);
-    if (m->deposits) {
-        TRY(water_create(gpu, job, voxels, h, &m->water));
+    if (m->deposits)
         TRY(deposit_create(gpu, voxels, &m->deposit));
-    }
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(from ? restore(m, from, voxels) : begin(m, voxels));
     TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
-    TRY(settle(m, from != NULL, false));
+    if (routes(job))
+        TRY(water_create(gpu, job, voxels, h, &m->water));
+    TRY(settle(m, from != NULL));
     *out = m;
     m = NULL;
 done:
@@ -381,11 +439,10 @@ static status estimate(const struct job *job, struct model_estimate *out)
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
-    if (deposit_wanted(job))
-        out->device_bytes = water_bytes(out->voxels) + deposit_bytes(out->voxels);
-    out->device_bytes += gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
-                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                         aov_bytes(pixels);
+    out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
+                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
+                        aov_bytes(pixels) + (routes(job) ? water_bytes(out->voxels) : 0) +
+                        (deposit_wanted(job) ? deposit_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = pixels * 17 * 4;
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);

@@ -121,6 +121,16 @@ bool water_flows(const struct job *job, int frame)
     return false;
 }
 
+bool water_ever_flows(const struct job *job)
+{
+    if (curve_max(&job->rain.m_per_yr) > 0)
+        return true;
+    for (size_t i = 0; i < job->n_sources; i++)
+        if (curve_max(&job->sources[i].m3_per_yr) > 0)
+            return true;
+    return false;
+}
+
 /* ---- discharge */
 
 static status let_it_rain(struct gpu *gpu, struct gpu_work *work, struct water *w)
@@ -226,19 +236,22 @@ static struct water_surface_params surface_params(const struct water *w, const s
 void water_show(struct gpu *gpu, struct water *w, struct particles *p)
 {
     struct water_surface_params k = surface_params(w, p);
+    gpu_fill(gpu, p->field[ROCK_discharge], 0);
     GPU_RUN(gpu, water_show, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
             w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING],
             p->field[ROCK_discharge]);
 }
 
-void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, struct particles *p,
-                 struct gpu_buffer *intensity)
+void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
+                 struct particles *p, struct gpu_buffer *intensity)
 {
     struct water_surface_params k = surface_params(w, p);
     k.rate = (float)curve_at(&job->rain.erosion, frame);
     k.shear = (float)job->rain.shear_Pa;
     k.threshold = (float)curve_at(&job->rain.threshold_Pa, frame);
     k.steepest = (float)job->rain.steepest;
+    k.most = (float)(WATER_DEPTH * p->h / kyr);
     GPU_RUN(gpu, water_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
-            w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING], intensity);
+            w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING],
+            p->field[ROCK_erodibility], intensity);
 }

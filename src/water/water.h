@@ -85,8 +85,9 @@ MUST_USE status water_create(struct gpu *gpu, const struct job *job, const int v
                              struct water *out);
 void water_destroy(struct gpu *gpu, struct water *w);
 
-/* Is there rain or a source in this frame? */
+/* Is there rain or a source in this frame? In any? */
 bool water_flows(const struct job *job, int frame);
+bool water_ever_flows(const struct job *job);
 
 struct water_routing {
     uint32_t seed;
@@ -113,9 +114,10 @@ MUST_USE status water_discharge(struct gpu *gpu, struct gpu_work *work, struct w
  * routed. Records only. */
 void water_show(struct gpu *gpu, struct water *w, struct particles *p);
 
-/* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14). For the surface
- * and normals of the shape that was routed. Records only. */
-void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, struct particles *p,
-                 struct gpu_buffer *intensity);
+/* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14), held to what takes
+ * WATER_DEPTH spacings in `kyr`: below its surface a step reaches no further (erosion/carry). For the surface,
+ * normals and erodibility of the shape that was routed. Records only. */
+void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
+                 struct particles *p, struct gpu_buffer *intensity);
 
 #endif

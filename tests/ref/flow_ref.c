@@ -52,15 +52,6 @@ static bool is_air(const struct flow_ref *f, int x, int y, int z)
     return kind(f, cell(f, x, y, z)) == WATER_EMPTY;
 }
 
-/* The bottom of the run of empty cells that a cell is in. */
-static size_t floor_of(const struct flow_ref *f, size_t c)
-{
-    size_t layer = (size_t)f->cells[0] * (size_t)f->cells[1];
-    while (kind(f, c) == WATER_EMPTY && c >= layer)
-        c -= layer;
-    return c;
-}
-
 static bool is_out(const struct flow_ref *f, size_t c)
 {
     struct place p = place_of(f, c);
@@ -103,6 +94,9 @@ static void find_kinds(struct flow_ref *f, const struct rock *rock, const int vo
             (share < 64512 ? share : 64512) + (random_hash(random, (uint32_t)c, 0, RANDOM_ROUGHNESS) & 1023);
         f->altitude[c] = f->z[c];
     }
+    size_t layer = (size_t)f->cells[0] * (size_t)f->cells[1];
+    for (size_t c = 0; c < f->n; c++)
+        f->floor[c] = f->tag[c] == WATER_EMPTY && c >= layer ? f->floor[c - layer] : (uint32_t)c;
     free(sum);
     free(rocky);
 }
@@ -123,9 +117,9 @@ static size_t first_receiver(const struct flow_ref *f, size_t c, uint32_t random
     if (is_out(f, c))
         return c;
     if (kind(f, c) == WATER_EMPTY)
-        return floor_of(f, c);
+        return f->floor[c];
     if ((rock || leak) && p.z > 0 && is_air(f, p.x, p.y, p.z - 1))
-        return floor_of(f, cell(f, p.x, p.y, p.z - 1));
+        return f->floor[cell(f, p.x, p.y, p.z - 1)];
     for (int d = 0; d < 4; d++)
         any |= is_air(f, p.x + step_x[d], p.y + step_y[d], p.z);
     for (int d = 0; d < 4; d++) {
@@ -141,7 +135,7 @@ static size_t first_receiver(const struct flow_ref *f, size_t c, uint32_t random
     uint32_t left = below(hash, sum);
     for (int d = 0;; d++) {
         if (left < weight[d])
-            return floor_of(f, beside[d]);
+            return f->floor[beside[d]];
         left -= weight[d];
     }
 }
@@ -178,7 +172,7 @@ static uint32_t *number_floors(const struct flow_ref *f)
         for (int x = 0; x < f->cells[0]; x++)
             for (int z = 0; z < f->cells[2]; z++) {
                 size_t c = cell(f, x, y, z);
-                if (is_open(f, c) && floor_of(f, c) == c)
+                if (is_open(f, c) && f->floor[c] == c)
                     number[c] = next++;
             }
     return number;
@@ -200,7 +194,7 @@ static struct pass *find_passes(const struct flow_ref *f, size_t *n)
                 continue;
             if (!is_air(f, x, y, p.z) && d >= 2)
                 continue; /* the other cell's pass */
-            size_t to = floor_of(f, cell(f, x, y, p.z));
+            size_t to = f->floor[cell(f, x, y, p.z)];
             uint32_t z = f->altitude[to] > f->z[c] ? f->altitude[to] : f->z[c];
             pass[(*n)++] = (struct pass){z, 4 * number[c] + (uint32_t)d, c, to};
         }
@@ -280,7 +274,7 @@ static void add_up(struct flow_ref *f, const int voxels[3], const int shift[3])
             for (int s = 0; s < 4; s++) {
                 int vx = 2 * x + (s & 1) - shift[0], vy = 2 * y + (s >> 1) - shift[1];
                 if (vx >= 0 && vy >= 0 && vx < voxels[0] && vy < voxels[1])
-                    f->rain[floor_of(f, cell(f, x, y, f->cells[2] - 1))]++;
+                    f->rain[f->floor[cell(f, x, y, f->cells[2] - 1)]]++;
             }
     for (size_t c = 0; c < f->n; c++)
         donors[f->receiver[c]] += f->receiver[c] != c;
@@ -312,6 +306,7 @@ struct flow_ref flow_ref_route(const struct rock *rock, const int voxels[3], dou
     f.z = need(f.n, 4);
     f.altitude = need(f.n, 4);
     f.initial = need(f.n, 4);
+    f.floor = need(f.n, 4);
     f.receiver = need(f.n, 4);
     f.rain = need(f.n, 8);
     find_kinds(&f, rock, voxels, h, shift, random);
@@ -327,6 +322,11 @@ struct flow_ref flow_ref_route(const struct rock *rock, const int voxels[3], dou
     for (size_t c = 0; c < f.n; c++)
         if (is_open(&f, c))
             parent[root_of(parent, c)] = (uint32_t)root_of(parent, is_out(&f, c) ? outside : f.initial[c]);
+    size_t n_between = 0;
+    for (size_t e = 0; e < n; e++)
+        if (root_of(parent, pass[e].from) != root_of(parent, pass[e].to))
+            pass[n_between++] = pass[e];
+    n = n_between;
     qsort(pass, n, sizeof *pass, by_height);
     for (size_t e = 0; e < n; e++) {
         size_t a = root_of(parent, pass[e].from), b = root_of(parent, pass[e].to);
@@ -351,6 +351,7 @@ void flow_ref_free(struct flow_ref *f)
     free(f->z);
     free(f->altitude);
     free(f->initial);
+    free(f->floor);
     free(f->receiver);
     free(f->rain);
     *f = (struct flow_ref){0};

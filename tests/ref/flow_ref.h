@@ -15,6 +15,7 @@ struct flow_ref {
     uint32_t *tag, *z, *receiver; /* as in water/water.h */
     uint32_t *altitude;           /* of each cell that is not rock: z, or its floor */
     uint32_t *initial;            /* receivers before pits overflow */
+    uint32_t *floor;              /* the bottom of the run of empty cells that each cell is in */
     uint64_t *rain;               /* voxel columns that drain through each cell */
 };
 
