@@ -112,8 +112,10 @@ static status begin(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
                     const struct deposit_routing *routing, struct deposit_params k, struct particles *p)
 {
     status st = OK;
-    struct count_params mark = {(uint)p->n}, list = {(uint)d->n_cells};
-    GPU_RUN(gpu, deposit_mark, p->n, mark, p->field[ROCK_viability], p->flags);
+    struct count_params list = {(uint)d->n_cells};
+    k.n = (uint)p->n;
+    GPU_RUN(gpu, deposit_mark, k.n, k, p->field[ROCK_viability], p->field[ROCK_P], p->field[ROCK_phase],
+            p->start, p->flags);
     k.n = k.nx * k.ny * k.words;
     GPU_RUN(gpu, deposit_bits, k.n, k, p->start, p->flags, d->bits);
     GPU_RUN(gpu, deposit_list, list.n, list, routing->tag, d->pointer);

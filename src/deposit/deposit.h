@@ -1,7 +1,7 @@
 /* Where eroded rock comes to rest (Arenite section 7).
  *
- * Crumbs     are particles of which erosion left nothing, and deposits on ground that has become steeper than
- *            the angle of repose: those slide on, one of a routing cell in a step.
+ * Crumbs     are particles of which erosion left nothing; deposits with nothing below them; and deposits on ground
+ *            that has become too steep: those slide on, one of a routing cell in a step.
  * Way        From the ground to one of the lower cells beside it, by a hash of the crumb's id and as likely as
  *            it is lower now, then along the routing's receivers to the next cell where there is room (pointer
  *            doubling). Out of the domain: the crumb has left.
