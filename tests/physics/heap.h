@@ -25,7 +25,9 @@ struct heap {
     int frame;
     uint64_t start, left, slid;
     struct deposit_counts last;
-    int most_rounds;
+    uint32_t most_rounds;
+    int unshifted;          /* keep the routing's grid where it is */
+    struct routing_ref way; /* of the last frame */
 };
 
 static inline struct heap heap_begin(const int n[3], double h, double repose_deg)
@@ -46,30 +48,10 @@ static inline struct heap heap_begin(const int n[3], double h, double repose_deg
 static inline void heap_end(struct heap *p)
 {
     rock_free(&p->rock);
+    routing_ref_free(&p->way);
     deposit_destroy(p->gpu, &p->deposit);
     gpu_work_destroy(p->gpu, &p->work);
     gpu_destroy(&p->gpu);
-}
-
-/* One particle more, in a voxel. */
-static inline void heap_add(struct heap *p, int x, int y, int z)
-{
-    struct rock more;
-    size_t i = p->rock.n;
-    assert_ok(rock_alloc(&more, i + 1, STATE));
-    for (int f = 0; f < ROCK_FIELDS; f++)
-        if (more.field[f] && i)
-            memcpy(more.field[f], p->rock.field[f], i * rock_field_size((enum rock_field)f));
-    rock_free(&p->rock);
-    p->rock = more;
-    const int v[3] = {x, y, z};
-    for (int a = 0; a < 3; a++)
-        more.P[4 * i + (size_t)a] = (float)((v[a] + 0.5) * p->h);
-    more.id[i] = p->next_id++;
-    more.viability[i] = 1;
-    more.rate_factor[i] = 1;
-    more.interlock_factor[i] = 1;
-    p->start++;
 }
 
 /* Rock in all voxels of a box. */
@@ -96,11 +78,18 @@ static inline void heap_box(struct heap *p, const int low[3], const int high[3])
     p->start += more;
 }
 
-/* A frame: the particles with the n ids given are crumbs. In the air they hold up nothing. */
+/* One particle more, in a voxel; its id. */
+static inline uint32_t heap_add(struct heap *p, int x, int y, int z)
+{
+    heap_box(p, (int[]){x, y, z}, (int[]){x + 1, y + 1, z + 1});
+    return p->next_id - 1;
+}
+
+/* A frame: the particles with the n ids given are crumbs. In the air they are no part of the ground. What the
+ * ledger says is checked. */
 static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int in_air)
 {
     struct particles particles;
-    struct routing_ref way;
     struct deposit_routing routing;
     float *viability = malloc(p->rock.n * sizeof *viability);
     assert_ok(particles_create(p->gpu, p->work, &p->rock, p->n, p->h, &particles));
@@ -117,7 +106,10 @@ static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int 
         if (!in_air || viability[i] > 0)
             memcpy(&ground.P[4 * ground.n++], &p->rock.P[4 * i], 4 * sizeof *ground.P);
     }
-    way = routing_ref(&ground, p->n, p->h, random_hash((uint32_t)p->job.seed, (uint32_t)++p->frame, 0, 99));
+    routing_ref_free(&p->way);
+    p->way = routing_ref(&ground, p->n, p->h, random_hash((uint32_t)p->job.seed, (uint32_t)++p->frame, 0, 99),
+                         p->unshifted);
+    const struct routing_ref way = p->way;
     free(ground.P);
     assert_ok(gpu_upload(p->gpu, particles.field[ROCK_viability], 0, viability, p->rock.n));
     size_t cells = (size_t)way.cells[0] * (size_t)way.cells[1] * (size_t)way.cells[2];
@@ -129,34 +121,16 @@ static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int 
     assert_ok(gpu_upload(p->gpu, routing.receiver, 0, way.receiver, cells));
     assert_ok(
         deposit_land(p->gpu, p->work, &p->deposit, &p->job, p->frame, 0, &routing, &particles, &p->last));
-    if (getenv("DBG") && p->last.left) {
-        uint32_t *cell = malloc(p->last.crumbs * 4), *place = malloc(p->last.crumbs * 4),
-                 *room = malloc(cells * 4);
-        assert_ok(gpu_download(p->gpu, p->deposit.cell, 0, cell, p->last.crumbs));
-        assert_ok(gpu_download(p->gpu, p->deposit.place, 0, place, p->last.crumbs));
-        assert_ok(gpu_download(p->gpu, p->deposit.room, 0, room, cells));
-        printf("frame %d cells %d %d %d rounds %d:", p->frame, way.cells[0], way.cells[1], way.cells[2],
-               p->last.rounds);
-        for (uint32_t i = 0; i < p->last.crumbs; i++)
-            if (place[i] == 0 || place[i] == ~0u) {
-                uint32_t c = cell[i];
-                printf(" %s(%d %d %d tag %d room %d rec %d)", place[i] ? "L" : "W", c % way.cells[0],
-                       c / way.cells[0] % way.cells[1], c / way.cells[0] / way.cells[1], way.tag[c], room[c],
-                       way.receiver[c] != c);
-            }
-        printf("\n");
-    }
     assert_int_equal(p->last.crumbs, p->last.landed + p->last.left);
     assert_ok(particles_index(p->gpu, p->work, &particles));
     p->left += p->last.left;
     p->slid += p->last.slid;
-    p->most_rounds = (int)p->last.rounds > p->most_rounds ? (int)p->last.rounds : p->most_rounds;
+    p->most_rounds = p->last.rounds > p->most_rounds ? p->last.rounds : p->most_rounds;
     rock_free(&p->rock);
     assert_ok(particles_download(p->gpu, &particles, STATE, &p->rock));
     assert_int_equal(p->start, p->rock.n + p->left);
     gpu_buffer_destroy(p->gpu, &routing.tag);
     gpu_buffer_destroy(p->gpu, &routing.receiver);
-    routing_ref_free(&way);
     particles_destroy(p->gpu, &particles);
     free(viability);
 }

@@ -43,12 +43,13 @@ static uint32_t choose(const struct routing_ref *r, const int at[3], size_t c, u
     return (uint32_t)c;
 }
 
-struct routing_ref routing_ref(const struct rock *rock, const int voxels[3], double h, uint32_t seed)
+struct routing_ref routing_ref(const struct rock *rock, const int voxels[3], double h, uint32_t seed,
+                               int unshifted)
 {
     struct routing_ref r = {0};
     size_t n = 1;
     for (int a = 0; a < 3; a++) {
-        r.shift[a] = (int)(random_hash(seed, (uint32_t)a, 0, 0) & 1);
+        r.shift[a] = unshifted ? 0 : (int)(random_hash(seed, (uint32_t)a, 0, 0) & 1);
         r.cells[a] = voxels[a] / 2 + r.shift[a];
         n *= (size_t)r.cells[a];
     }

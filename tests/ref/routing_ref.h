@@ -12,9 +12,10 @@ struct routing_ref {
     uint32_t *tag, *z, *receiver; /* routing_ref_free() */
 };
 
-/* `seed` says how the grid is shifted and which of several ways is taken. Pits and outlets keep to
+/* `seed` says how the grid is shifted (unless it is to stay where it is) and which of several ways is taken. Pits and outlets keep to
  * themselves. */
-struct routing_ref routing_ref(const struct rock *rock, const int voxels[3], double h, uint32_t seed);
+struct routing_ref routing_ref(const struct rock *rock, const int voxels[3], double h, uint32_t seed,
+                               int unshifted);
 void routing_ref_free(struct routing_ref *r);
 
 #endif
