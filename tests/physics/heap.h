@@ -54,35 +54,40 @@ static inline void heap_end(struct heap *p)
     gpu_destroy(&p->gpu);
 }
 
+/* Space for so many particles more; the first of them. */
+static inline size_t heap_grow(struct heap *p, size_t more)
+{
+    struct rock all;
+    size_t first = p->rock.n;
+    assert_ok(rock_alloc(&all, first + more, STATE));
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (all.field[f] && first)
+            memcpy(all.field[f], p->rock.field[f], first * rock_field_size((enum rock_field)f));
+    rock_free(&p->rock);
+    p->rock = all;
+    p->start += more;
+    return first;
+}
+
+/* Particle i, new, in the middle of a voxel; its id. */
+static inline uint32_t heap_set(struct heap *p, size_t i, int x, int y, int z)
+{
+    const int v[3] = {x, y, z};
+    for (int a = 0; a < 3; a++)
+        p->rock.P[4 * i + (size_t)a] = (float)((v[a] + 0.5) * p->h);
+    p->rock.viability[i] = p->rock.rate_factor[i] = p->rock.interlock_factor[i] = 1;
+    return p->rock.id[i] = p->next_id++;
+}
+
 /* Rock in all voxels of a box. */
 static inline void heap_box(struct heap *p, const int low[3], const int high[3])
 {
-    size_t i = p->rock.n,
-           more = (size_t)(high[0] - low[0]) * (size_t)(high[1] - low[1]) * (size_t)(high[2] - low[2]);
-    struct rock all;
-    assert_ok(rock_alloc(&all, i + more, STATE));
-    for (int f = 0; f < ROCK_FIELDS; f++)
-        if (all.field[f] && i)
-            memcpy(all.field[f], p->rock.field[f], i * rock_field_size((enum rock_field)f));
-    rock_free(&p->rock);
-    p->rock = all;
+    size_t i =
+        heap_grow(p, (size_t)(high[0] - low[0]) * (size_t)(high[1] - low[1]) * (size_t)(high[2] - low[2]));
     for (int z = low[2]; z < high[2]; z++)
         for (int y = low[1]; y < high[1]; y++)
-            for (int x = low[0]; x < high[0]; x++, i++) {
-                const int v[3] = {x, y, z};
-                for (int a = 0; a < 3; a++)
-                    all.P[4 * i + (size_t)a] = (float)((v[a] + 0.5) * p->h);
-                all.id[i] = p->next_id++;
-                all.viability[i] = all.rate_factor[i] = all.interlock_factor[i] = 1;
-            }
-    p->start += more;
-}
-
-/* One particle more, in a voxel; its id. */
-static inline uint32_t heap_add(struct heap *p, int x, int y, int z)
-{
-    heap_box(p, (int[]){x, y, z}, (int[]){x + 1, y + 1, z + 1});
-    return p->next_id - 1;
+            for (int x = low[0]; x < high[0]; x++)
+                heap_set(p, i++, x, y, z);
 }
 
 /* A frame: the particles with the n ids given are crumbs. In the air they are no part of the ground. What the
