@@ -176,9 +176,8 @@ SHARED_SIZE(water_surface_params, 64)
 
 /* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
 
-#define DEPOSIT_ROOM 4u      /* how many land in a cell in a round, at most */
-#define DEPOSIT_LAST 16u     /* and in the last round */
-#define DEPOSIT_WAITS 0u     /* a crumb's place: nowhere yet, */
+#define DEPOSIT_ROOM 4u          /* how many land in a cell in a round, at most */
+#define DEPOSIT_WAITS 0u         /* a crumb's place: nowhere yet, */
 #define DEPOSIT_LEFT 0xffffffffu /* out of the domain, or the voxel it lies in, plus one */
 
 struct deposit_params {
@@ -207,9 +206,9 @@ SHARED_SIZE(deposit_params, 68)
 struct plants_params {
     uint n;
     uint nx, ny, nz;
-    float h;               /* m */
-    float steepest;        /* least upward part of a normal on which plants stand */
-    float growth, death;   /* in this step: e^(rate dt), e^(-rate dt) */
+    float h;             /* m */
+    float steepest;      /* least upward part of a normal on which plants stand */
+    float growth, death; /* in this step: e^(rate dt), e^(-rate dt) */
     float binding, shelter;
     uint seed;
     uint spread; /* which voxel's step of this frame */
