@@ -143,6 +143,7 @@ SHARED_SIZE(wind_params, 56)
 #define WATER_KIND 3u
 #define WATER_OUT 4u
 #define WATER_DEAD 8u
+#define WATER_SWEPT 16u
 
 /* Spacings that water takes in a step at most. */
 #define WATER_DEPTH 2.0f

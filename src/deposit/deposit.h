@@ -30,7 +30,8 @@
 /* Where things flow to: cells of 2^3 voxels, voxel v in cell (v + shift) / 2, numbered (k ny + j) nx + i. */
 struct deposit_routing {
     int cells[3], shift[3];
-    struct gpu_buffer *tag;      /* uint: kind and flags, WATER_* in params.h */
+    struct gpu_buffer
+        *tag; /* uint: kind and flags, WATER_* in params.h; none lands where WATER_SWEPT is set */
     struct gpu_buffer *receiver; /* uint: a cell; without cycles. Its end is an OUT cell, or itself */
 };
 

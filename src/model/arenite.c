@@ -168,6 +168,8 @@ static status run_water(struct model *m, int step, double least, double *kyr)
     if (!flows)
         goto done;
     TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
+    if (deposits)
+        water_sweep(m->gpu, &m->water, job, &m->particles);
     water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
     TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
     if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {

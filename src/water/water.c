@@ -243,6 +243,16 @@ void water_show(struct gpu *gpu, struct water *w, struct particles *p)
             p->field[ROCK_discharge]);
 }
 
+void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct particles *p)
+{
+    struct water_surface_params k = surface_params(w, p);
+    k.shear = (float)job->rain.shear_Pa;
+    k.threshold = (float)job->deposition.carry_Pa;
+    k.steepest = (float)job->rain.steepest;
+    GPU_RUN(gpu, water_sweep, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
+            w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING], w->tag);
+}
+
 void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
                  struct particles *p, struct gpu_buffer *intensity)
 {
