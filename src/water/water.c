@@ -146,7 +146,10 @@ static status let_it_rain(struct gpu *gpu, struct gpu_work *work, struct water *
     k.n = (uint)w->n_nodes + 1;
     GPU_RUN(gpu, water_downstream, k.n, k, node[WATER_FINAL], node[WATER_BASIN], node[WATER_COMPONENT],
             pointer[0]);
-    while (changed) {
+    for (int round = 0; changed; round++) {
+        if (round == 32) /* 2^64 hops */
+            return fail(E_NUMERIC, "water: %zu receivers have a cycle: the device computes wrongly",
+                        w->n_nodes);
         gpu_fill(gpu, counts, 0);
         for (int i = 0; i < 2; i++) {
             gpu_copy(gpu, sum[!i], sum[i], w->n_nodes + 1);
