@@ -56,6 +56,10 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
+#define PHASE_ROCK 0u
+#define PHASE_DEPOSIT 1u
+#define PHASE_FALLING 2u
+
 /* The share of space that is rock around a voxel's middle, from its own fill, its 6 face and its 12 edge
  * neighbours': the surface is where this is 1/2. The weights are those of (1 - r^2 / 4 h^2)^3, rounded so
  * that they add up to 1; on a plane face the surface lies exactly where the fill puts it. */
@@ -157,9 +161,10 @@ struct water_params {
     uint nodes;      /* that many; also the number that stands for outside */
     uint basins;     /* likewise */
     uint leak;
-    uint random; /* hash of seed, frame and step */
+    uint random;             /* hash of seed, frame and step */
+    float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
 };
-SHARED_SIZE(water_params, 60)
+SHARED_SIZE(water_params, 68)
 
 struct water_surface_params {
     uint n;
@@ -237,8 +242,13 @@ struct march_params {
     float down_x, down_y, down_z;    /* half its height */
     float ahead_x, ahead_y, ahead_z;
     float sun_x, sun_y, sun_z; /* unit vector towards the sun */
+    uint ray, rays;            /* of the pixel; a single one has a sun without extent and an open sky */
+    float film_x, film_y;      /* px: where in the pixel */
 };
-SHARED_SIZE(march_params, 100)
+SHARED_SIZE(march_params, 116)
+
+#define LIT_SUN 1.0f
+#define LIT_SKY 2.0f
 
 struct shade_params {
     uint n;
@@ -248,8 +258,18 @@ struct shade_params {
     float voxel;
     float origin_x, origin_y, origin_z;
     float sun_x, sun_y, sun_z;
+    uint ray, rays;
 };
-SHARED_SIZE(shade_params, 60)
+SHARED_SIZE(shade_params, 68)
+
+/* The lattice of the wind; one sample of it, alone, is the same everywhere. */
+struct pixel_weather_params {
+    uint n;
+    uint ax, ay, az;
+    float cell;
+    float origin_x, origin_y, origin_z; /* m: sample 0 */
+};
+SHARED_SIZE(pixel_weather_params, 32)
 
 /* ---- voxels: a bit a voxel, in words of 32 along x, with a margin of M rows and slabs around the domain and
  * one word of air between rows. A voxel's number is its bit's. See voxels/voxels.h. */

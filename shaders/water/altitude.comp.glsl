@@ -12,6 +12,7 @@ READ_U(1, start)
 READ_F(2, viability)
 WRITE_U(3, altitude)
 PARAMS(water_params)
+#include "water/cell_of.glsl"
 #include "water/voxels.glsl"
 
 void main()
@@ -20,7 +21,7 @@ void main()
     if (i >= k.n)
         return;
     uint at = LOAD_U(cell, i);
-    uvec3 c = uvec3(at % k.cx, (at / k.cx) % k.cy, at / (k.cx * k.cy)), low, high;
+    uvec3 c = cell_of(at), low, high;
     cell_voxels(c, low, high);
     bool rock = false;
     float sum = 0.0;

@@ -17,6 +17,7 @@ WRITE_U(8, tag)
 WRITE_U(9, z)
 WRITE_U(10, receiver)
 PARAMS(water_params)
+#include "water/cell_of.glsl"
 #include "water/columns.glsl"
 
 uint to_cell(uint node, uint self)
@@ -66,7 +67,7 @@ void main()
     if (i >= k.n)
         return;
     uvec3 c = cell_of(i);
-    uint column = i % (k.cx * k.cy), node = node_at(column, c.z), kind, to, height = c.z << 16u;
+    uint column = c.y * k.cx + c.x, node = node_at(column, c.z), kind, to, height = c.z << 16u;
     if (node == NONE) {
         rock(i, c, column, kind, to);
     } else {

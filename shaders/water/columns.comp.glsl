@@ -4,43 +4,33 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, start)
+READ_U(0, rows)
 WRITE_U(1, occupied)
 WRITE_U(2, floors)
 WRITE_U(3, count)
 PARAMS(water_params)
-#include "water/voxels.glsl"
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint x = i % k.cx, y = (i / k.cx) % k.cy, word = i / (k.cx * k.cy);
-    uvec3 low, high;
-    cell_voxels(uvec3(x, y, 0u), low, high);
-    uint near = low.y * k.vx, far = (high.y - 1u) * k.vx, bits = 0u;
-    bool over = false; // the level above these
-    for (uint l = 0u; l < 33u; l++) {
-        uint z = word * 32u + l;
-        if (z >= k.cz)
-            break;
-        uint lower = uint(max(2 * int(z) - int(k.sz), 0)) * k.vx * k.vy;
-        uint upper = min(2u * z - k.sz + 1u, k.vz - 1u) * k.vx * k.vy;
-        over = LOAD_U(start, lower + near + low.x) != LOAD_U(start, lower + near + high.x) ||
-               LOAD_U(start, lower + far + low.x) != LOAD_U(start, lower + far + high.x) ||
-               LOAD_U(start, upper + near + low.x) != LOAD_U(start, upper + near + high.x) ||
-               LOAD_U(start, upper + far + low.x) != LOAD_U(start, upper + far + high.x);
-        if (over && l < 32u)
-            bits |= 1u << l;
+    uint x = i % k.cx, y = (i / k.cx) % k.cy, word = i / (k.cx * k.cy), bits = 0u, above = 0u;
+    uint wide = (k.cx + 31u) / 32u, slab = wide * k.cy, levels = min(k.cz - 32u * word, 33u);
+    uint at = 32u * word * slab + y * wide + (x >> 5u);
+    for (uint l = 0u; l < levels; l++) {
+        uint rock = LOAD_U(rows, at) >> (x & 31u) & 1u;
         if (l < 32u)
-            over = false;
+            bits |= rock << l;
+        else
+            above = rock << 31u;
+        at += slab;
     }
-    uint bottoms = bits & ~(bits >> 1u | (over ? 1u << 31u : 0u));
+    uint bottoms = bits & ~(bits >> 1u | above);
     if (word == 0u && (bits & 1u) == 0u)
         bottoms |= 1u;
-    uint at = (y * k.cx + x) * k.words + word;
-    AT(occupied, at) = bits;
-    AT(floors, at) = bottoms;
-    AT(count, at) = uint(bitCount(bottoms));
+    uint to = (y * k.cx + x) * k.words + word;
+    AT(occupied, to) = bits;
+    AT(floors, to) = bottoms;
+    AT(count, to) = uint(bitCount(bottoms));
 }

@@ -4,11 +4,6 @@
 
 const uint NONE = 0xffffffffu;
 
-uvec3 cell_of(uint index)
-{
-    return uvec3(index % k.cx, (index / k.cx) % k.cy, index / (k.cx * k.cy));
-}
-
 bool is_side(uvec3 c)
 {
     return c.x == 0u || c.y == 0u || c.x + 1u == k.cx || c.y + 1u == k.cy;

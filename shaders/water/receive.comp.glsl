@@ -15,6 +15,7 @@ WRITE_U(5, pass)
 WRITE_U(6, receiver)
 WRITE_U(7, root)
 PARAMS(water_params)
+#include "water/cell_of.glsl"
 #include "water/columns.glsl"
 
 void main()
@@ -27,8 +28,9 @@ void main()
         AT(root, i) = i;
         return;
     }
-    uint at = LOAD_U(cell, i), own = LOAD_U(altitude, i), column = at % (k.cx * k.cy);
+    uint at = LOAD_U(cell, i), own = LOAD_U(altitude, i), column;
     uvec3 c = cell_of(at);
+    column = c.y * k.cx + c.x;
     bool ground = !is_occupied(column, c.z);
     uint beside[4], fall[4];
     uint falls = 0u, drop = 0u;

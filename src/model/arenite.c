@@ -46,6 +46,7 @@ struct model {
     struct elastic elastic;
     struct erosion erosion;
     struct water water;
+    bool told; /* that water is held back */
     struct deposit deposit;
     struct blocks blocks;
     bool deposits, plants; /* does the job ever have any? */
@@ -169,6 +170,12 @@ static status run_water(struct model *m, int step, double least, double *kyr)
     TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
     water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
     TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
+    if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {
+        log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
+                 "rain.steps (%d), or lower rain.erosion",
+                 m->frame, (double)WATER_DEPTH, (int)job->rain.steps);
+        m->told = true;
+    }
     /* Equal parts: at most as many as `least` goes into *kyr, now and after each. */
     if (fastest * *kyr > WATER_STEP * job->domain.spacing_m)
         *kyr /= ceil(*kyr / fmax(least, WATER_STEP * job->domain.spacing_m / fastest) - 1e-6);
@@ -262,10 +269,28 @@ done:
     return st;
 }
 
+/* Which values of the surface this job can have. */
+static size_t skin_fields(const struct job *job, enum rock_field out[3])
+{
+    size_t n = 0;
+    bool plants = false;
+    if (water_ever_flows(job))
+        out[n++] = ROCK_discharge;
+    for (size_t i = 0; i < job->n_paint; i++)
+        plants |= job->paint[i].vegetation > 0;
+    if (plants)
+        out[n++] = ROCK_vegetation;
+    if (curve_max(&job->deposition.viability) > 0)
+        out[n++] = ROCK_phase;
+    return n;
+}
+
 static status output(struct model *m, struct frame *out)
 {
     status st = OK;
     const struct job *job = m->job;
+    enum rock_field skin[3];
+    size_t n_skin = skin_fields(job, skin);
     *out = (struct frame){.number = m->frame,
                           .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
                           .ledger = m->ledger,
@@ -275,14 +300,9 @@ static status output(struct model *m, struct frame *out)
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
-    TRY(field_download(m->gpu, &m->field, &out->grids));
+    TRY(field_download(m->gpu, &m->field, &m->particles, skin, n_skin, &out->grids));
     gpu_stage(m->gpu, "pictures");
-    TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
-    for (size_t c = 0; c < job->output.aov.n_cameras; c++)
-        for (size_t i = 0; i < job->n_cameras; i++)
-            if (strcmp(job->cameras[i].name, job->output.aov.cameras[c]) == 0)
-                TRY(aov_render(m->gpu, &m->aov, job, &job->cameras[i], &m->field, &m->particles,
-                               &out->image[out->n_images++]));
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, NULL, out));
 done:
     if (st != OK)
         frame_free(out);
@@ -341,7 +361,7 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = c->frame;
 done:
     return st;
@@ -352,7 +372,7 @@ static status begin(struct model *m, const int voxels[3])
     status st = OK;
     struct rock rock = {0};
     TRY(scene_sample(m->job, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = m->job->frames.first;
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
     TRY(remove_unsupported(m));
@@ -444,7 +464,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
                         aov_bytes(pixels) + (routes(job) ? water_bytes(out->voxels) : 0) +
                         (deposit_wanted(job) ? deposit_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
-    uint64_t picture = pixels * 17 * 4;
+    uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
     /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
      * 0.6. */

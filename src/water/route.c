@@ -30,7 +30,9 @@ struct water_params water_params(const struct water *w, size_t n)
                                  .nodes = (uint)w->n_nodes,
                                  .basins = (uint)w->n_basins,
                                  .leak = w->leak,
-                                 .random = w->random};
+                                 .random = w->random,
+                                 .per_row = 1.0f / (float)w->cells[0],
+                                 .per_slab = 1.0f / (float)w->columns};
 }
 
 /* The spans of every column. */
@@ -41,7 +43,10 @@ static status find_nodes(struct gpu *gpu, struct gpu_work *work, struct water *w
     struct water_params k = water_params(w, n_words);
     uint32_t n_nodes;
     gpu_fill(gpu, w->first, 0);
-    GPU_RUN(gpu, water_columns, n_words, k, p->start, w->occupied, w->floors, w->first);
+    k.n = (uint)(((size_t)w->cells[0] + 31) / 32 * (size_t)w->cells[1] * (size_t)w->cells[2]);
+    GPU_RUN(gpu, water_rows, k.n, k, p->start, w->rows);
+    k.n = (uint)n_words;
+    GPU_RUN(gpu, water_columns, n_words, k, w->rows, w->occupied, w->floors, w->first);
     gpu_scan(gpu, work, w->first, n_words + 1);
     TRY(gpu_download(gpu, w->first, n_words, &n_nodes, 1));
     w->n_nodes = n_nodes;
@@ -109,14 +114,12 @@ status water_route(struct gpu *gpu, struct gpu_work *work, struct water *w, cons
                    struct particles *p)
 {
     status st = OK;
-    size_t n_border = 0, cells = 1;
+    size_t n_border = 0;
     struct gpu_buffer **node = w->node;
     w->random = water_random(how, w->shift);
     w->leak = how->leak;
-    for (int a = 0; a < 3; a++) {
+    for (int a = 0; a < 3; a++)
         w->cells[a] = w->voxels[a] / 2 + w->shift[a];
-        cells *= (size_t)w->cells[a];
-    }
     w->columns = (size_t)w->cells[0] * (size_t)w->cells[1];
     w->words = ((size_t)w->cells[2] + 31) / 32;
     w->n_basins = 0;
@@ -127,9 +130,9 @@ status water_route(struct gpu *gpu, struct gpu_work *work, struct water *w, cons
     struct water_params k = water_params(w, w->n_basins);
     GPU_RUN(gpu, water_carve, k.n, k, node[WATER_COMPONENT], node[WATER_FROM], node[WATER_TO],
             node[WATER_INITIAL], node[WATER_FINAL]);
-    k.n = (uint)cells;
+    k.n = (uint)(w->columns * (size_t)w->cells[2]);
     if (how->cells)
-        GPU_RUN(gpu, water_cells, cells, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
+        GPU_RUN(gpu, water_cells, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
                 node[WATER_FINAL], node[WATER_BASIN], node[WATER_COMPONENT], w->tag, w->z, w->receiver);
 done:
     return st;

@@ -9,7 +9,7 @@
 
 /* The most cells, columns and words of a column there can be, whatever the shift. */
 struct most {
-    size_t cells, columns, words;
+    size_t cells, columns, words, row_words;
 };
 
 static struct most most_of(const int voxels[3])
@@ -17,7 +17,7 @@ static struct most most_of(const int voxels[3])
     size_t n[3];
     for (int a = 0; a < 3; a++)
         n[a] = (size_t)voxels[a] / 2 + 1;
-    return (struct most){n[0] * n[1] * n[2], n[0] * n[1], (n[2] + 31) / 32};
+    return (struct most){n[0] * n[1] * n[2], n[0] * n[1], (n[2] + 31) / 32, (n[0] + 31) / 32 * n[1] * n[2]};
 }
 
 /* Room for as many spans as are usual: a surface that lies 8 times over itself. */
@@ -30,7 +30,7 @@ static size_t usual_nodes(const struct most *m)
 uint64_t water_bytes(const int voxels[3])
 {
     struct most m = most_of(voxels);
-    return 12 * (uint64_t)m.cells + 12 * (uint64_t)(m.columns * m.words + 1) +
+    return 12 * (uint64_t)m.cells + 4 * (uint64_t)m.row_words + 12 * (uint64_t)(m.columns * m.words + 1) +
            4 * (WATER_NODE_ARRAYS + 4) * (uint64_t)(usual_nodes(&m) + 1);
 }
 
@@ -83,6 +83,7 @@ status water_create(struct gpu *gpu, const struct job *job, const int voxels[3],
     TRY(gpu_buffer_create(gpu, "water cells' kinds", m.cells, 4, &w->tag));
     TRY(gpu_buffer_create(gpu, "water cells' altitudes", m.cells, 4, &w->z));
     TRY(gpu_buffer_create(gpu, "water cells' receivers", m.cells, 4, &w->receiver));
+    TRY(gpu_buffer_create(gpu, "rows of cells", m.row_words, 4, &w->rows));
     TRY(gpu_buffer_create(gpu, "occupied cells", m.columns * m.words + 1, 4, &w->occupied));
     TRY(gpu_buffer_create(gpu, "floors", m.columns * m.words + 1, 4, &w->floors));
     TRY(gpu_buffer_create(gpu, "first spans", m.columns * m.words + 1, 4, &w->first));
@@ -102,8 +103,8 @@ done:
 
 void water_destroy(struct gpu *gpu, struct water *w)
 {
-    struct gpu_buffer **all[] = {&w->tag,   &w->z,    &w->receiver, &w->occupied, &w->floors,
-                                 &w->first, &w->pass, &w->source,   &w->entry};
+    struct gpu_buffer **all[] = {&w->tag,    &w->z,     &w->receiver, &w->rows,   &w->occupied,
+                                 &w->floors, &w->first, &w->pass,     &w->source, &w->entry};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
     for (int i = 0; i < WATER_NODE_ARRAYS; i++)

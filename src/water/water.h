@@ -68,6 +68,7 @@ struct water {
     int voxels[3];
     size_t columns, words, n_nodes, n_basins, nodes_max;
     uint32_t random, leak;
+    struct gpu_buffer *rows;                      /* uint: a bit a cell, in words along x */
     struct gpu_buffer *occupied, *floors, *first; /* uint [columns * words + 1] */
     struct gpu_buffer *node[WATER_NODE_ARRAYS];   /* uint [nodes_max + 1] */
     struct gpu_buffer *pass;                      /* uint [4 nodes_max] */

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gpu/kernel_source.h"
 #include "physics/water_help.h"
 #include "tests/ref/flow_ref.h"
 
@@ -377,11 +378,20 @@ static void a_heightfield_drains_as_in_two_dimensions(void **state)
     gpu_destroy(&gpu);
 }
 
-/* ---- threads */
+/* ---- threads and kernel variants */
 
-static void threads_do_not_show(void **state)
+struct setting {
+    const char *threads;
+    struct gpu_options options;
+};
+
+static void threads_and_variants_do_not_show(void **state)
 {
-    static const char *threads[] = {"0", "1", "2"};
+    static const struct setting setting[] = {{"2", {.device = "auto"}},
+                                             {"0", {.device = "auto"}},
+                                             {"1", {.device = "auto"}},
+                                             {"2", {.device = "auto", .variant = VARIANT_STORAGE + 1}},
+                                             {"2", {.device = "auto", .variant = VARIANT_WIDE + 1}}};
     const char *was = getenv("LP_NUM_THREADS");
     char *kept = was ? strdup(was) : NULL;
     struct scene scene = {.n = {60, 52, 48}, .seed = 1001};
@@ -392,14 +402,15 @@ static void threads_do_not_show(void **state)
     double year = 1;
     (void)state;
     job_of_rain(&job, &year);
-    for (size_t t = 0; t < 3; t++) {
-        setenv("LP_NUM_THREADS", threads[t], 1);
-        struct gpu *gpu = open_gpu();
+    for (size_t t = 0; t < sizeof setting / sizeof *setting; t++) {
+        struct gpu *gpu = NULL;
+        setenv("LP_NUM_THREADS", setting[t].threads, 1);
+        assert_ok(gpu_create(&setting[t].options, &gpu));
         struct bed bed = bed_of(gpu, &scene, 0.25, porous);
         struct routed r = route(&bed, &how, &job);
         if (t == 0) {
-            print_message("# %zu cells, %zu spans, %zu basins; LP_NUM_THREADS 0, 1, 2\n", r.ref.n,
-                          r.water.n_nodes, r.water.n_basins);
+            print_message("# %zu cells, %zu spans, %zu basins; LP_NUM_THREADS 0, 1, 2, and other variants\n",
+                          r.ref.n, r.water.n_nodes, r.water.n_basins);
             first = r;
             first_bed = bed;
             continue;
@@ -539,7 +550,7 @@ int main(void)
         cmocka_unit_test(a_tunnel_drains_through_its_lower_mouth),
         cmocka_unit_test(a_closed_cavity_is_dead_unless_its_roof_leaks),
         cmocka_unit_test(a_heightfield_drains_as_in_two_dimensions),
-        cmocka_unit_test(threads_do_not_show),
+        cmocka_unit_test(threads_and_variants_do_not_show),
         cmocka_unit_test(discharge_and_shear_are_those_of_the_equations),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
