@@ -69,8 +69,12 @@ uint onwards(uint c)
 {
     if (k.round == 0u)
         return LOAD_U(pointer, c);
-    for (int s = 0; s < NEAR && LOAD_U(room, c) == 0u; s++)
-        c = LOAD_U(receiver, c);
+    for (int s = 0; s < NEAR && LOAD_U(room, c) == 0u; s++) {
+        uint to = LOAD_U(receiver, c);
+        if (to == c)
+            break;
+        c = to;
+    }
     return c;
 }
 
