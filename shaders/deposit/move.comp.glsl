@@ -23,6 +23,8 @@ PARAMS(deposit_params)
 #include "deposit/column.glsl"
 #include "deposit/slope.glsl"
 
+const int NEAR = 64; // cells
+
 // The cell of the ground that lies `drop` lower (in four columns) beside the cell with this top: over rock, or
 // where a fall ends.
 uint ground(ivec3 c, int top, uint drop)
@@ -60,6 +62,22 @@ uint next(uint c, uint hash)
     return to == 0xffffffffu ? LOAD_U(receiver, c) : to;
 }
 
+// The next cell with room on the way from c on. In the first round all may have far to go: the pointers know.
+// Later only those move whose cell has filled up, and a cell with room is near; what is not, they come to in the
+// round after.
+uint onwards(uint c)
+{
+    if (k.round == 0u)
+        return LOAD_U(pointer, c);
+    for (int s = 0; s < NEAR && LOAD_U(room, c) == 0u; s++) {
+        uint to = LOAD_U(receiver, c);
+        if (to == c)
+            break;
+        c = to;
+    }
+    return c;
+}
+
 void main()
 {
     uint i = THREAD;
@@ -69,7 +87,7 @@ void main()
     if (AT(place, i) == DEPOSIT_WAITS) {
         uint c = AT(cell, i);
         if (k.round == 0u || LOAD_U(room, c) == 0u)
-            c = LOAD_U(pointer, next(c, random_hash(k.seed, LOAD_U(crumb_id, i), k.round, 0u)));
+            c = onwards(next(c, random_hash(k.seed, LOAD_U(crumb_id, i), k.round, 0u)));
         AT(cell, i) = c;
         if ((LOAD_U(tag, c) & WATER_OUT) != 0u)
             AT(place, i) = DEPOSIT_LEFT;

@@ -125,7 +125,7 @@ done:
     return st;
 }
 
-/* Every round: how much room there is, where pointers lead to, and who lands. */
+/* A round: how much room there is, where the ways lead to, and who lands. */
 static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
                       const struct deposit_routing *routing, struct deposit_params k, size_t n_crumbs,
                       uint32_t *n_waiting)
@@ -144,8 +144,10 @@ static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
                             .n_ordered = d->n_cells};
     k.n = (uint)d->n_ground;
     GPU_RUN(gpu, deposit_room, k.n, k, d->ground, d->bits, routing->tag, d->room);
-    GPU_RUN(gpu, deposit_point, cells.n, cells, routing->receiver, d->room, d->pointer);
-    TRY(gpu_double_pointers(gpu, work, d->pointer, d->other, d->n_cells));
+    if (k.round == 0) {
+        GPU_RUN(gpu, deposit_point, cells.n, cells, routing->receiver, d->room, d->pointer);
+        TRY(gpu_double_pointers(gpu, work, d->pointer, d->other, d->n_cells));
+    }
     k.n = (uint)n_crumbs;
     GPU_RUN(gpu, deposit_move, k.n, k, d->id, routing->tag, routing->receiver, d->pointer, d->room, d->bits,
             d->cell, d->place, d->key);

@@ -97,7 +97,7 @@ static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int 
     struct particles particles;
     struct deposit_routing routing;
     float *viability = malloc(p->rock.n * sizeof *viability);
-    assert_ok(particles_create(p->gpu, p->work, &p->rock, p->n, p->h, &particles));
+    assert_ok(particles_create(p->gpu, p->work, &p->rock, STATE, p->n, p->h, &particles));
     rock_free(&p->rock);
     assert_ok(particles_download(p->gpu, &particles, STATE, &p->rock));
     struct rock ground = p->rock;

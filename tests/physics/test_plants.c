@@ -120,7 +120,7 @@ static struct ground ground_begin(const int n[3], double h, struct ground_voxel 
     rock.n = i;
     assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &g.gpu));
     assert_ok(gpu_work_create(g.gpu, all + 2, &g.work));
-    assert_ok(particles_create(g.gpu, g.work, &rock, n, h, &g.particles));
+    assert_ok(particles_create(g.gpu, g.work, &rock, STATE, n, h, &g.particles));
     assert_ok(particles_surface(g.gpu, g.work, &g.particles));
     rock_free(&rock);
     static double frame = 0, growth = 3;
