@@ -128,9 +128,11 @@ struct wind_params {
     float cohesion, friction, strength; /* mu_c (Pa), mu_f, alpha (Pa) */
     float abrasion;                     /* k_a (|v| / v_ref)^2 */
     float wind_x, wind_y, wind_z;       /* unit vector, where it blows to */
-    float shelter;                      /* m */
+    float shelter;                      /* m; with a flow, its spacing */
+    uint bx, by, bz;                    /* cells of the averaged flow, */
+    float origin_x, origin_y;           /* m: and where they begin */
 };
-SHARED_SIZE(wind_params, 56)
+SHARED_SIZE(wind_params, 76)
 
 /* The flow's units are the spacing of its particles and the wind's speed; its origin is the low corner of the
  * box of air, on the ground. */

@@ -89,7 +89,10 @@ struct flow_array {
 enum { FLOW_ARRAYS = 7 };
 void flow_arrays(const struct flow *f, struct flow_array out[FLOW_ARRAYS]);
 
-/* After state and arrays have been put back: the order and the mean. Waits. */
-MUST_USE status flow_restore(struct gpu *gpu, struct flow *f);
+/* E_CHECKPOINT if a state that was put back cannot be one of this box; before flow_arrays(). */
+MUST_USE status flow_check(const struct flow *f);
+
+/* After the arrays have been put back, too. Records only. */
+void flow_restore(struct gpu *gpu, struct flow *f);
 
 #endif
