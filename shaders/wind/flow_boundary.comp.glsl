@@ -36,7 +36,9 @@ void main()
         uint c = LOAD_U(list, i - ground);
         float per = 1.0 / (FLOW_FIXED * float(LOAD_U(sums, 8u * c)));
         vec3 corner = vec3(c % k.bx, c / k.bx % k.by, c / (k.bx * k.by));
-        x = corner + per * signed_sum(8u * c + 1u) - 0.5 * per * signed_sum(8u * c + 4u);
+        /* the rock's particles are half a voxel behind its surface themselves */
+        float behind = 0.5 - 0.5 * k.h / k.spacing;
+        x = corner + per * (signed_sum(8u * c + 1u) - behind * signed_sum(8u * c + 4u));
         AT(id, slot) = FLOW_ROCK_ID + c;
     }
     AT(position, slot) = vec4(x, 0.0);
