@@ -3,9 +3,10 @@
 // Wind on each particle of the surface (Arenite eqs. 7, 8, 12), where it flows around the rock: deflation, and
 // abrasion by the velocity of the air before it.
 //
-// That is sampled one spacing of the air out along the normal: the average reaches a spacing each way, so that
-// closer in it knows only the air that is farther out, and blown grains, which need about a metre to follow
-// the air, strike with the speed it had there. In a narrower gap it is sampled midway to the other side.
+// That is sampled one spacing of the air out along the normal: from there on the average is within a few
+// hundredths of potential flow before a sphere; closer in the kernel reaches only air that is farther out. Blown
+// grains need about a metre to follow the air, and strike with the speed it had before. In a narrower gap it is
+// sampled midway to the other side.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
