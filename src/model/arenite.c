@@ -276,7 +276,7 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
     if (m->wind.flows)
         TRY(restore_air(m, c));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = c->frame;
 done:
     return st;
@@ -287,7 +287,7 @@ static status begin(struct model *m, const int voxels[3])
     status st = OK;
     struct rock rock = {0};
     TRY(scene_sample(m->job, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = m->job->frames.first;
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
     TRY(remove_unsupported(m));
@@ -373,7 +373,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) +
                         wind_bytes(job, out->voxels) + field + aov_bytes(pixels);
     /* Two frames wait at most; files are made in memory. */
-    uint64_t picture = pixels * 17 * 4;
+    uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
     /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
      * 0.6. */

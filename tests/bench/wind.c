@@ -138,7 +138,7 @@ int main(int argc, char **argv)
     check(scene_voxels(job, voxels));
     check(scene_sample(job, &rock));
     check(gpu_work_create(gpu, (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2] + 2, &work));
-    check(particles_create(gpu, work, &rock, voxels, job->domain.spacing_m, &particles));
+    check(particles_create(gpu, work, &rock, STATE, voxels, job->domain.spacing_m, &particles));
     check(particles_surface(gpu, work, &particles));
     check(flow_create(gpu, job, voxels, &flow));
     check(flow_change(gpu, &flow, &particles, &change));

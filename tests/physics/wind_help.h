@@ -48,7 +48,7 @@ static inline void tunnel_rock(struct tunnel *t, rock_at *inside, double h)
                     n++;
                 }
     }
-    assert_ok(particles_create(t->gpu, t->work, &rock, t->voxels, h, &t->particles));
+    assert_ok(particles_create(t->gpu, t->work, &rock, STATE, t->voxels, h, &t->particles));
     assert_ok(particles_surface(t->gpu, t->work, &t->particles));
     rock_free(&rock);
 }
