@@ -113,8 +113,6 @@ static status check_strata(const struct yaml *root, const struct job *job)
 static status check_aov_layers(const struct yaml *root, const struct job *job)
 {
     const struct job_aov *aov = &job->output.aov;
-    if (aov->n_layers == 0)
-        return OK;
     const struct yaml *list = yaml_get(yaml_get(yaml_get(root, "output"), "aov"), "layers");
     for (size_t i = 0; i < aov->n_layers; i++) {
         bool found = false;
