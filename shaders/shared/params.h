@@ -129,9 +129,46 @@ struct wind_params {
     float cohesion, friction, strength; /* mu_c (Pa), mu_f, alpha (Pa) */
     float abrasion;                     /* k_a (|v| / v_ref)^2 */
     float wind_x, wind_y, wind_z;       /* unit vector, where it blows to */
-    float shelter;                      /* m */
+    float shelter;                      /* m; with a flow, its spacing */
+    uint bx, by, bz;                    /* cells of the averaged flow, */
+    float origin_x, origin_y;           /* m: and where they begin */
 };
-SHARED_SIZE(wind_params, 56)
+SHARED_SIZE(wind_params, 76)
+
+/* The flow's units are the spacing of its particles and the wind's speed; its origin is the low corner of the
+ * box of air, on the ground. */
+#define FLOW_SUPPORT 2.0f        /* radius of the kernel */
+#define FLOW_NEIGHBOURS 80u      /* most that one particle sees */
+#define FLOW_FIXED 256.0f        /* steps of a spacing, or a unit normal, in integer sums */
+#define FLOW_ROCK_ID 0xc0000000u /* identities of boundary particles begin here, */
+#define FLOW_GROUND_ID 0x80000000u
+
+/* What a particle is, in its velocity's w. */
+#define FLOW_AIR 0.0f
+#define FLOW_SKIN 1.0f /* air near the sides or the top: it moves with the wind */
+#define FLOW_ROCK 2.0f
+#define FLOW_GROUND 3.0f
+
+struct flow_params {
+    uint n;
+    uint slots;           /* of the particle arrays */
+    uint first;           /* slot, or identity, to begin at */
+    uint bx, by, bz;      /* the box */
+    uint gx, gy, gz;      /* cells of the neighbour search, each a support wide */
+    float wind_x, wind_y; /* unit vector */
+    float dt;
+    float viscosity;
+    float warm;               /* share of the last step's pressure to begin with */
+    float full;               /* particles as dense as this may pull on each other */
+    float keep, gain;         /* of the average: what stays, what is added */
+    float column_x, column_y; /* emission: the first column of the lattice that is inside */
+    uint enter_x, enter_y;    /* and which plane of it has just come in; box size: none */
+    uint nx, ny, nz;          /* the rock's voxels */
+    float h;                  /* m */
+    float origin_x, origin_y; /* m: of the box in the rock's domain */
+    float spacing;            /* m */
+};
+SHARED_SIZE(flow_params, 112)
 
 /* ---- water: see water/water.h. Cells are 2 x 2 x 2 voxels; voxel v lies in cell (v + shift) / 2. A column's
  * cells are bits, `words` words of 32 levels each; its spans are nodes, numbered upwards, column by column. */

@@ -8,8 +8,8 @@
  *
  * all but the first once or more, until the frame's years have passed; output() then adds the surface field and
  * the pictures.
- * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
- * from them, so that a resumed run has the same bits.
+ * The state between frames is the particles, the grid's displacement, the air and the ledger; the rest is
+ * found anew from them, so that a resumed run has the same bits.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -45,6 +45,7 @@ struct model {
     struct particles particles;
     struct elastic elastic;
     struct erosion erosion;
+    struct wind wind;
     struct water water;
     bool told; /* that water is held back */
     struct deposit deposit;
@@ -192,7 +193,8 @@ static status erode(struct model *m, int step, double least, double *kyr)
     uint32_t n_eroded;
     bool changed;
     gpu_stage(m->gpu, "wind");
-    wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
+    TRY(wind_update(m->gpu, &m->wind, m->job, m->frame, &m->particles));
+    wind_erode(m->gpu, &m->wind, m->job, m->frame, &m->particles, m->erosion.intensity);
     TRY(run_water(m, step, least, kyr));
     if (m->plants)
         plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
@@ -313,6 +315,44 @@ done:
 
 /* ---- the state */
 
+static status save_air(struct model *m, struct checkpoint *out)
+{
+    status st = OK;
+    void *data;
+    struct flow *air = &m->wind.flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_add(out, "air", 8, sizeof air->state / 8, &data));
+    memcpy(data, &air->state, sizeof air->state);
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        TRY(section_add(out, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &data));
+        TRY(gpu_download(m->gpu, array[i].buffer, 0, data, array[i].n));
+    }
+done:
+    return st;
+}
+
+static status restore_air(struct model *m, const struct checkpoint *c)
+{
+    status st = OK;
+    const struct checkpoint_section *s;
+    struct flow *air = &m->wind.flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_find(c, "air", 8, sizeof air->state / 8, &s));
+    memcpy(&air->state, s->data, sizeof air->state);
+    TRY(flow_check(air));
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        if (array[i].n == 0)
+            continue;
+        TRY(section_find(c, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &s));
+        TRY(gpu_upload(m->gpu, array[i].buffer, 0, s->data, array[i].n));
+    }
+    flow_restore(m->gpu, air);
+done:
+    return st;
+}
+
 static status save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
@@ -335,6 +375,8 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->start_volume, sizeof m->start_volume);
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &m->elastic.iterations, 4);
+    if (m->wind.flows)
+        TRY(save_air(m, out));
 done:
     if (st != OK)
         checkpoint_free(out);
@@ -363,6 +405,8 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
+    if (m->wind.flows)
+        TRY(restore_air(m, c));
     TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = c->frame;
 done:
@@ -398,6 +442,7 @@ static void destroy(struct model **handle)
     field_destroy(m->gpu, &m->field);
     deposit_destroy(m->gpu, &m->deposit);
     blocks_destroy(m->gpu, &m->blocks);
+    wind_destroy(m->gpu, &m->wind);
     erosion_destroy(m->gpu, &m->erosion);
     water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
@@ -434,6 +479,7 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     m->deposits = deposit_wanted(job);
     if (m->deposits)
         TRY(deposit_create(gpu, voxels, &m->deposit));
+    TRY(wind_create(gpu, job, voxels, &m->wind));
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
@@ -456,14 +502,16 @@ static status estimate(const struct job *job, struct model_estimate *out)
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
     TRY(scene_estimate(job, &out->n_particles));
+    TRY(wind_check(job, out->voxels));
     n = out->n_particles;
     size_t voxels = voxel_count(out->voxels);
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
-                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels) + (routes(job) ? water_bytes(out->voxels) : 0) +
+                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) +
+                        wind_bytes(job, out->voxels) + field + aov_bytes(pixels) +
+                        (routes(job) ? water_bytes(out->voxels) : 0) +
                         (deposit_wanted(job) ? deposit_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
@@ -472,7 +520,8 @@ static status estimate(const struct job *job, struct model_estimate *out)
      * 0.6. */
     out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.2 * (double)field) +
                        (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
-    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels));
+    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels) +
+                                       0.9 * (double)wind_checkpoint_bytes(job, out->voxels));
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
         out->steps += erosion_steps(job, f, wind_intensity(job, f));
 done:
