@@ -22,6 +22,7 @@
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
+#include "model/air.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
@@ -277,14 +278,11 @@ done:
 static size_t skin_fields(const struct job *job, enum rock_field out[3])
 {
     size_t n = 0;
-    bool plants = false;
     if (water_ever_flows(job))
         out[n++] = ROCK_discharge;
-    for (size_t i = 0; i < job->n_paint; i++)
-        plants |= job->paint[i].vegetation > 0;
-    if (plants)
+    if (plants_wanted(job))
         out[n++] = ROCK_vegetation;
-    if (curve_max(&job->deposition.viability) > 0)
+    if (deposit_wanted(job))
         out[n++] = ROCK_phase;
     return n;
 }
@@ -295,6 +293,7 @@ static status output(struct model *m, struct frame *out)
     const struct job *job = m->job;
     enum rock_field skin[3];
     size_t n_skin = skin_fields(job, skin);
+    struct aov_air air = {0};
     *out = (struct frame){.number = m->frame,
                           .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
                           .ledger = m->ledger,
@@ -305,9 +304,13 @@ static status output(struct model *m, struct frame *out)
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
     TRY(field_download(m->gpu, &m->field, &m->particles, skin, n_skin, &out->grids));
+    TRY(air_grid(m->gpu, &m->wind, job, m->frame, m->particles.voxels,
+                 &out->grids.grid[out->grids.n_grids++]));
     gpu_stage(m->gpu, "pictures");
-    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, NULL, out));
+    TRY(air_upload(m->gpu, &out->grids, &air));
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, &air, out));
 done:
+    gpu_buffer_destroy(m->gpu, &air.velocity);
     if (st != OK)
         frame_free(out);
     return st;
