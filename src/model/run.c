@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/version.h"
 #include "model/model.h"
+#include "model/stage.h"
 #include "model/timing.h"
 #include "model/writer.h"
 #include "output/folder.h"
@@ -374,6 +375,20 @@ done:
     return st;
 }
 
+/* Of a folder that is complete: as its files are, whatever the job now says of output. */
+static status write_stage(const struct run *r)
+{
+    status st = OK;
+    char path[4096];
+    struct job *theirs = NULL;
+    snprintf(path, sizeof path, "%.4000s/job.yaml", r->options->root);
+    TRY(job_load(path, NULL, 0, &theirs));
+    TRY(stage_write(theirs, r->job_hash, r->options->root));
+done:
+    job_destroy(&theirs);
+    return st;
+}
+
 status run_job(const struct job *job, const struct run_options *options)
 {
     status st = OK;
@@ -397,6 +412,7 @@ status run_job(const struct job *job, const struct run_options *options)
         options->begin(options->user, r.frames, r.n_done);
     if (r.first_missing > r.frames.last) {
         log_info("all %zu frames are done already", r.n_done);
+        st = write_stage(&r);
         goto done;
     }
     TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
