@@ -90,7 +90,7 @@ const char *html_number(double value, char out[48])
 
 /* ---- axes */
 
-enum { WIDTH = 640, HEIGHT = 300, LEFT = 66, RIGHT = 18, TOP = 14, BOTTOM = 50 };
+enum { WIDTH = 540, HEIGHT = 290, LEFT = 76, RIGHT = 18, TOP = 14, BOTTOM = 50 };
 
 struct axis {
     double low, high, step; /* step: between ticks */
@@ -294,7 +294,7 @@ void chart_histogram(const struct histogram *h, struct text *t)
 void chart_rows(const char *title, const char *x_label, const struct row *row, size_t n, double full,
                 struct text *t)
 {
-    enum { ROW = 26, NAMES = 190, NOTES = 130 };
+    enum { ROW = 26, NAMES = 150, NOTES = 126 };
     const int height = TOP + ROW * (int)n + 26;
     begin(t, title, height);
     for (size_t i = 0; i < n; i++) {

@@ -33,7 +33,7 @@ void chart_lines(const struct chart *c, struct text *t);
 /* A value to point at, such as a threshold. */
 struct mark {
     double x;
-    char name[48];
+    char name[80];
 };
 /* Bars of n equal bins between low and high; marks are dashed lines. */
 struct histogram {

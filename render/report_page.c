@@ -25,7 +25,7 @@ void page_age(double years, char out[48])
 {
     char number[48];
     if (years >= 1000)
-        snprintf(out, 48, "%.30s kyr", html_number(round(years / 10) / 100, number));
+        snprintf(out, 48, "%.*f kyr", years < 9995 ? 2 : 1, years / 1000);
     else
         snprintf(out, 48, "%.30s yr", html_number(years, number));
 }
@@ -122,9 +122,9 @@ static void add_tiles(const struct report *r, struct text *t)
             add_tile(t, "Greatest stress", value, "compression");
         }
         snprintf(value, sizeof value, "%s", html_number((double)m->ledger.start, number));
-        snprintf(small, sizeof small, "every %.40s m", number_text(r->job->domain.spacing_m, number));
-        add_tile(t, r->job->model == MODEL_GOBLINS ? "Voxels at the start" : "Particles at the start", value,
-                 small);
+        snprintf(small, sizeof small, "at the start, every %.20s m",
+                 number_text(r->job->domain.spacing_m, number));
+        add_tile(t, r->job->model == MODEL_GOBLINS ? "Voxels" : "Particles", value, small);
     }
     for (size_t i = 0; i < r->n_timing; i++)
         wall += session_number(r->timing[i], "wall_seconds");
@@ -345,11 +345,12 @@ void report_page(const struct report *r, struct text *t)
     text_add(t, "<section><h2>Pictures</h2>\n");
     add_pictures(r, t);
     text_add(t, "</section>\n");
-    if (first && first != last)
+    if (first && first != last) {
         page_curves(r, t);
-    else
+    } else {
         text_add(t, "<section><h2>Erosion</h2><p>Curves begin with the second frame.</p></section>\n");
-    page_rock(r, t);
+        page_rock(r, t);
+    }
     page_timing(r, t);
     page_provenance(r, t);
     page_files(r, t);

@@ -5,8 +5,9 @@
 #include "render/chart.h"
 #include "render/report.h"
 
-void page_curves(const struct report *r, struct text *t); /* two sound frames at least */
-void page_rock(const struct report *r, struct text *t);   /* stress, layers */
+/* Erosion, ledger, stress and layers: of two sound frames at least. page_rock() is of one. */
+void page_curves(const struct report *r, struct text *t);
+void page_rock(const struct report *r, struct text *t);
 void page_timing(const struct report *r, struct text *t);
 void page_provenance(const struct report *r, struct text *t);
 void page_files(const struct report *r, struct text *t);
