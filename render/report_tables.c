@@ -60,9 +60,9 @@ static void add_sessions(const struct report *r, struct text *t)
         const struct json *s = r->timing[i];
         const char *ended = json_to_text(json_member(s, "ended")),
                    *device = json_to_text(json_member(s, "device"));
-        text_add(t, "<tr><td>");
+        text_add(t, "<tr><td class=\"d\">");
         html_text(t, ended ? ended : "");
-        text_add(t, "</td><td>%.0f\xe2\x80\x93%.0f</td><td class=\"n\">%s</td><td>",
+        text_add(t, "</td><td class=\"d\">%.0f\xe2\x80\x93%.0f</td><td class=\"n\">%s</td><td>",
                  number_of(s, "first_frame"), number_of(s, "last_frame"),
                  duration_text(number_of(s, "wall_seconds"), duration));
         html_text(t, device ? device : "");
@@ -204,7 +204,7 @@ static void add_file(const struct report *r, const char *path, const char *what,
 
 static void add_frames(const struct report *r, struct text *t)
 {
-    char age[48], number[3][48];
+    char age[48], number[48], stress[48];
     text_add(t,
              "<details%s><summary>Every frame</summary>\n<div class=\"scroll\"><table><thead><tr><th "
              "class=\"n\">Frame</th><th "
@@ -219,11 +219,11 @@ static void add_frames(const struct report *r, struct text *t)
             continue;
         }
         page_age(m->years, age);
+        snprintf(stress, sizeof stress, "%.2f", m->max_stress_Pa / 1e6);
         text_add(t,
                  "<tr><td class=\"n\">%d</td><td class=\"n\">%s</td><td class=\"n\">%s</td><td "
                  "class=\"n\">%s</td><td class=\"n\">%d</td><td>",
-                 m->frame, age, html_number(m->volume_m3, number[0]),
-                 html_number(m->max_stress_Pa / 1e6, number[1]), m->stress_iterations);
+                 m->frame, age, html_number(m->volume_m3, number), stress, m->stress_iterations);
         for (size_t f = 0; f < m->n_files; f++) {
             char size[48], words[160];
             const char *path = m->file[f].path, *dot = strrchr(path, '.');
