@@ -44,20 +44,48 @@ static bool there(const struct report *r, const char *path)
     return access(full, R_OK) == 0;
 }
 
-static void find_source(struct report *r, struct report_frame *f)
+static bool lists(const struct report_frame *f, const char *folder, const char *ending)
+{
+    for (size_t i = 0; i < f->manifest.n_files; i++) {
+        const char *path = f->manifest.file[i].path, *dot = strrchr(path, '.');
+        if (strncmp(path, folder, strlen(folder)) == 0 && dot && strcmp(dot, ending) == 0)
+            return true;
+    }
+    return false;
+}
+
+static void find_still(const struct report *r, struct report_frame *f)
 {
     char still[512];
     snprintf(still, sizeof still, "preview/%.200s.%04d.png", r->name, f->manifest.frame);
-    if (there(r, still)) {
+    if (there(r, still))
         memcpy(f->source, still, sizeof f->source);
-        r->stills = true;
-    }
-    for (size_t i = 0; i < f->manifest.n_files; i++) {
+}
+
+static void find_field_picture(const struct report *r, struct report_frame *f)
+{
+    *f->source = '\0';
+    for (size_t i = 0; i < f->manifest.n_files && !*f->source; i++) {
         const char *path = f->manifest.file[i].path;
-        f->has_volumes |= strncmp(path, "volumes/", 8) == 0;
-        if (!*f->source && strncmp(path, "aov/", 4) == 0 && is_plain(path) && there(r, path))
+        if (strncmp(path, "aov/", 4) == 0 && is_plain(path) && there(r, path))
             snprintf(f->source, sizeof f->source, "%s", path);
     }
+}
+
+/* Stills if two frames have them, or else the run's own pictures: of one kind, so that they compare. */
+static void find_sources(struct report *r)
+{
+    size_t n_stills = 0, n_others = 0;
+    for (size_t i = 0; i < r->n_frames; i++)
+        if (!r->frame[i].damaged) {
+            find_still(r, &r->frame[i]);
+            n_stills += *r->frame[i].source != '\0';
+            n_others += lists(&r->frame[i], "aov/", ".exr");
+        }
+    r->stills = n_stills >= 2 || (n_stills == 1 && n_others < 2);
+    for (size_t i = 0; !r->stills && i < r->n_frames; i++)
+        if (!r->frame[i].damaged)
+            find_field_picture(r, &r->frame[i]);
 }
 
 static status add_frame(struct report *r, int frame)
@@ -77,8 +105,7 @@ static status add_frame(struct report *r, int frame)
     r->n_sound += !f->damaged;
     for (size_t i = 0; i < f->manifest.n_files; i++)
         r->disk += f->manifest.file[i].size;
-    if (!f->damaged)
-        find_source(r, f);
+    f->has_volumes = lists(f, "volumes/", ".vdb");
     return OK;
 }
 
@@ -93,6 +120,7 @@ static status find_frames(struct report *r)
         if (range_holds(r->frames, frames[i]))
             TRY(add_frame(r, frames[i]));
     r->n_missing = range_count(r->frames) - r->n_frames;
+    find_sources(r);
 done:
     free(frames);
     return st;
@@ -122,16 +150,6 @@ static void fill_bins(struct report_stress *s, float *value, size_t n)
         const size_t bin = part < 0 ? 0 : part >= STRESS_BINS ? STRESS_BINS - 1 : (size_t)part;
         s->share[bin] += 100.0 / (double)n;
     }
-}
-
-static bool lists(const struct report_frame *f, const char *folder, const char *ending)
-{
-    for (size_t i = 0; i < f->manifest.n_files; i++) {
-        const char *path = f->manifest.file[i].path, *dot = strrchr(path, '.');
-        if (strncmp(path, folder, strlen(folder)) == 0 && dot && strcmp(dot, ending) == 0)
-            return true;
-    }
-    return false;
 }
 
 static void add_layers(struct report *r, const struct rock *rock, bool start)
