@@ -123,7 +123,7 @@ static void add_tiles(const struct report *r, struct text *t)
         }
         snprintf(value, sizeof value, "%s", html_number((double)m->ledger.start, number));
         snprintf(small, sizeof small, "at the start, every %.20s m",
-                 number_text(r->job->domain.spacing_m, number));
+                 html_number(r->job->domain.spacing_m, number));
         add_tile(t, r->job->model == MODEL_GOBLINS ? "Voxels" : "Particles", value, small);
     }
     for (size_t i = 0; i < r->n_timing; i++)

@@ -142,7 +142,8 @@ void page_provenance(const struct report *r, struct text *t)
         if (value && *value)
             add_row(t, known[i].name, value);
     }
-    add_row(t, "seed", number_text((double)r->job->seed, number));
+    snprintf(number, sizeof number, "%lld", (long long)r->job->seed);
+    add_row(t, "seed", number);
     text_add(t, "</tbody></table></div>\n<p>");
     page_link(t, "job.yaml", "job.yaml");
     text_add(t, " is the job as it was run, every default filled in; ");

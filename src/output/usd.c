@@ -1,5 +1,6 @@
 #include "output/usd.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +44,10 @@ static void add_quoted(struct text *t, const char *value)
 static void add_number(struct text *t, double value)
 {
     char number[32];
-    text_add(t, "%s", number_text(value + 0.0, number)); /* no negative zero */
+    if (value == floor(value) && fabs(value) < 1e15)
+        text_add(t, "%.0f", value + 0.0); /* no negative zero */
+    else
+        text_add(t, "%s", number_text(value, number));
 }
 
 static void add_vector(struct text *t, const double *v, int n)
