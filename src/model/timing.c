@@ -73,7 +73,7 @@ void timing_write(const char *root, const struct gpu *gpu, int first, int last, 
             t.data[i] = ' ';
     file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (file < 0 || write(file, t.data, t.size) != (ssize_t)t.size)
-        log_warn("%s: %s; the frames are not affected", path, strerror(errno));
+        log_note("%s: %s", path, strerror(errno));
 done:
     if (file >= 0)
         close(file);
