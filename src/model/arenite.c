@@ -3,7 +3,7 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
+ *   wind -> water -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
  *
  * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
  * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
@@ -24,7 +24,12 @@
 #include "particles/particles.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
+#include "water/water.h"
 #include "wind/wind.h"
+
+/* Spacings that a step may take where water is fast, before it is cut shorter: those the carry can still take
+ * off whole. */
+static const double WATER_STEP = 1.5;
 
 struct model {
     struct gpu *gpu;
@@ -36,6 +41,8 @@ struct model {
     struct particles particles;
     struct elastic elastic;
     struct erosion erosion;
+    struct water water;
+    bool told; /* that water is held back */
     struct blocks blocks;
     struct field field;
     struct aov aov;
@@ -91,24 +98,76 @@ done:
     return st;
 }
 
+/* Does anything in the job need to know where water runs? */
+static bool routes(const struct job *job)
+{
+    return water_ever_flows(job) || curve_max(&job->deposition.viability) > 0;
+}
+
+/* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
+ * water is fast; cut into parts of `least` it would not be into fewer. */
+static status run_water(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    const struct job *job = m->job;
+    bool deposits = curve_at(&job->deposition.viability, m->frame) > 0, flows = water_flows(job, m->frame);
+    struct water_routing how = {.seed = (uint32_t)job->seed,
+                                .frame = m->frame,
+                                .step = step,
+                                .leak = job->rain.leak,
+                                .cells = deposits};
+    double fastest;
+    gpu_stage(m->gpu, "water");
+    if (deposits || flows)
+        TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    if (!flows)
+        goto done;
+    TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
+    water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
+    TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
+    if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {
+        log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
+                 "rain.steps (%d), or lower rain.erosion",
+                 m->frame, (double)WATER_DEPTH, (int)job->rain.steps);
+        m->told = true;
+    }
+    /* Equal parts: at most as many as `least` goes into *kyr, now and after each. */
+    if (fastest * *kyr > WATER_STEP * job->domain.spacing_m)
+        *kyr /= ceil(*kyr / fmax(least, WATER_STEP * job->domain.spacing_m / fastest) - 1e-6);
+done:
+    return st;
+}
+
+/* One step of up to *kyr. */
+static status erode(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    uint32_t n_eroded;
+    gpu_stage(m->gpu, "wind");
+    wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
+    TRY(run_water(m, step, least, kyr));
+    gpu_stage(m->gpu, "viability");
+    TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &n_eroded));
+    gpu_stage(m->gpu, "particles");
+    TRY(remove_eroded(m, n_eroded));
+    if (n_eroded)
+        TRY(remove_unsupported(m));
+    TRY(settle(m, false));
+done:
+    return st;
+}
+
 static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
-    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame));
-    double kyr = m->job->clock.years_per_frame / 1000 / steps;
-    for (int i = 0; i < steps && m->particles.n > 0; i++) {
-        uint32_t n_eroded;
-        gpu_stage(m->gpu, "wind");
-        wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
-        gpu_stage(m->gpu, "viability");
-        TRY(erosion_weather(m->gpu, m->work, &m->erosion, kyr, &m->particles, &n_eroded));
-        gpu_stage(m->gpu, "particles");
-        TRY(remove_eroded(m, n_eroded));
-        if (n_eroded)
-            TRY(remove_unsupported(m));
-        TRY(settle(m, false));
-    }
+    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame)), number = 0;
+    double whole = m->job->clock.years_per_frame / 1000 / steps, least = whole / (double)m->job->rain.steps;
+    for (int i = 0; i < steps; i++)
+        for (double left = whole, kyr; left > 0 && m->particles.n > 0; left -= kyr) {
+            kyr = left;
+            TRY(erode(m, number++, fmin(least, left), &kyr));
+        }
 done:
     return st;
 }
@@ -141,12 +200,30 @@ static status measure(const struct model *m, struct frame *out)
     return OK;
 }
 
+/* The discharge over the shape as it is now. One grid and one set of choices for all frames, so that streams
+ * move only where the rock has changed. */
+static status show_water(struct model *m)
+{
+    status st = OK;
+    struct water_routing how = {.seed = (uint32_t)m->job->seed, .leak = m->job->rain.leak};
+    if (!water_flows(m->job, m->frame)) {
+        gpu_fill(m->gpu, m->particles.field[ROCK_discharge], 0);
+        return OK;
+    }
+    gpu_stage(m->gpu, "water");
+    TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    TRY(water_discharge(m->gpu, m->work, &m->water, m->job, m->frame, &m->particles));
+    water_show(m->gpu, &m->water, &m->particles);
+done:
+    return st;
+}
+
 /* Which values of the surface this job can have. */
 static size_t skin_fields(const struct job *job, enum rock_field out[3])
 {
     size_t n = 0;
     bool plants = false;
-    if (curve_max(&job->rain.m_per_yr) > 0 || job->n_sources)
+    if (water_ever_flows(job))
         out[n++] = ROCK_discharge;
     for (size_t i = 0; i < job->n_paint; i++)
         plants |= job->paint[i].vegetation > 0;
@@ -167,6 +244,7 @@ static status output(struct model *m, struct frame *out)
                           .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
                           .ledger = m->ledger,
                           .stress_iterations = m->elastic.iterations};
+    TRY(show_water(m));
     gpu_stage(m->gpu, "field");
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
@@ -232,7 +310,7 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = c->frame;
 done:
     return st;
@@ -243,7 +321,7 @@ static status begin(struct model *m, const int voxels[3])
     status st = OK;
     struct rock rock = {0};
     TRY(scene_sample(m->job, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = m->job->frames.first;
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
     TRY(remove_unsupported(m));
@@ -267,6 +345,7 @@ static void destroy(struct model **handle)
     field_destroy(m->gpu, &m->field);
     blocks_destroy(m->gpu, &m->blocks);
     erosion_destroy(m->gpu, &m->erosion);
+    water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
     particles_destroy(m->gpu, &m->particles);
     gpu_work_destroy(m->gpu, &m->work);
@@ -302,6 +381,8 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(from ? restore(m, from, voxels) : begin(m, voxels));
     TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
+    if (routes(job))
+        TRY(water_create(gpu, job, voxels, h, &m->water));
     TRY(settle(m, from != NULL));
     *out = m;
     m = NULL;
@@ -324,9 +405,9 @@ static status estimate(const struct job *job, struct model_estimate *out)
         rock += n * rock_field_size((enum rock_field)f);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels);
+                        aov_bytes(pixels) + (routes(job) ? water_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
-    uint64_t picture = pixels * 17 * 4;
+    uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
     /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
      * 0.6. */

@@ -13,16 +13,15 @@
 #include "output/folder.h"
 #include "output/usd.h"
 
-enum { MAX_FIELDS = 16 };
+enum { MAX_FIELDS = 32 };
 
 struct stage {
     const struct job *job;
     const char *root;
     struct usd_sequence sequence;
     struct usd_field field[MAX_FIELDS];
-    int *volumes, *points; /* frames */
-    struct usd_camera *camera;
-    struct usd_key *key;
+    int *volumes, *points;     /* frames */
+    struct usd_camera *camera; /* their keys are owned too */
 };
 
 /* ---- frames */
@@ -162,26 +161,51 @@ static void to_world(const struct camera *c, int up, double m[16])
     m[15] = 1;
 }
 
+static struct usd_key key_at(const struct job_camera *from, int up, int frame)
+{
+    const struct camera camera = camera_of(from, frame);
+    struct usd_key key = {.frame = frame, .focal_mm = curve_at(&from->focal_mm, frame)};
+    to_world(&camera, up, key.to_world);
+    return key;
+}
+
+/* A camera that stands still has one key, another one for every frame, so that between frames it is where a
+ * picture's would be. */
+static status add_camera(struct stage *s, const struct job_camera *from)
+{
+    status st = OK;
+    const struct frame_range frames = s->job->frames;
+    const int up = s->job->output.up;
+    const struct usd_key first = key_at(from, up, frames.first);
+    struct usd_camera *to = &s->camera[s->sequence.n_cameras];
+    struct usd_key *key = NULL;
+    size_t n = 1;
+    for (int f = frames.first + 1; f <= frames.last && n == 1; f++) {
+        const struct usd_key other = key_at(from, up, f);
+        if (other.focal_mm != first.focal_mm ||
+            memcmp(other.to_world, first.to_world, sizeof first.to_world) != 0)
+            n = (size_t)(frames.last - frames.first) + 1;
+    }
+    TRY(memory_alloc(n, sizeof *key, "a camera's way", &key));
+    for (size_t i = 0; i < n; i++)
+        key[i] = key_at(from, up, frames.first + (int)i);
+    *to = (struct usd_camera){.name = from->name,
+                              .width_mm = from->aperture_mm,
+                              .height_mm = from->aperture_mm * from->resolution[1] / from->resolution[0],
+                              .n_keys = n,
+                              .key = key};
+    s->sequence.n_cameras++;
+done:
+    return st;
+}
+
 static status find_cameras(struct stage *s)
 {
     status st = OK;
-    const size_t n = s->job->n_cameras;
-    TRY(memory_alloc(n, sizeof *s->camera, "cameras", &s->camera));
-    TRY(memory_alloc(n, sizeof *s->key, "cameras", &s->key));
-    for (size_t i = 0; i < n; i++) {
-        const struct job_camera *from = &s->job->cameras[i];
-        const struct camera camera = camera_of(from);
-        s->key[i] = (struct usd_key){.frame = s->job->frames.first, .focal_mm = from->focal_mm};
-        to_world(&camera, s->job->output.up, s->key[i].to_world);
-        s->camera[i] =
-            (struct usd_camera){.name = from->name,
-                                .width_mm = from->aperture_mm,
-                                .height_mm = from->aperture_mm * from->resolution[1] / from->resolution[0],
-                                .n_keys = 1,
-                                .key = &s->key[i]};
-    }
-    s->sequence.n_cameras = n;
+    TRY(memory_alloc(s->job->n_cameras, sizeof *s->camera, "cameras", &s->camera));
     s->sequence.camera = s->camera;
+    for (size_t i = 0; i < s->job->n_cameras; i++)
+        TRY(add_camera(s, &s->job->cameras[i]));
 done:
     return st;
 }
@@ -232,7 +256,8 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root)
 done:
     free(s.volumes);
     free(s.points);
+    for (size_t i = 0; i < s.sequence.n_cameras; i++)
+        free((void *)s.camera[i].key);
     free(s.camera);
-    free(s.key);
     return st;
 }

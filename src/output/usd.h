@@ -29,7 +29,7 @@ struct usd_key {
 struct usd_camera {
     const char *name; /* made a prim's name: other characters than letters and digits become _ */
     double width_mm, height_mm;
-    size_t n_keys; /* 1: it stands still */
+    size_t n_keys; /* ascending frames; what is alike in all is written once */
     const struct usd_key *key;
 };
 

@@ -93,18 +93,25 @@ check(np.allclose(bound.GetSize(), np.ptp(at, axis=0) + SPACING, atol=1e-3), "a 
 # ---- cameras, against the matrices of the pictures
 paths = sorted(str(p.GetPath()) for p in stage.Traverse() if p.IsA(UsdGeom.Camera))
 check(paths == [f"/_9_arches/cameras/{n}" for n in ("ma_in", "ma_in__2", "main")], "three cameras of three names", *paths)
-for path, picture, size, focal, aperture in (("main", "main", (64, 36), 35, 36), ("ma_in", "ma-in", (40, 40), 50, 24), ("ma_in__2", "ma_in", (64, 27), 28, 36)):
-    camera = UsdGeom.Camera(stage.GetPrimAtPath(f"/_9_arches/cameras/{path}")).GetCamera(1001)
-    told = json.loads(subprocess.run([HOODOO, "inspect", "--json", f"{root}/aov/{NAME}.{picture}.1001.exr"], capture_output=True, check=True).stdout)
-    exr = np.array(told["parts"][0]["attributes"]["worldToCamera"]).reshape(4, 4)
-    # EXR looks along +z, left-handed; USD along -z.
-    ours = np.array(camera.frustum.ComputeViewMatrix()) @ np.diag([1, 1, -1, 1])
-    check(np.allclose(exr, ours, atol=1e-5), f"{picture} stands where the picture's worldToCamera says", exr, ours)
-    wanted = math.degrees(2 * math.atan(aperture / 2 / focal))
-    check(math.isclose(camera.GetFieldOfView(Gf.Camera.FOVHorizontal), wanted, rel_tol=1e-5), f"{picture} sees as wide", wanted)
-    check(math.isclose(camera.aspectRatio, size[0] / size[1], rel_tol=1e-5), f"{picture} has the picture's shape")
-    # GfCamera counts in tenths of the unit: decimetres here.
-    check(math.isclose(camera.focalLength * Gf.Camera.FOCAL_LENGTH_UNIT * 1000, focal, rel_tol=1e-5), f"{picture}: {focal} mm", camera.focalLength)
+moving = UsdGeom.Camera(stage.GetPrimAtPath("/_9_arches/cameras/main"))
+still = UsdGeom.Camera(stage.GetPrimAtPath("/_9_arches/cameras/ma_in__2"))
+check(len(moving.GetOrderedXformOps()[0].GetTimeSamples()) == 5 and not still.GetOrderedXformOps()[0].GetTimeSamples(),
+      "a camera that moves has samples, another has none")
+for path, picture, size, lens, aperture in (("main", "main", (64, 36), lambda f: 35, 36), ("ma_in", "ma-in", (40, 40), lambda f: 50 - 5.5 * (f - 1001), 24),
+                                             ("ma_in__2", "ma_in", (64, 27), lambda f: 28, 36)):
+    for frame in frames:
+        camera, focal = UsdGeom.Camera(stage.GetPrimAtPath(f"/_9_arches/cameras/{path}")).GetCamera(frame), lens(frame)
+        told = json.loads(subprocess.run([HOODOO, "inspect", "--json", f"{root}/aov/{NAME}.{picture}.{frame}.exr"], capture_output=True,
+                                         check=True).stdout)
+        exr = np.array(told["parts"][0]["attributes"]["worldToCamera"]).reshape(4, 4)
+        # EXR looks along +z, left-handed; USD along -z.
+        ours = np.array(camera.frustum.ComputeViewMatrix()) @ np.diag([1, 1, -1, 1])
+        check(np.allclose(exr, ours, atol=1e-5), f"{picture} stands where the worldToCamera of {frame} says", exr, ours)
+        wanted = math.degrees(2 * math.atan(aperture / 2 / focal))
+        check(math.isclose(camera.GetFieldOfView(Gf.Camera.FOVHorizontal), wanted, rel_tol=1e-5), f"{picture} sees as wide in {frame}", wanted)
+        check(math.isclose(camera.aspectRatio, size[0] / size[1], rel_tol=1e-5), f"{picture} has the picture's shape")
+        # GfCamera counts in tenths of the unit: decimetres here.
+        check(math.isclose(camera.focalLength * Gf.Camera.FOCAL_LENGTH_UNIT * 1000, focal, rel_tol=1e-5), f"{picture}: {focal} mm", camera.focalLength)
 
 # ---- on their own
 own = Usd.Stage.Open(f"{root}/points/{NAME}.1001.usdc")
