@@ -179,9 +179,46 @@ struct water_surface_params {
 };
 SHARED_SIZE(water_surface_params, 64)
 
-/* ---- deposits */
+/* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
+
+#define DEPOSIT_ROOM 4u          /* how many land in a cell in a round, at most */
+#define DEPOSIT_WAITS 0u         /* a crumb's place: nowhere yet, */
+#define DEPOSIT_LEFT 0xffffffffu /* out of the domain, or the voxel it lies in, plus one */
+
+struct deposit_params {
+    uint n;
+    uint nx, ny, nz; /* voxels */
+    float h;         /* m */
+    uint words;      /* of a column */
+    uint cx, cy, cz; /* routing cells */
+    int sx, sy, sz;  /* a voxel v is in cell (v + shift) / 2 */
+    float repose;    /* tangent of the angle */
+    uint seed;       /* hash of the job's seed, the frame and the step in it */
+    uint round;
+    uint last;     /* 1: the round after which nothing waits */
+    float quicker; /* how many times faster than rock it was deposits erode */
+};
+SHARED_SIZE(deposit_params, 68)
+
+/* Words the deposition counts into. */
+#define COUNT_LANDED 0u
+#define COUNT_GONE 1u
+#define COUNT_SLID 2u
+#define COUNT_WAITING 3u
 
 /* ---- plants */
+
+struct plants_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;             /* m */
+    float steepest;      /* least upward part of a normal on which plants stand */
+    float growth, death; /* in this step: e^(rate dt), e^(-rate dt) */
+    float binding, shelter;
+    uint seed;
+    uint spread; /* which voxel's step of this frame */
+};
+SHARED_SIZE(plants_params, 48)
 
 /* ---- field: the surface field and what lies on it */
 

@@ -3,9 +3,11 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   wind -> water -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
+ *   plants -> wind -> water -> viability -> eroded particles, deposits -> unsupported blocks -> surface, normals
+ *   -> stress -> erodibility
  *
- * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
+ * all but the first once or more, until the frame's years have passed; output() then adds the surface field and
+ * the pictures.
  * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
  * from them, so that a resumed run has the same bits.
  */
@@ -16,12 +18,14 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "blocks/blocks.h"
+#include "deposit/deposit.h"
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
+#include "plants/plants.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
 #include "water/water.h"
@@ -43,7 +47,9 @@ struct model {
     struct erosion erosion;
     struct water water;
     bool told; /* that water is held back */
+    struct deposit deposit;
     struct blocks blocks;
+    bool deposits, plants; /* does the job ever have any? */
     struct field field;
     struct aov aov;
 };
@@ -55,11 +61,47 @@ static size_t voxel_count(const int voxels[3])
 
 /* ---- a frame */
 
-static status remove_eroded(struct model *m, uint32_t n_eroded)
+/* What the particles are now; where the others went is counted as they go. */
+static status count_rock(struct model *m)
 {
-    m->ledger.rock -= n_eroded;
-    m->ledger.left += n_eroded; /* carried away: nothing deposits them yet */
-    return n_eroded ? particles_index(m->gpu, m->work, &m->particles) : OK;
+    status st = OK;
+    uint32_t n_deposits = 0;
+    if (m->deposits)
+        TRY(deposit_count(m->gpu, m->work, &m->particles, &n_deposits));
+    m->ledger.deposit = n_deposits;
+    m->ledger.rock = m->particles.n - n_deposits;
+done:
+    return st;
+}
+
+/* Does what erodes in this frame stay in the domain? */
+static bool depositing(const struct model *m)
+{
+    return m->deposits && curve_at(&m->job->deposition.viability, m->frame) > 0;
+}
+
+/* Eroded particles, in a step of the frame, leave, or come to rest elsewhere. Did anything move? */
+static status remove_eroded(struct model *m, int step, uint32_t n_eroded, bool *changed)
+{
+    status st = OK;
+    struct deposit_counts moved = {.crumbs = n_eroded, .left = n_eroded};
+    if (depositing(m) && (n_eroded > 0 || m->ledger.deposit > 0)) {
+        struct deposit_routing routing = {.tag = m->water.tag, .receiver = m->water.receiver};
+        memcpy(routing.cells, m->water.cells, sizeof routing.cells);
+        memcpy(routing.shift, m->water.shift, sizeof routing.shift);
+        gpu_stage(m->gpu, "deposition");
+        TRY(deposit_land(m->gpu, m->work, &m->deposit, m->job, m->frame, step, &routing, &m->particles,
+                         &moved));
+    }
+    m->ledger.left += moved.left;
+    *changed = moved.crumbs > 0;
+    gpu_stage(m->gpu, "particles");
+    if (*changed) {
+        TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
+done:
+    return st;
 }
 
 static status remove_unsupported(struct model *m)
@@ -68,10 +110,11 @@ static status remove_unsupported(struct model *m)
     uint32_t n_fallen = 0;
     gpu_stage(m->gpu, "blocks");
     TRY(blocks_fall(m->gpu, m->work, &m->blocks, &m->particles, &n_fallen));
-    m->ledger.rock -= n_fallen;
     m->ledger.fallen += n_fallen;
-    if (n_fallen)
+    if (n_fallen) {
         TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
 done:
     return st;
 }
@@ -94,6 +137,8 @@ static status settle(struct model *m, bool solved)
     elastic_recover(m->gpu, &m->elastic, &m->particles);
     gpu_stage(m->gpu, "erodibility");
     TRY(erosion_interlock(m->gpu, &m->erosion, m->job, m->frame, &m->particles));
+    if (m->plants)
+        plants_bind(m->gpu, m->job, &m->particles);
 done:
     return st;
 }
@@ -101,7 +146,7 @@ done:
 /* Does anything in the job need to know where water runs? */
 static bool routes(const struct job *job)
 {
-    return water_ever_flows(job) || curve_max(&job->deposition.viability) > 0;
+    return water_ever_flows(job) || deposit_wanted(job);
 }
 
 /* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
@@ -110,7 +155,7 @@ static status run_water(struct model *m, int step, double least, double *kyr)
 {
     status st = OK;
     const struct job *job = m->job;
-    bool deposits = curve_at(&job->deposition.viability, m->frame) > 0, flows = water_flows(job, m->frame);
+    bool deposits = depositing(m), flows = water_flows(job, m->frame);
     struct water_routing how = {.seed = (uint32_t)job->seed,
                                 .frame = m->frame,
                                 .step = step,
@@ -143,14 +188,16 @@ static status erode(struct model *m, int step, double least, double *kyr)
 {
     status st = OK;
     uint32_t n_eroded;
+    bool changed;
     gpu_stage(m->gpu, "wind");
     wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
     TRY(run_water(m, step, least, kyr));
+    if (m->plants)
+        plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
     gpu_stage(m->gpu, "viability");
     TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &n_eroded));
-    gpu_stage(m->gpu, "particles");
-    TRY(remove_eroded(m, n_eroded));
-    if (n_eroded)
+    TRY(remove_eroded(m, step, n_eroded, &changed));
+    if (changed)
         TRY(remove_unsupported(m));
     TRY(settle(m, false));
 done:
@@ -161,6 +208,10 @@ static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
+    if (m->plants) {
+        gpu_stage(m->gpu, "plants");
+        plants_grow(m->gpu, m->job, m->frame, &m->particles);
+    }
     int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame)), number = 0;
     double whole = m->job->clock.years_per_frame / 1000 / steps, least = whole / (double)m->job->rain.steps;
     for (int i = 0; i < steps; i++)
@@ -343,6 +394,7 @@ static void destroy(struct model **handle)
         return;
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
+    deposit_destroy(m->gpu, &m->deposit);
     blocks_destroy(m->gpu, &m->blocks);
     erosion_destroy(m->gpu, &m->erosion);
     water_destroy(m->gpu, &m->water);
@@ -376,6 +428,10 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
+    m->plants = plants_wanted(job);
+    m->deposits = deposit_wanted(job);
+    if (m->deposits)
+        TRY(deposit_create(gpu, voxels, &m->deposit));
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
@@ -405,7 +461,8 @@ static status estimate(const struct job *job, struct model_estimate *out)
         rock += n * rock_field_size((enum rock_field)f);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels) + (routes(job) ? water_bytes(out->voxels) : 0);
+                        aov_bytes(pixels) + (routes(job) ? water_bytes(out->voxels) : 0) +
+                        (deposit_wanted(job) ? deposit_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
