@@ -19,6 +19,7 @@
     X(aov, "OUT", "render AOVs again from the frames' VDBs: other cameras, resolution, layers")              \
     X(mesh, "OUT", "a surface mesh per frame (PLY and OBJ)")                                                 \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
+    X(report, "OUT", "one static HTML page: pictures, curves, provenance, timing")                           \
     X(inspect, "FILE", "what a checkpoint, VDB, EXR or manifest holds, in words or --json")                  \
     X(devices, "", "the Vulkan devices, by index, name, UUID, PCI address, memory")
 

@@ -95,6 +95,7 @@ enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
+enum { USD_POINTS_SURFACE, USD_POINTS_NONE };
 enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
 
 /* The layers of an AOV picture (DESIGN 2), by name; output.aov.layers chooses among them. */

@@ -11,6 +11,8 @@
 #include "base/memory.h"
 #include "base/version.h"
 #include "model/model.h"
+#include "model/stage.h"
+#include "model/timing.h"
 #include "model/writer.h"
 #include "output/folder.h"
 
@@ -27,6 +29,7 @@ struct run {
     int first_missing; /* last + 1: none */
     int last_missing;
     size_t n_done;
+    int began; /* the frame the model was made or restored at */
 };
 
 /* ---- what is there */
@@ -309,6 +312,7 @@ static status begin(struct run *r)
         log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
                  range_count(r->frames));
     TRY(r->type->create(r->gpu, r->job, found ? &c : NULL, &r->model));
+    r->began = r->type->frame(r->model);
     TRY(write_papers(r)); /* not before: a scene that is refused does not claim the folder */
     TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
 done:
@@ -371,19 +375,24 @@ done:
     return st;
 }
 
-static void log_times(struct gpu *gpu)
+/* Of a folder that is complete: as its files are, whatever the job now says of output. */
+static status write_stage(const struct run *r)
 {
-    const struct gpu_time *times;
-    size_t n = gpu_stage_times(gpu, &times);
-    for (size_t i = 0; i < n; i++)
-        if (times[i].ns)
-            log_note("device time: %-12s %8.2f s in %llu dispatches", times[i].name,
-                     (double)times[i].ns / 1e9, (unsigned long long)times[i].dispatches);
+    status st = OK;
+    char path[4096];
+    struct job *theirs = NULL;
+    snprintf(path, sizeof path, "%.4000s/job.yaml", r->options->root);
+    TRY(job_load(path, NULL, 0, &theirs));
+    TRY(stage_write(theirs, r->job_hash, r->options->root));
+done:
+    job_destroy(&theirs);
+    return st;
 }
 
 status run_job(const struct job *job, const struct run_options *options)
 {
     status st = OK;
+    const double started = timing_now();
     struct run r = {.job = job, .options = options, .type = model_of(job), .frames = options->frames};
     if (r.frames.step == 0)
         r.frames = job->frames;
@@ -403,14 +412,16 @@ status run_job(const struct job *job, const struct run_options *options)
         options->begin(options->user, r.frames, r.n_done);
     if (r.first_missing > r.frames.last) {
         log_info("all %zu frames are done already", r.n_done);
+        st = write_stage(&r);
         goto done;
     }
     TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
     TRY(check_memory(&r));
     TRY(begin(&r));
     TRY(simulate(&r));
-    log_times(r.gpu);
 done:
+    if (r.model)
+        timing_write(options->root, r.gpu, r.began, r.type->frame(r.model), started);
     if (st != OK && r.writer) {
         /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
         char message[2048];

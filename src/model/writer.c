@@ -10,8 +10,10 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "job/palette.h"
+#include "model/stage.h"
 #include "output/exr.h"
 #include "output/folder.h"
+#include "output/usd.h"
 #include "output/vdb.h"
 
 /* ---- one frame's files */
@@ -67,6 +69,11 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         options.identity = identity(job_hash, frame->number, FILE_POINTS);
         TRY(vdb_points(&frame->rock, &options, &file));
         TRY(folder_path(path, root, job->name, FILE_POINTS, frame->number, NULL));
+        TRY(put(root, path, &file, manifest));
+    }
+    if (job->output.usd.points != USD_POINTS_NONE) {
+        TRY(usd_points(&frame->rock, &options, job->fps, &file));
+        TRY(folder_path(path, root, job->name, FILE_USD, frame->number, NULL));
         TRY(put(root, path, &file, manifest));
     }
     options.identity = identity(job_hash, frame->number, FILE_VOLUMES);
@@ -177,6 +184,9 @@ static void *work(void *argument)
             st = item->is_checkpoint
                      ? checkpoint_save(w->root, w->job->name, &item->checkpoint, (int)w->job->checkpoint.keep)
                      : frame_write(w->job, w->job_hash, w->root, &item->frame);
+        /* What is there so far can be opened. */
+        if (st == OK && item->is_checkpoint)
+            st = stage_write(w->job, w->job_hash, w->root);
         pthread_mutex_lock(&w->lock);
         if (st != OK && w->st == OK) {
             w->st = st;
@@ -264,7 +274,7 @@ status writer_finish(struct writer **handle)
     pthread_cond_broadcast(&w->changed);
     pthread_mutex_unlock(&w->lock);
     pthread_join(w->thread, NULL);
-    status st = w->st == OK ? OK : fail(w->st, "%s", w->message);
+    status st = w->st == OK ? stage_write(w->job, w->job_hash, w->root) : fail(w->st, "%s", w->message);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->changed);
     free(w);
