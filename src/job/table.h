@@ -34,7 +34,8 @@ enum key_type {
     KEY_MAP,
     KEY_NODE,
     KEY_POINTS,
-    KEY_NAMES
+    KEY_NAMES,
+    KEY_TEXTS
 };
 
 enum key_use { OUT, SIM };
@@ -44,7 +45,7 @@ struct job_key {
     enum key_use use; /* SIM for SUB, LIST, MAP and NODE: their own keys decide */
     const char *name, *unit, *meaning, *source;
     size_t offset;       /* of the member in its struct */
-    size_t offset_n;     /* LIST, MAP, POINTS, NAMES: of the member n_<key> */
+    size_t offset_n;     /* LIST, MAP, POINTS, NAMES, TEXTS: of the member n_<key> */
     size_t n;            /* VEC, POINTS: numbers of one */
     const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, RANGE; NULL: required */
     double number;       /* NUM, CURVE, INT, BOOL: default; NaN: required */
