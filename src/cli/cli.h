@@ -13,7 +13,8 @@
 /*    verb     operands  what it does */
 #define VERBS(X)                                                                                             \
     X(run, "JOB", "simulate; resumes by itself when the output folder already holds part of this job")       \
-    X(plan, "JOB", "what it would do: frames, particles, memory, disk, time (nothing is written)")           \
+    X(plan, "JOB",                                                                                           \
+      "what it would do: frames, particles, memory, disk, time, farm tasks (nothing is written)")            \
     X(status, "OUT", "frames done, missing and damaged, checkpoints, rate, time left")                       \
     X(verify, "OUT", "re-read every file against its manifest; names each damaged or missing one")           \
     X(mesh, "OUT", "a surface mesh per frame (PLY and OBJ)")                                                 \

@@ -113,6 +113,10 @@ void common_free(struct common *c);
         "from", "OUT@FRAME", OPTION_TEXT, &(c)->from,                                                        \
             "start from another run's checkpoint; the job may differ"                                        \
     }
+#define OPTION_WEDGE(number)                                                                                 \
+    {                                                                                                        \
+        "wedge", "N", OPTION_INT, number, "one of the job's wedges, from 1"                                  \
+    }
 #define OPTION_JSON(c)                                                                                       \
     {                                                                                                        \
         "json", NULL, OPTION_FLAG, &(c)->json, "print JSON, for programs"                                    \

@@ -28,6 +28,15 @@ static void show_frame(void *user, int frame, double volume_share, int iteration
     progress_frame(&s->progress, frame, volume_share, note);
 }
 
+/* The job becomes one of its wedges. */
+static status take_wedge(const char *path, const struct common *c, int wedge, struct job **job)
+{
+    struct job *base = *job;
+    status st = job_load_wedge(path, c->sets.word, c->sets.n, base, wedge, job);
+    job_destroy(&base);
+    return st;
+}
+
 status cli_run(int argc, char **argv)
 {
     status st = OK;
@@ -37,12 +46,16 @@ status cli_run(int argc, char **argv)
     struct shown shown = {0};
     char root[4096], path[4200];
     bool help = false;
-    const struct option options[] = {OPTION_OUT(&c), OPTION_FRAMES(&c),   OPTION_DEVICE(&c),
-                                     OPTION_SET(&c), OPTION_PROGRESS(&c), OPTION_RESUME(&c)};
+    int wedge = 0;
+    const struct option options[] = {OPTION_OUT(&c),      OPTION_FRAMES(&c),   OPTION_DEVICE(&c),
+                                     OPTION_SET(&c),      OPTION_PROGRESS(&c), OPTION_RESUME(&c),
+                                     OPTION_WEDGE(&wedge)};
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
     TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
+    if (wedge)
+        TRY(take_wedge(operands.word[0], &c, wedge, &job));
     int length =
         c.out ? snprintf(root, sizeof root, "%s", c.out) : snprintf(root, sizeof root, "out/%s", job->name);
     if (length < 0 || (size_t)length >= sizeof root - 200) {
