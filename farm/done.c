@@ -47,6 +47,25 @@ done:
     return each;
 }
 
+size_t farm_frames(const struct farm *f, size_t *total)
+{
+    char root[FARM_PATH + 16];
+    size_t done = 0;
+    *total = 0;
+    for (size_t i = 0; i < f->n_wedges; i++) {
+        const struct job *job = f->wedge[i].job;
+        int *frames = NULL;
+        size_t n = 0;
+        farm_root(f, (int)job->wedge.index, root);
+        *total += range_count(job->frames);
+        if (folder_frames(root, job->name, &frames, &n) == OK)
+            for (size_t k = 0; k < n; k++)
+                done += range_holds(job->frames, frames[k]);
+        free(frames);
+    }
+    return done;
+}
+
 static status sim_done(const char *root, const struct job *job, struct frame_range frames, bool *done)
 {
     status st = OK;

@@ -44,6 +44,9 @@ MUST_USE status farm_freeze(struct farm *f);
 /* The median time between a folder's recent frames, in seconds; 0 if there are too few to tell. */
 double farm_frame_seconds(const char *root, const char *name);
 
+/* How many of all wedges' frames are done, going by their manifests' names; *total: how many there are. */
+size_t farm_frames(const struct farm *f, size_t *total);
+
 /* Is there nothing left for the task to do? Files are looked at, not read. */
 MUST_USE status farm_task_done(const struct farm *f, const struct farm_task *t, bool *done);
 

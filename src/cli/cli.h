@@ -18,6 +18,7 @@
     X(status, "OUT", "frames done, missing and damaged, checkpoints, rate, time left")                       \
     X(verify, "OUT", "re-read every file against its manifest; names each damaged or missing one")           \
     X(mesh, "OUT", "a surface mesh per frame (PLY and OBJ)")                                                 \
+    X(submit, "JOB [ARG...]", "hand it to this machine's devices, to Slurm, or write an OpenJD template")    \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
     X(inspect, "FILE", "what a checkpoint, VDB, EXR or manifest holds, in words or --json")                  \
     X(devices, "", "the Vulkan devices, by index, name, UUID, PCI address, memory")

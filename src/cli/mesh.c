@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
@@ -90,6 +91,19 @@ done:
     return st;
 }
 
+/* Are the frame's meshes there, no older than its volumes? */
+static bool current(const char *root, const char *name, int frame)
+{
+    char path[4096];
+    struct stat from, ply, obj;
+    if (folder_path(path, root, name, FILE_VOLUMES, frame, NULL) != OK || stat(path, &from) != 0 ||
+        folder_path(path, root, name, FILE_MESH, frame, NULL) != OK || stat(path, &ply) != 0)
+        return false;
+    strcpy(path + strlen(path) - 3, "obj");
+    return stat(path, &obj) == 0 && ply.st_mtim.tv_sec >= from.st_mtim.tv_sec &&
+           obj.st_mtim.tv_sec >= from.st_mtim.tv_sec;
+}
+
 status cli_mesh(int argc, char **argv)
 {
     status st = OK;
@@ -97,14 +111,16 @@ status cli_mesh(int argc, char **argv)
     struct words operands = {0};
     struct job *job = NULL;
     int *frames = NULL;
-    size_t n, n_written = 0;
+    size_t n, n_found = 0;
     double adaptivity = 0;
     char name[256], path[4300];
-    bool help = false;
+    bool help = false, missing = false;
     const struct option options[] = {
         OPTION_FRAMES(&c),
         {"adaptivity", "SHARE", OPTION_NUMBER, &adaptivity,
          "0 to 1: larger merges flat parts into fewer triangles (default 0)"},
+        {"missing", NULL, OPTION_FLAG, &missing,
+         "only meshes that are not there, or older than their volumes"},
     };
     TRY(options_parse(&usage_mesh, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
@@ -126,10 +142,12 @@ status cli_mesh(int argc, char **argv)
         TRY(folder_path(path, root, job->name, FILE_VOLUMES, frames[i], NULL));
         if (access(path, R_OK) != 0)
             continue;
+        n_found++;
+        if (missing && current(root, job->name, frames[i]))
+            continue;
         TRY(write_frame(root, job, frames[i], adaptivity));
-        n_written++;
     }
-    if (n_written == 0)
+    if (n_found == 0)
         st = fail(E_INPUT, "%s holds no volumes of the frames asked for; run the job first", root);
 done:
     free(frames);

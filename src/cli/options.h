@@ -90,7 +90,7 @@ void common_free(struct common *c);
 #define OPTION_DEVICE(c)                                                                                     \
     {                                                                                                        \
         "device", "WHICH", OPTION_TEXT, &(c)->device,                                                        \
-            "auto, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default auto)"                                  \
+            "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default auto)"                             \
     }
 #define OPTION_SET(c)                                                                                        \
     {                                                                                                        \

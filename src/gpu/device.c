@@ -226,6 +226,11 @@ static status choose(const char *wanted, const struct gpu_info *info, uint32_t n
         for (uint32_t i = 0; i < n; i++)
             if (info[i].usable && (found < 0 || preference(&info[i]) < preference(&info[found])))
                 found = (int)i;
+    } else if (strcmp(wanted, "cpu") == 0) {
+        why = "none of them is a CPU device; install mesa-vulkan-drivers";
+        for (uint32_t i = n; i > 0; i--)
+            if (info[i - 1].usable && info[i - 1].is_cpu)
+                found = (int)i - 1;
     } else if (strcmp(wanted, "slurm") == 0) {
         found = slurm_device(info, n, &why);
     } else if (strncmp(wanted, "uuid:", 5) == 0 || strncmp(wanted, "pci:", 4) == 0) {
@@ -242,7 +247,7 @@ static status choose(const char *wanted, const struct gpu_info *info, uint32_t n
         char *end;
         long index = strtol(wanted, &end, 10);
         if (*wanted == '\0' || *end || index < 0)
-            return fail(E_USAGE, "--device %.60s: write auto, INDEX, uuid:HEX, pci:DDDD:BB:DD.F or slurm",
+            return fail(E_USAGE, "--device %.60s: write auto, cpu, INDEX, uuid:HEX, pci:DDDD:BB:DD.F or slurm",
                         wanted);
         found = index < (long)n ? (int)index : -1;
     }
