@@ -18,12 +18,26 @@ static const struct job_camera *camera_named(const struct job *job, const char *
     return NULL;
 }
 
+static void overscan_of(const struct job_camera *c, int margin[2])
+{
+    for (int a = 0; a < 2; a++)
+        margin[a] = (int)ceil(c->overscan * c->resolution[a]);
+}
+
+static size_t picture_pixels(const struct job_camera *c)
+{
+    int margin[2];
+    overscan_of(c, margin);
+    return ((size_t)c->resolution[0] + 2 * (size_t)margin[0]) *
+           ((size_t)c->resolution[1] + 2 * (size_t)margin[1]);
+}
+
 size_t aov_pixels(const struct job *job)
 {
     size_t most = 0;
     for (size_t i = 0; i < job->output.aov.n_cameras; i++) {
         const struct job_camera *c = camera_named(job, job->output.aov.cameras[i]);
-        size_t n = c ? (size_t)c->resolution[0] * (size_t)c->resolution[1] : 0;
+        size_t n = c ? picture_pixels(c) : 0;
         most = n > most ? n : most;
     }
     return most;
@@ -201,17 +215,23 @@ static void split(struct aov_image *image, size_t n, float *const source[FROM_ID
 }
 
 status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const struct job_camera *camera,
-                  const struct field *f, const struct particles *p, const struct aov_air *air,
+                  int frame, const struct field *f, const struct particles *p, const struct aov_air *air,
                   struct aov_image *out)
 {
     status st = OK;
-    struct camera c = camera_of(camera);
+    const struct camera view = camera_of(camera, frame);
+    int margin[2];
+    overscan_of(camera, margin);
+    const struct camera c = camera_overscan(view, margin);
     size_t n = (size_t)c.width * (size_t)c.height;
     float *source[FROM_IDS] = {NULL};
     uint32_t *ids = NULL;
     struct gpu_buffer *from[FROM_IDS] = {a->hit, a->facing, a->color, a->fields, a->weather};
-    *out = (struct aov_image){
-        .camera = camera->name, .width = c.width, .height = c.height, .n_channels = CHANNELS};
+    *out = (struct aov_image){.camera = camera->name,
+                              .width = c.width,
+                              .height = c.height,
+                              .margin = {margin[0], margin[1]},
+                              .n_channels = CHANNELS};
     TRY(memory_alloc(CHANNELS, sizeof *out->channel, "channels", &out->channel));
     TRY(memory_alloc(n * CHANNELS, sizeof(float), "a picture", &out->memory));
     record(gpu, a, &c, f, p, air);
@@ -222,7 +242,7 @@ status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const s
     TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &ids));
     TRY(gpu_download(gpu, a->ids, 0, ids, 3 * n));
     split(out, n, source, ids, job->output.up);
-    camera_matrices(&c, job->output.up, out->world_to_camera, out->world_to_ndc);
+    camera_matrices(&view, job->output.up, out->world_to_camera, out->world_to_ndc);
 done:
     for (int s = 0; s < FROM_IDS; s++)
         free(source[s]);
@@ -238,7 +258,7 @@ status aov_render_all(struct gpu *gpu, struct aov *a, const struct job *job, con
     status st = OK;
     TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
     for (size_t i = 0; i < job->output.aov.n_cameras; i++)
-        TRY(aov_render(gpu, a, job, camera_named(job, job->output.aov.cameras[i]), f, p, air,
+        TRY(aov_render(gpu, a, job, camera_named(job, job->output.aov.cameras[i]), out->number, f, p, air,
                        &out->image[out->n_images++]));
 done:
     return st;

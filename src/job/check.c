@@ -48,8 +48,18 @@ static status check_cylinder(const struct yaml *map, const struct job_cylinder *
 
 static status check_camera(const struct yaml *map, const struct job_camera *c)
 {
-    if (c->orbit.distance_m == 0 && distance(c->position_m, c->target_m) < 1e-6)
-        return yaml_fail(place(map, "target_m"), NULL, "the same point as position_m");
+    /* Where either has a key; between keys it is only a picture. */
+    const struct curve *keys[] = {&c->position_m, &c->target_m};
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < keys[k]->n; i++) {
+            double frame = keys[k]->frame[i], eye[3], target[3];
+            if (curve_at(&c->orbit.distance_m, frame) > 0)
+                continue;
+            track_at(&c->position_m, frame, eye);
+            track_at(&c->target_m, frame, target);
+            if (distance(eye, target) < 1e-6)
+                return yaml_fail(place(map, "target_m"), NULL, "the same point as position_m");
+        }
     return OK;
 }
 

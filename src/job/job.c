@@ -34,6 +34,7 @@ void free_section(enum job_section_id section, void *base)
             free(*(char **)member);
             break;
         case KEY_CURVE:
+        case KEY_TRACK:
             free(((struct curve *)member)->frame); /* value is its second half */
             break;
         case KEY_SUB:

@@ -16,7 +16,8 @@
 
 enum curve_ease { EASE_LINEAR, EASE_SMOOTH, EASE_STEP };
 
-/* A number, or a number that changes with the frame. Constant outside its first and last frame. */
+/* A number, or a number that changes with the frame. Constant outside its first and last frame. A TRACK has
+ * three numbers for each frame. */
 struct curve {
     size_t n; /* >= 1 */
     double *frame, *value;
@@ -25,6 +26,7 @@ struct curve {
 
 double curve_at(const struct curve *c, double frame);
 double curve_max(const struct curve *c);
+void track_at(const struct curve *c, double frame, double out[3]);
 
 enum job_node_kind { NODE_UNION, NODE_INTERSECTION, NODE_DIFFERENCE, NODE_SHAPE };
 enum job_shape {
@@ -49,6 +51,7 @@ enum job_shape {
 #define INPUT(section, key, use, preset, meaning, source) char *key;
 #define NUM(section, key, use, unit, preset, min, max, meaning, source) double key;
 #define CURVE(section, key, use, unit, preset, min, max, meaning, source) struct curve key;
+#define TRACK(section, key, use, unit, preset, min, max, meaning, source) struct curve key;
 #define INT(section, key, use, unit, preset, min, max, meaning, source) int64_t key;
 #define BOOL(section, key, use, preset, meaning, source) bool key;
 #define CHOICE(section, key, use, preset, choices, meaning, source) int key;
