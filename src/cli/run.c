@@ -45,11 +45,17 @@ status cli_run(int argc, char **argv)
     struct job *job = NULL;
     struct shown shown = {0};
     char root[4096], path[4200];
-    bool help = false;
+    bool help = false, repair = false;
     int wedge = 0;
-    const struct option options[] = {OPTION_OUT(&c),      OPTION_FRAMES(&c),   OPTION_DEVICE(&c),
-                                     OPTION_SET(&c),      OPTION_PROGRESS(&c), OPTION_RESUME(&c),
-                                     OPTION_WEDGE(&wedge)};
+    const struct option options[] = {OPTION_OUT(&c),
+                                     OPTION_FRAMES(&c),
+                                     OPTION_DEVICE(&c),
+                                     OPTION_SET(&c),
+                                     OPTION_PROGRESS(&c),
+                                     OPTION_RESUME(&c),
+                                     OPTION_WEDGE(&wedge),
+                                     {"repair", NULL, OPTION_FLAG, &repair,
+                                      "read every file there is, and make again what is damaged or missing"}};
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
@@ -71,6 +77,7 @@ status cli_run(int argc, char **argv)
                                            .device = c.device,
                                            .frames = c.frames,
                                            .resume = (enum run_resume)c.resume,
+                                           .repair = repair,
                                            .begin = show_begin,
                                            .frame = show_frame,
                                            .stop = stop_requested,
