@@ -209,19 +209,28 @@ static status held(const char *path, const struct seen *s)
         *s->what ? s->what : "writes here", *s->since ? s->since : "an unknown time");
 }
 
+/* Is the holder one of this machine's processes, or was it? Only then can they tell. */
+static bool is_local(const struct holder *h)
+{
+    struct holder me;
+    who_am_i(&me);
+    return strcmp(h->host, me.host) == 0 && strcmp(h->boot, me.boot) == 0 && *h->boot &&
+           strcmp(h->space, me.space) == 0 && *h->space;
+}
+
+static bool is_alive(const struct holder *h)
+{
+    unsigned long long began = process_began(h->pid);
+    return began && began == h->began;
+}
+
 /* Is the holder gone? E_OUTPUT if it lives. */
 static status judge(const char *path, const struct seen *first, double watch_s, bool (*stop)(void))
 {
-    struct holder me;
     struct seen now;
-    who_am_i(&me);
     const struct holder *h = &first->holder;
-    bool here = strcmp(h->host, me.host) == 0 && strcmp(h->boot, me.boot) == 0 && *h->boot &&
-                strcmp(h->space, me.space) == 0 && *h->space;
-    if (here) {
-        unsigned long long began = process_began(h->pid);
-        return began && began == h->began ? held(path, first) : OK;
-    }
+    if (is_local(h))
+        return is_alive(h) ? held(path, first) : OK;
     log_info("%s is held by process %ld on %s; watching for %.0f s whether that one lives", path, h->pid,
              *h->host ? h->host : "an unknown machine", watch_s);
     for (double waited = 0; waited < watch_s; waited += WATCH_US * 1e-6) {
@@ -332,6 +341,14 @@ status lock_check(const struct lock *lock)
         return fail(E_OUTPUT, "%s: another process took this folder over while this one stood still",
                     lock->path);
     return OK;
+}
+
+void lock_sweep(const char *path)
+{
+    struct seen s;
+    if (look(path, &s) == OK && s.there && is_local(&s.holder) && !is_alive(&s.holder) &&
+        remove_stale(path, &s) != OK)
+        log_warn("%s", status_message());
 }
 
 void lock_release(struct lock **handle)

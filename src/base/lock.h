@@ -31,6 +31,9 @@ MUST_USE status lock_take(const char *path, const char *what, struct lock_patien
 /* E_OUTPUT: another process took it over. */
 MUST_USE status lock_check(const struct lock *lock);
 
+/* Removes a lock that a process of this machine left behind; any other stays. */
+void lock_sweep(const char *path);
+
 /* Removes it, if it is still ours. NULL is fine. */
 void lock_release(struct lock **lock);
 

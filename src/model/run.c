@@ -25,8 +25,10 @@ struct run {
     struct model *model;
     struct writer *writer;
     struct lock *lock;
-    bool *done;        /* [last - first + 1], by frame number */
-    int first_missing; /* last + 1: none */
+    char lock_path[4096];
+    bool lacks_checkpoint; /* the last frame's, or a later one */
+    bool *done;            /* [last - first + 1], by frame number */
+    int first_missing;     /* last + 1: none */
     int last_missing;
     size_t n_done;
 };
@@ -73,7 +75,8 @@ static status survey(struct run *r)
         }
     /* Without the last frame's checkpoint there is more to do than the frames. */
     TRY(checkpoint_list(r->options->root, r->job->name, &checkpoints, &n_checkpoints));
-    if (n_checkpoints == 0 || checkpoints[0] < r->frames.last)
+    r->lacks_checkpoint = n_checkpoints == 0 || checkpoints[0] < r->frames.last;
+    if (r->lacks_checkpoint)
         r->last_missing = r->frames.last;
 done:
     free(there);
@@ -160,11 +163,9 @@ done:
 static status own_folder(struct run *r)
 {
     status st = OK;
-    char path[4096], what[128], frames[48];
-    if (snprintf(path, sizeof path, "%s/lock", r->options->root) >= (int)sizeof path)
-        return fail(E_OUTPUT, "%.100s...: the path is too long", r->options->root);
+    char what[128], frames[48];
     snprintf(what, sizeof what, "simulates frames %s here", range_text(r->frames, frames));
-    TRY(lock_take(path, what, (struct lock_patience){0}, r->options->stop, &r->lock));
+    TRY(lock_take(r->lock_path, what, (struct lock_patience){0}, r->options->stop, &r->lock));
     if (r->options->resume == RUN_NEVER)
         TRY(forget(r));
     if (r->options->repair)
@@ -446,15 +447,19 @@ status run_job(const struct job *job, const struct run_options *options)
     }
     TRY(job_hash(job, &r.job_hash));
     TRY(folder_prepare(options->root));
+    if (snprintf(r.lock_path, sizeof r.lock_path, "%s/lock", options->root) >= (int)sizeof r.lock_path)
+        return fail(E_OUTPUT, "%.100s...: the path is too long", options->root);
     if (options->resume != RUN_NEVER)
         TRY(check_owner(&r));
     if (!options->repair)
         TRY(survey(&r));
     if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
         TRY(own_folder(&r));
+    else
+        lock_sweep(r.lock_path);
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
-    if (r.first_missing > r.frames.last) {
+    if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {
         log_info("all %zu frames are done already", r.n_done);
         goto done;
     }
