@@ -15,8 +15,13 @@ static status set_paths(struct farm *f, const char *out)
     if (n < 0)
         return fail(E_OUTPUT, "/proc/self/exe: %s", strerror(errno));
     f->hoodoo[n] = '\0';
-    int length = out ? snprintf(f->root, sizeof f->root, "%s", out)
-                     : snprintf(f->root, sizeof f->root, "out/%s", f->base->name);
+    char here[FARM_PATH], relative[FARM_PATH];
+    int length = out ? snprintf(relative, sizeof relative, "%s", out)
+                     : snprintf(relative, sizeof relative, "out/%s", f->base->name);
+    if (length < 0 || (size_t)length >= sizeof relative || !getcwd(here, sizeof here))
+        return fail(E_USAGE, "--out: the path is longer than %d bytes", FARM_PATH);
+    length = *relative == '/' ? snprintf(f->root, sizeof f->root, "%s", relative)
+                              : snprintf(f->root, sizeof f->root, "%s/%s", here, relative);
     if (length < 0 || (size_t)length >= sizeof f->root)
         return fail(E_USAGE, "--out: the path is longer than %d bytes", FARM_PATH);
     return OK;

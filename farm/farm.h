@@ -19,7 +19,7 @@ struct farm {
     struct job *base; /* the job as loaded; the only wedge's is another copy of it */
     struct farm_wedge *wedge;
     size_t n_wedges;
-    char root[FARM_PATH];   /* absolute once frozen */
+    char root[FARM_PATH];   /* absolute */
     char hoodoo[FARM_PATH]; /* this program */
     struct farm_graph graph;
 };

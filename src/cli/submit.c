@@ -9,6 +9,7 @@
 #include "cli/words.h"
 #include "farm/describe.h"
 #include "farm/local.h"
+#include "farm/slurm.h"
 
 enum target { TO_LOCAL, TO_SLURM, TO_OPENJD };
 
@@ -117,6 +118,34 @@ done:
     return st;
 }
 
+/* ---- Slurm */
+
+static status to_slurm(const struct wanted *w, const struct words *operands, struct farm *f)
+{
+    status st = OK;
+    struct text t = {0};
+    char path[FARM_PATH + 32];
+    if (!w->dry_run) {
+        TRY(farm_freeze(f));
+        snprintf(path, sizeof path, "%s/log/farm.log", f->root);
+        TRY(log_open(path));
+    }
+    json_object(&t, NULL);
+    json_text(&t, "name", f->base->name);
+    json_text(&t, "folder", f->root);
+    TRY(slurm_submit(f,
+                     &(struct slurm_options){.device = w->common.device,
+                                             .extra = operands->word + 1, /* after the job */
+                                             .n_extra = operands->n - 1,
+                                             .dry_run = w->dry_run},
+                     &t));
+    json_end_object(&t);
+    TRY(words_print(&t, w->common.json));
+done:
+    text_free(&t);
+    return st;
+}
+
 /* ---- the verb */
 
 static status print_tasks(const struct farm *f, bool as_json)
@@ -132,12 +161,16 @@ static status print_tasks(const struct farm *f, bool as_json)
     return st;
 }
 
-static status dispatch(const struct wanted *w, struct farm *f)
+static status dispatch(const struct wanted *w, const struct words *operands, struct farm *f)
 {
+    if (w->to != TO_SLURM && operands->n > 1)
+        return fail(E_USAGE, "submit: '%.80s': only --to slurm takes more words, for sbatch",
+                    operands->word[1]);
     switch ((enum target)w->to) {
     case TO_LOCAL:
         return w->dry_run ? print_tasks(f, w->common.json) : to_local(w, f);
     case TO_SLURM:
+        return to_slurm(w, operands, f);
     case TO_OPENJD:
         break;
     }
@@ -179,7 +212,7 @@ status cli_submit(int argc, char **argv)
         farm.wedge[i].frame_seconds = farm_frame_seconds(root, farm.wedge[i].job->name);
     }
     TRY(farm_graph(&farm));
-    TRY(dispatch(&w, &farm));
+    TRY(dispatch(&w, &operands, &farm));
 done:
     farm_free(&farm);
     words_free(&operands);
