@@ -123,11 +123,17 @@ done:
 
 /* ---- sbatch's words */
 
-/* A path as sbatch takes one for --output: % begins a pattern there, and a backslash ends all patterns. */
-static void put_pattern(struct text *t, const char *path)
+/* A path as sbatch takes one for --output: % begins a pattern there. A backslash switches patterns off, and the
+ * file is not found then. */
+static void put_pattern(struct text *t, const char *root)
 {
-    for (const char *s = path; *s; s++)
+    if (strchr(root, '\\')) {
+        text_add(t, "/dev/null");
+        return;
+    }
+    for (const char *s = root; *s; s++)
         text_add(t, *s == '%' ? "%%%%" : "%c", *s);
+    text_add(t, "/log/farm/slurm.out");
 }
 
 struct words {
@@ -162,7 +168,6 @@ static void words_of(const struct farm *f, const struct slurm_options *o, const 
     t = made(w);
     text_add(t, "--output=");
     put_pattern(t, f->root);
-    text_add(t, "/log/farm/slurm.out");
     word(w, t->data ? t->data : "");
     word(w, "--open-mode=append");
     word(w, "--requeue");

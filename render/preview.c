@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "cli/cli.h"
+#include "cli/progress.h"
 #include "cli/signals.h"
 #include "output/folder.h"
 #include "render/picture.h"
@@ -20,7 +21,7 @@ enum { ONLY_ALL, ONLY_STILLS, ONLY_SHEET, ONLY_WEDGES };
 struct wanted {
     struct common common;
     bool turntable, keep_scenes;
-    int views, preset, only, jobs;
+    int views, preset, only, jobs, wedge;
     const char *camera, *resolution;
 };
 
@@ -87,11 +88,15 @@ static size_t with_stills(const struct preview *p, int *frames, size_t n)
     return k;
 }
 
-static status stills(struct preview *p, int *frames, size_t n, int only)
+static status stills(struct preview *p, int *frames, size_t n, int only, struct progress *progress)
 {
     status st = OK;
-    for (size_t i = 0; i < n && only != ONLY_SHEET; i++)
+    char line[64];
+    for (size_t i = 0; i < n && only != ONLY_SHEET; i++) {
         TRY(picture_still(p, frames[i]));
+        snprintf(line, sizeof line, "still of frame %d", frames[i]);
+        progress_note(progress, i, n, line); /* it is under way */
+    }
     TRY(children_wait(&p->children));
     if (only == ONLY_STILLS)
         goto done;
@@ -176,9 +181,10 @@ status cli_preview(int argc, char **argv)
     struct words operands = {0};
     struct job *job = NULL;
     struct preview p = {0};
+    struct progress progress = {0};
     int *frames = NULL;
     size_t n;
-    char name[256], path[4700];
+    char root[4096], name[256], path[4700];
     bool help = false;
     const struct option options[] = {
         OPTION_FRAMES(&w.common),
@@ -192,6 +198,8 @@ status cli_preview(int argc, char **argv)
         {"only", "all|stills|sheet|wedges", OPTION_CHOICE, &w.only,
          "a part of it: stills without a sheet, the sheet of the stills there are, or the sheet across the "
          "wedges of a farm's folder"},
+        OPTION_WEDGE(&w.wedge),
+        OPTION_PROGRESS(&w.common),
         {"jobs", "N", OPTION_INT, &w.jobs, "pictures made side by side (default: the cores there are)"},
         {"keep-scenes", NULL, OPTION_FLAG, &w.keep_scenes, "leave the POV-Ray scenes beside the pictures"},
     };
@@ -199,7 +207,8 @@ status cli_preview(int argc, char **argv)
                       &help));
     if (help)
         goto done;
-    p.root = operands.word[0];
+    TRY(wedge_folder(operands.word[0], w.wedge, root));
+    p.root = root;
     if (w.jobs < 1) {
         st = fail(E_USAGE, "--jobs %d: 1 or more", w.jobs);
         goto done;
@@ -217,9 +226,12 @@ status cli_preview(int argc, char **argv)
     TRY(make_folder(p.root, "log"));
     TRY(make_folder(p.root, w.turntable ? "turntable" : "preview"));
     signals_install();
+    progress_begin_notes(&progress, (enum progress_style)w.common.progress);
     children_begin(&p.children, p.root, "log/preview.log", w.jobs);
-    TRY(w.turntable ? turntable(&p, frames, n, w.views) : stills(&p, frames, n, w.only));
+    TRY(w.turntable ? turntable(&p, frames, n, w.views) : stills(&p, frames, n, w.only, &progress));
+    progress_note(&progress, 1, 1, w.turntable ? "turntable made" : "pictures made");
 done:
+    progress_end(&progress);
     children_end(&p.children);
     free(frames);
     job_destroy(&job);

@@ -29,6 +29,9 @@
 VERBS(VERB_DECLARE)
 #undef VERB_DECLARE
 
+/* OUT, or with `wedge` > 0 that wedge's folder in it, in `out`. E_USAGE: there can be no such wedge. */
+MUST_USE status wedge_folder(const char *root, int wedge, char out[4096]);
+
 /* The frames of the job in the output folder `root`, from its own copy of the job. */
 MUST_USE status job_frames(const char *root, struct frame_range *out);
 

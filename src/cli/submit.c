@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <time.h>
 
+#include "base/atomic_file.h"
 #include "base/log.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
@@ -9,6 +10,7 @@
 #include "cli/words.h"
 #include "farm/describe.h"
 #include "farm/local.h"
+#include "farm/openjd.h"
 #include "farm/slurm.h"
 
 enum target { TO_LOCAL, TO_SLURM, TO_OPENJD };
@@ -146,6 +148,28 @@ done:
     return st;
 }
 
+/* ---- OpenJD */
+
+static status to_openjd(const struct wanted *w, struct farm *f)
+{
+    status st = OK;
+    struct text t = {0};
+    char path[FARM_PATH + 96];
+    if (!w->dry_run)
+        TRY(farm_freeze(f));
+    TRY(openjd_template(f, w->common.device, &t));
+    if (w->dry_run) {
+        fputs(t.data, stdout);
+        goto done;
+    }
+    snprintf(path, sizeof path, "%s/%s.openjd.json", f->root, f->base->name);
+    TRY(atomic_file_write(path, t.data, t.size));
+    log_info("%s: submit it with your farm's client, or try it: openjd run %s --step ...", path, path);
+done:
+    text_free(&t);
+    return st;
+}
+
 /* ---- the verb */
 
 static status print_tasks(const struct farm *f, bool as_json)
@@ -172,7 +196,7 @@ static status dispatch(const struct wanted *w, const struct words *operands, str
     case TO_SLURM:
         return to_slurm(w, operands, f);
     case TO_OPENJD:
-        break;
+        return to_openjd(w, f);
     }
     return OK;
 }

@@ -106,6 +106,10 @@ enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
 MUST_USE status job_load(const char *path, const char *const *sets, size_t n_sets, struct job **out);
 void job_destroy(struct job **job);
 
+/* Puts the job's input files where OpenJD's path mapping rules (the file of a session) say they are here.
+ * E_INPUT: the file is missing or wrong. */
+MUST_USE status job_map_paths(struct job *job, const char *file);
+
 /* Wedges: the job with other values, side by side. How many there are; 0 if the job has none, or is one. */
 size_t job_wedges(const struct job *job);
 
