@@ -14,7 +14,7 @@
 #include "farm/command.h"
 #include "gpu/gpu.h"
 
-enum { POLL_US = 10000, PAUSE_S = 2 };
+enum { POLL_US = 10000, PAUSE_S = 1 };
 
 static double seconds_now(void)
 {
