@@ -34,7 +34,7 @@ static void become(const char *const *argv, const char *log, const struct child_
         _exit(NOT_FOUND - 1);
     for (size_t i = 0; i < n_variables; i++)
         if (variable[i].name)
-            setenv(variable[i].name, variable[i].value, 1);
+            setenv(variable[i].name, variable[i].value, 0);
     execvp(argv[0], (char *const *)argv);
     _exit(NOT_FOUND);
 }

@@ -7,7 +7,7 @@
 #include "base/text.h"
 
 struct child_variable {
-    const char *name, *value; /* name NULL: none */
+    const char *name, *value; /* name NULL: none. What the user has set stays */
 };
 
 /* Starts argv[0], found along PATH, with stdin empty, stdout and stderr appended to `log`, signals at their
