@@ -113,10 +113,11 @@ struct erosion_params {
 };
 SHARED_SIZE(erosion_params, 24)
 
-/* Words the erosion counts into. */
+/* Words the erosion counts into; COUNT_FASTEST is a float. */
 #define COUNT_ERODED 0u
 #define COUNT_FALLEN 1u
 #define COUNT_CHANGED 2u
+#define COUNT_FASTEST 3u
 
 /* ---- wind */
 
@@ -132,11 +133,92 @@ struct wind_params {
 };
 SHARED_SIZE(wind_params, 56)
 
-/* ---- water */
+/* ---- water: see water/water.h. Cells are 2 x 2 x 2 voxels; voxel v lies in cell (v + shift) / 2. A column's
+ * cells are bits, `words` words of 32 levels each; its spans are nodes, numbered upwards, column by column. */
 
-/* ---- deposits */
+#define WATER_EMPTY 0u
+#define WATER_SURF 1u
+#define WATER_WALL 2u
+#define WATER_SOLID 3u
+#define WATER_KIND 3u
+#define WATER_OUT 4u
+#define WATER_DEAD 8u
+
+/* Spacings that water takes in a step at most. */
+#define WATER_DEPTH 2.0f
+
+/* What a hash is for (with water_params.random). */
+#define RANDOM_ROUGHNESS 1u
+#define RANDOM_RECEIVER 2u
+#define RANDOM_SHIFT 3u
+
+struct water_params {
+    uint n;
+    uint vx, vy, vz; /* voxels of the domain */
+    uint sx, sy, sz; /* shift */
+    uint cx, cy, cz; /* cells */
+    uint words;      /* of a column */
+    uint nodes;      /* that many; also the number that stands for outside */
+    uint basins;     /* likewise */
+    uint leak;
+    uint random;             /* hash of seed, frame and step */
+    float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
+};
+SHARED_SIZE(water_params, 68)
+
+struct water_surface_params {
+    uint n;
+    uint sx, sy, sz;
+    uint cx, cy, cz;
+    uint words;
+    float cell;                   /* m */
+    float rain_unit, spring_unit; /* m3/yr */
+    float rate, shear, threshold; /* k_t (1/Pa), k_f (Pa), tau_c (Pa) */
+    float steepest;
+    float most; /* m/kyr */
+};
+SHARED_SIZE(water_surface_params, 64)
+
+/* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
+
+#define DEPOSIT_ROOM 4u          /* how many land in a cell in a round, at most */
+#define DEPOSIT_WAITS 0u         /* a crumb's place: nowhere yet, */
+#define DEPOSIT_LEFT 0xffffffffu /* out of the domain, or the voxel it lies in, plus one */
+
+struct deposit_params {
+    uint n;
+    uint nx, ny, nz; /* voxels */
+    float h;         /* m */
+    uint words;      /* of a column */
+    uint cx, cy, cz; /* routing cells */
+    int sx, sy, sz;  /* a voxel v is in cell (v + shift) / 2 */
+    float repose;    /* tangent of the angle */
+    uint seed;       /* hash of the job's seed, the frame and the step in it */
+    uint round;
+    uint last;     /* 1: the round after which nothing waits */
+    float quicker; /* how many times faster than rock it was deposits erode */
+};
+SHARED_SIZE(deposit_params, 68)
+
+/* Words the deposition counts into. */
+#define COUNT_LANDED 0u
+#define COUNT_GONE 1u
+#define COUNT_SLID 2u
+#define COUNT_WAITING 3u
 
 /* ---- plants */
+
+struct plants_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;             /* m */
+    float steepest;      /* least upward part of a normal on which plants stand */
+    float growth, death; /* in this step: e^(rate dt), e^(-rate dt) */
+    float binding, shelter;
+    uint seed;
+    uint spread; /* which voxel's step of this frame */
+};
+SHARED_SIZE(plants_params, 48)
 
 /* ---- field: the surface field and what lies on it */
 
@@ -160,8 +242,13 @@ struct march_params {
     float down_x, down_y, down_z;    /* half its height */
     float ahead_x, ahead_y, ahead_z;
     float sun_x, sun_y, sun_z; /* unit vector towards the sun */
+    uint ray, rays;            /* of the pixel; a single one has a sun without extent and an open sky */
+    float film_x, film_y;      /* px: where in the pixel */
 };
-SHARED_SIZE(march_params, 100)
+SHARED_SIZE(march_params, 116)
+
+#define LIT_SUN 1.0f
+#define LIT_SKY 2.0f
 
 struct shade_params {
     uint n;
@@ -171,8 +258,9 @@ struct shade_params {
     float voxel;
     float origin_x, origin_y, origin_z;
     float sun_x, sun_y, sun_z;
+    uint ray, rays;
 };
-SHARED_SIZE(shade_params, 60)
+SHARED_SIZE(shade_params, 68)
 
 /* The lattice of the wind; one sample of it, alone, is the same everywhere. */
 struct pixel_weather_params {

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "job/parse.h"
 
 /* The place of `key` where it is given, else of the mapping that lacks it. */
@@ -100,6 +101,23 @@ static status check_strata(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+static status check_aov_layers(const struct yaml *root, const struct job *job)
+{
+    const struct job_aov *aov = &job->output.aov;
+    const struct yaml *list = yaml_get(yaml_get(yaml_get(root, "output"), "aov"), "layers");
+    for (size_t i = 0; i < aov->n_layers; i++) {
+        bool found = false;
+        for (size_t k = 0; k < AOV_LAYER_COUNT; k++)
+            found |= strcmp(aov->layers[i], aov_layer_names[k]) == 0;
+        if (!found) {
+            const char *near = nearest_word(aov->layers[i], aov_layer_names, AOV_LAYER_COUNT);
+            return yaml_fail(yaml_item(list, i), NULL, "no layer '%s'%s%s", aov->layers[i],
+                             near ? "; did you mean " : " (see jobs/README.md)", near ? near : "");
+        }
+    }
+    return OK;
+}
+
 static status check_aov_cameras(const struct yaml *root, const struct job *job)
 {
     const struct job_aov *aov = &job->output.aov;
@@ -147,6 +165,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_strata(root, job));
     TRY(check_aov_cameras(root, job));
     TRY(check_wedge(root, &job->wedge));
+    TRY(check_aov_layers(root, job));
 done:
     return st;
 }

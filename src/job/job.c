@@ -97,6 +97,21 @@ static status folder_of(const char *path, char **out)
     return st;
 }
 
+const char *const aov_layer_names[AOV_LAYER_COUNT] = {
+#define AOV_LAYER(name) #name,
+    AOV_LAYERS(AOV_LAYER)
+#undef AOV_LAYER
+};
+
+bool job_wants_layer(const struct job *job, enum aov_layer layer)
+{
+    const struct job_aov *a = &job->output.aov;
+    for (size_t i = 0; i < a->n_layers; i++)
+        if (strcmp(a->layers[i], aov_layer_names[layer]) == 0)
+            return true;
+    return a->n_layers == 0;
+}
+
 size_t job_layer_at(const struct job *job, double z)
 {
     size_t layer = 0;

@@ -99,6 +99,31 @@ enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
 enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
 
+/* The layers of an AOV picture (DESIGN 2), by name; output.aov.layers chooses among them. */
+#define AOV_LAYERS(X)                                                                                        \
+    X(rgba)                                                                                                  \
+    X(depth)                                                                                                 \
+    X(N)                                                                                                     \
+    X(P)                                                                                                     \
+    X(stress)                                                                                                \
+    X(viability)                                                                                             \
+    X(erodibility)                                                                                           \
+    X(discharge)                                                                                             \
+    X(wind)                                                                                                  \
+    X(vegetation)                                                                                            \
+    X(layer)                                                                                                 \
+    X(phase)
+enum aov_layer {
+#define AOV_LAYER(name) AOV_##name,
+    AOV_LAYERS(AOV_LAYER)
+#undef AOV_LAYER
+        AOV_LAYER_COUNT
+};
+extern const char *const aov_layer_names[AOV_LAYER_COUNT];
+
+/* Whether the job wants a layer. */
+bool job_wants_layer(const struct job *job, enum aov_layer layer);
+
 /* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside
  * are made absolute against the job file's folder. E_INPUT: the file cannot be read. E_USAGE: it is wrong;
  * the message has file:line:column (or --set), the key path, and the nearest known key or the allowed range.

@@ -116,6 +116,8 @@ static status add_attributes(exr_context_t exr, int part, const struct aov_image
     TRY_EXR(exr_attr_set_double(exr, part, "hoodoo:years", options->years));
     if (image->camera && *image->camera)
         TRY_EXR(exr_attr_set_string(exr, part, "hoodoo:camera", image->camera));
+    for (size_t i = 0; i < image->n_notes; i++)
+        TRY_EXR(exr_attr_set_string(exr, part, image->note[i].name, image->note[i].value));
     if (part == 0)
         TRY_EXR(exr_attr_set_string(exr, part, EXR_HASH_NAME, EXR_HASH_NONE));
 done:
