@@ -30,6 +30,7 @@ static bool there(const char *path)
 /* A child that holds the lock until it is killed. */
 static pid_t holder(const char *path)
 {
+    unlink(path); /* of a test that failed */
     pid_t pid = fork();
     if (pid == 0) {
         struct lock *lock;
@@ -175,6 +176,7 @@ static void only_one_is_inside(void **state)
     enum { PROCESSES = 6, TURNS = 25 };
     int bad = 0, how;
     end(holder("g.lock"));
+    unlink("inside");
     for (int p = 0; p < PROCESSES; p++)
         if (fork() == 0) {
             if (!freopen("/dev/null", "w", stderr))
