@@ -4,7 +4,7 @@ PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev me
 	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
 	libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy
-PEER_PACKAGES = blender chromium python3-venv
+PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6
 DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
 

@@ -98,6 +98,8 @@ static const char *type_name(const struct job_key *key)
         return "list of points";
     case KEY_NAMES:
         return "list of names";
+    case KEY_TEXTS:
+        return "list of values";
     }
     return "";
 }
@@ -132,6 +134,7 @@ static void put_default(struct text *t, const struct job_key *key)
     case KEY_LIST:
     case KEY_POINTS:
     case KEY_NAMES:
+    case KEY_TEXTS:
         text_add(t, "`[]`");
         break;
     case KEY_MAP:

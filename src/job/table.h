@@ -35,7 +35,8 @@ enum key_type {
     KEY_MAP,
     KEY_NODE,
     KEY_POINTS,
-    KEY_NAMES
+    KEY_NAMES,
+    KEY_TEXTS
 };
 
 enum key_use { OUT, SIM };
@@ -45,7 +46,7 @@ struct job_key {
     enum key_use use; /* SIM for SUB, LIST, MAP and NODE: their own keys decide */
     const char *name, *unit, *meaning, *source;
     size_t offset;       /* of the member in its struct */
-    size_t offset_n;     /* LIST, MAP, POINTS, NAMES: of the member n_<key> */
+    size_t offset_n;     /* LIST, MAP, POINTS, NAMES, TEXTS: of the member n_<key> */
     size_t n;            /* VEC, TRACK, POINTS: numbers of one; else 0 */
     const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, TRACK, RANGE; NULL: required */
     double number;       /* NUM, CURVE, INT, BOOL: default; NaN: required */

@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/hash.h"
+#include "base/lock.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/version.h"
@@ -25,8 +26,11 @@ struct run {
     struct gpu *gpu;
     struct model *model;
     struct writer *writer;
-    bool *done;        /* [last - first + 1], by frame number */
-    int first_missing; /* last + 1: none */
+    struct lock *lock;
+    char lock_path[4096];
+    bool lacks_checkpoint; /* the last frame's, or a later one */
+    bool *done;            /* [last - first + 1], by frame number */
+    int first_missing;     /* last + 1: none */
     int last_missing;
     size_t n_done;
     int began; /* the frame the model was made or restored at */
@@ -40,7 +44,7 @@ static status frame_done(const struct run *r, int frame, bool *done)
     const char *bad = "";
     status st = manifest_read(r->options->root, r->job->name, frame, &manifest);
     if (st == OK)
-        st = manifest_check(r->options->root, &manifest, false, &bad);
+        st = manifest_check(r->options->root, &manifest, r->options->repair, &bad);
     *done = st == OK && *bad == '\0' && manifest.job_hash == r->job_hash;
     if (st == OK && !*done)
         log_info("frame %d is there but %s; it will be made again", frame, *bad ? bad : "of another job");
@@ -54,6 +58,9 @@ static status survey(struct run *r)
     size_t n = (size_t)(r->frames.last - r->frames.first) + 1;
     int *there = NULL, *checkpoints = NULL;
     size_t n_there, n_checkpoints;
+    free(r->done);
+    r->done = NULL;
+    r->n_done = 0;
     TRY(memory_alloc(n, sizeof *r->done, "the frames", &r->done));
     TRY(folder_frames(r->options->root, r->job->name, &there, &n_there));
     for (size_t i = 0; i < n_there; i++)
@@ -71,7 +78,8 @@ static status survey(struct run *r)
         }
     /* Without the last frame's checkpoint there is more to do than the frames. */
     TRY(checkpoint_list(r->options->root, r->job->name, &checkpoints, &n_checkpoints));
-    if (n_checkpoints == 0 || checkpoints[0] < r->frames.last)
+    r->lacks_checkpoint = n_checkpoints == 0 || checkpoints[0] < r->frames.last;
+    if (r->lacks_checkpoint)
         r->last_missing = r->frames.last;
 done:
     free(there);
@@ -127,6 +135,46 @@ static status forget(const struct run *r)
     }
 done:
     free(frames);
+    return st;
+}
+
+/* --repair: a checkpoint that is damaged is none; what it stood for is made again. */
+static status drop_damaged(const struct run *r)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    char path[4096];
+    struct checkpoint c;
+    TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
+    for (size_t i = 0; i < n; i++) {
+        TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
+        st = checkpoint_read_index(path, &c);
+        if (st == E_CHECKPOINT) {
+            log_warn("%s; it is removed", status_message());
+            unlink(path);
+            st = OK;
+        }
+        TRY(st);
+    }
+done:
+    free(frames);
+    return st;
+}
+
+/* From here on this process alone simulates into the folder; what was surveyed before may have changed. */
+static status own_folder(struct run *r)
+{
+    status st = OK;
+    char what[128], frames[48];
+    snprintf(what, sizeof what, "simulates frames %s here", range_text(r->frames, frames));
+    TRY(lock_take(r->lock_path, what, (struct lock_patience){0}, r->options->stop, &r->lock));
+    if (r->options->resume == RUN_NEVER)
+        TRY(forget(r));
+    if (r->options->repair)
+        TRY(drop_damaged(r));
+    TRY(survey(r));
+done:
     return st;
 }
 
@@ -238,6 +286,10 @@ static status write_papers(const struct run *r)
     json_text(&t, "device_pci", info->pci);
     json_integer(&t, "seed", r->job->seed);
     json_text(&t, "job_hash", hash_text(r->job_hash, hash));
+    if (r->job->wedge.index) {
+        json_integer(&t, "wedge", r->job->wedge.index);
+        json_text(&t, "wedge_values", r->job->wedge.label);
+    }
     json_array(&t, "inputs");
     for (size_t i = 0; i < n_inputs; i++) {
         json_object(&t, NULL);
@@ -301,7 +353,7 @@ static status begin(struct run *r)
                  r->options->root, r->first_missing);
         goto done;
     }
-    if (!found && r->frames.first != r->job->frames.first) {
+    if (!found && r->frames.first != r->job->frames.first && !r->options->repair) {
         st = fail(E_CHECKPOINT,
                   "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the "
                   "block before it first",
@@ -348,6 +400,7 @@ static status simulate(struct run *r)
         r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
     for (;;) {
         int number = r->type->frame(r->model);
+        TRY(lock_check(r->lock));
         /* The last frame says that all is done: what the next block begins from is there before it. */
         if (fresh && number >= last && !repair)
             TRY(save(r));
@@ -403,14 +456,19 @@ status run_job(const struct job *job, const struct run_options *options)
     }
     TRY(job_hash(job, &r.job_hash));
     TRY(folder_prepare(options->root));
-    if (options->resume == RUN_NEVER)
-        TRY(forget(&r));
-    else
+    if (snprintf(r.lock_path, sizeof r.lock_path, "%s/lock", options->root) >= (int)sizeof r.lock_path)
+        return fail(E_OUTPUT, "%.100s...: the path is too long", options->root);
+    if (options->resume != RUN_NEVER)
         TRY(check_owner(&r));
-    TRY(survey(&r));
+    if (!options->repair)
+        TRY(survey(&r));
+    if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
+        TRY(own_folder(&r));
+    else
+        lock_sweep(r.lock_path);
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
-    if (r.first_missing > r.frames.last) {
+    if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {
         log_info("all %zu frames are done already", r.n_done);
         st = write_stage(&r);
         goto done;
@@ -433,6 +491,7 @@ done:
     if (r.model)
         r.type->destroy(&r.model);
     gpu_destroy(&r.gpu);
+    lock_release(&r.lock);
     free(r.done);
     return st;
 }

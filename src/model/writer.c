@@ -98,7 +98,8 @@ static status put_images(const struct job *job, uint64_t job_hash, const char *r
                                   .years = frame->years,
                                   .job_hash = job_hash,
                                   .owner = job->output.owner,
-                                  .comments = job->output.comments};
+                                  .comments = job->output.comments,
+                                  .wedge = job->wedge.label};
     for (size_t i = 0; i < frame->n_images; i++) {
         TRY(exr_encode(&frame->image[i], &options, &file.bytes, &file.size));
         TRY(folder_path(path, root, job->name, FILE_AOV, frame->number,
