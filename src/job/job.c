@@ -49,7 +49,17 @@ void free_section(enum job_section_id section, void *base)
         case KEY_NODE:
             free_node(*(struct job_node **)member);
             break;
+        case KEY_MAYBE:
+            items = *(char **)member;
+            if (items)
+                free_section((enum job_section_id)key->child, items);
+            free(items);
+            break;
+        case KEY_SETS:
+            free_sets(member);
+            break;
         case KEY_POINTS:
+        case KEY_RANGES:
             free(key_items(key, base, &n));
             break;
         case KEY_NAMES:
@@ -95,6 +105,29 @@ static status folder_of(const char *path, char **out)
     return st;
 }
 
+const struct job *job_at(const struct job *job, int frame)
+{
+    const struct job *now = job;
+    for (size_t i = 0; i < job->n_edits && job->edits[i].frame <= frame; i++)
+        if (job->edits[i].set.job)
+            now = job->edits[i].set.job;
+    return now;
+}
+
+double job_years(const struct job *job, int from, int to)
+{
+    double years = 0;
+    for (size_t i = 0; i < job->n_edits && from < to; i++) {
+        int before = (int)job->edits[i].frame - 1;
+        if (before > from) {
+            int last = before < to ? before : to;
+            years += (last - from) * job_at(job, last)->clock.years_per_frame;
+            from = last;
+        }
+    }
+    return years + (to - from) * job_at(job, to)->clock.years_per_frame;
+}
+
 size_t job_layer_at(const struct job *job, double z)
 {
     size_t layer = 0;
@@ -128,6 +161,7 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     TRY(read_section(SECTION_job, root, NULL, folder, job));
     TRY(read_default_layer(root, job));
     TRY(check_job(root, job));
+    TRY(read_edited_jobs(&tree, root, folder, job));
     *out = job;
     job = NULL;
 done:

@@ -71,13 +71,27 @@ static void fill_particle(const struct sampler *s, const int voxel[3], unsigned 
                           size_t p)
 {
     place(s, voxel, rock->P + 4 * p);
-    const double x[3] = {(double)rock->P[4 * p], (double)rock->P[4 * p + 1], (double)rock->P[4 * p + 2]};
-    struct paint_values paint = paint_at(s->paint, x);
     rock->id[p] = (uint32_t)p;
-    rock->viability[p] = (float)(paint.viability * share / COVERAGE_FULL);
+    rock->viability[p] = (float)share / COVERAGE_FULL;
+}
+
+static void position(const struct rock *rock, size_t p, double x[3])
+{
+    for (size_t a = 0; a < 3; a++)
+        x[a] = (double)rock->P[4 * p + a];
+}
+
+/* What depends on where the particle sits. */
+static void paint_particle(const struct sampler *s, struct rock *rock, size_t p)
+{
+    double x[3];
+    position(rock, p, x);
+    struct paint_values paint = paint_at(s->paint, x, 0);
+    rock->viability[p] = (float)(paint.viability * (double)rock->viability[p]);
     rock->layer[p] = (uint32_t)job_layer_at(s->job, x[2]);
     rock->rate_factor[p] = (float)rate_factor(s, x, &paint);
     rock->interlock_factor[p] = (float)paint.interlock;
+    rock->vegetation[p] = (float)paint.vegetation;
 }
 
 static size_t count_slab(const struct sampler *s, int k)
@@ -151,6 +165,35 @@ done:
     return st;
 }
 
+/* The scene without the beds of its rivers. */
+static status solid_of_job(const struct job *job, double detail, double reach, struct solid **out)
+{
+    status st = OK;
+    struct job_node *beds = NULL, **part = NULL;
+    struct job_node whole = {.kind = NODE_DIFFERENCE, .u.group = {.scale = {1, 1, 1}}};
+    TRY(memory_alloc(job->n_sources, sizeof *beds, "river beds", &beds));
+    TRY(memory_alloc(job->n_sources + 1, sizeof *part, "river beds", &part));
+    part[whole.n_child++] = job->scene;
+    for (size_t i = 0; i < job->n_sources; i++) {
+        const struct job_source *source = &job->sources[i];
+        if (!(source->bed_m > 0))
+            continue;
+        beds[i] = (struct job_node){.kind = NODE_SHAPE,
+                                    .shape = SHAPE_STROKE,
+                                    .u.stroke = {.path_m = source->path_m,
+                                                 .n_path_m = source->n_path_m,
+                                                 .radius_m = source->bed_m,
+                                                 .scale = {1, 1, 1}}};
+        part[whole.n_child++] = &beds[i];
+    }
+    whole.child = part;
+    TRY(solid_create(whole.n_child > 1 ? &whole : job->scene, detail, reach, out));
+done:
+    free(beds);
+    free(part);
+    return st;
+}
+
 /* `reach`: how far from the surface distances will be asked for, in spacings. */
 static status sampler_init(struct sampler *s, const struct job *job, double reach)
 {
@@ -158,7 +201,7 @@ static status sampler_init(struct sampler *s, const struct job *job, double reac
     double h = job->domain.spacing_m;
     *s = (struct sampler){.job = job, .h = h};
     TRY(scene_voxels(job, s->n));
-    TRY(solid_create(job->scene, h / 2, reach * h, &s->solid));
+    TRY(solid_of_job(job, h / 2, reach * h, &s->solid));
 done:
     return st;
 }
@@ -168,7 +211,7 @@ static status sampler_fill(struct sampler *s)
 {
     status st = OK;
     uint32_t seed = (uint32_t)s->job->seed;
-    TRY(paint_create(s->job, &s->paint));
+    TRY(paint_create(s->job, s->job->paint, s->job->n_paint, &s->paint));
     TRY(memory_alloc(s->job->n_strata + 1, sizeof *s->noise, "noise", &s->noise));
     for (size_t i = 0; i <= s->job->n_strata; i++) {
         struct job_noise own = s->job->noise;
@@ -204,6 +247,14 @@ status scene_sample(const struct job *job, struct rock *rock)
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k < s.n[2]; k++)
         fill_slab(&s, k, first[k], rock);
+    for (size_t p = 0; paint_sees(s.paint) && p < rock->n; p++) {
+        double x[3];
+        position(rock, p, x);
+        paint_see(s.paint, x);
+    }
+#pragma omp parallel for schedule(static)
+    for (size_t p = 0; p < rock->n; p++)
+        paint_particle(&s, rock, p);
 done:
     free(first);
     sampler_deinit(&s);
@@ -218,6 +269,11 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
     TRY(sampler_init(&s, job, COVERAGE_REACH));
     TRY(sampler_fill(&s));
     TRY(count_particles(&s, floats, &first));
+    for (int k = 0; paint_sees(s.paint) && k < s.n[2]; k++)
+        for (int j = 0; j < s.n[1]; j++)
+            for (int i = 0; i < s.n[0]; i++)
+                if (coverage_at(s.coverage, i, j, k) > 0)
+                    paint_see(s.paint, (const double[]){(i + 0.5) * s.h, (j + 0.5) * s.h, (k + 0.5) * s.h});
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k < s.n[2]; k++) {
         size_t v = (size_t)k * (size_t)s.n[1] * (size_t)s.n[0];
@@ -228,7 +284,7 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
                 share[v] = factor[v] = 0;
                 if (covered == 0)
                     continue;
-                struct paint_values paint = paint_at(s.paint, x);
+                struct paint_values paint = paint_at(s.paint, x, 0);
                 share[v] = (float)(paint.viability * covered / COVERAGE_FULL);
                 factor[v] = (float)rate_factor(&s, x, &paint);
             }

@@ -42,8 +42,9 @@ struct solid_point solid_at(const struct solid *solid, const double x[3]);
  *
  * Noise   times exp(amplitude * n(P)), n of zero mean and unit variance (noise.h).
  * Paint   entries are laid over each other in order: where one covers fully its factor replaces what was
- * painted before, at its falloff the two are mixed; a factor of 1 paints nothing. Inert: where the shape
- * holds P.
+ * painted before, elsewhere the two are mixed by its weight, the product of its shape's falloff, its image and
+ * its noise; a factor of 1 paints nothing. Inert: where the shape holds P and the weight is at least a half.
+ * Beds    sources[].bed_m is taken out of the scene along path_m.
  *
  * *rock is the caller's to rock_free().
  * E_USAGE: no rock in the domain, or none that touches the ground. E_INPUT: a file is missing, damaged or
