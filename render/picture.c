@@ -89,7 +89,7 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     const struct job_camera *own = chosen_camera(p);
     volumes_path(p, frame, volumes);
     snprintf(full, sizeof full, "%s/%s", p->root, volumes);
-    TRY(vdb_mesh_read(full, ADAPTIVITY, NULL, 0, &mesh));
+    TRY(vdb_mesh_read(full, ADAPTIVITY, scene_values, SCENE_VALUES, SCENE_VALUES, &mesh));
     TRY(scene_bounds(&scene));
     TRY(memory_alloc((size_t)(views ? views : 1), sizeof *camera, "cameras", &camera));
     size_of(p, own, views > 0, width, height);

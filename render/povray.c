@@ -15,6 +15,9 @@
 #include "job/palette.h"
 #include "render/scene_parts.h"
 
+const char *const scene_values[SCENE_VALUES] = {
+    [SCENE_VEGETATION] = "vegetation", [SCENE_DEPOSIT] = "deposit"};
+
 status scene_bounds(struct scene *s)
 {
     if (s->mesh->n_triangles == 0)
@@ -98,6 +101,15 @@ static void add_strata(struct text *out, const struct scene *s)
     text_add(out, "}\n");
 }
 
+/* Which texture of the list a vertex has: rock, scree, or plants by their cover. */
+static int ground_of(const struct vdb_mesh *m, size_t vertex)
+{
+    float plants = m->value[SCENE_VEGETATION * m->n_vertices + vertex];
+    if (plants > 0.15F)
+        return plants < 0.4F ? 2 : plants < 0.7F ? 3 : 4;
+    return m->value[SCENE_DEPOSIT * m->n_vertices + vertex] > 0.5F ? 1 : 0;
+}
+
 /* Few digits: reading the mesh takes most of a small picture's time. */
 static void add_mesh(struct text *out, const struct scene *s)
 {
@@ -115,12 +127,21 @@ static void add_mesh(struct text *out, const struct scene *s)
         const float *v = m->normal + 3 * i;
         text_add(out, ",\n<%.3f,%.3f,%.3f>", (double)v[0], (double)v[1], (double)v[2]);
     }
+    bool bare = true;
+    for (size_t i = 0; i < m->n_vertices && bare; i++)
+        bare = ground_of(m, i) == 0;
+    if (!bare)
+        text_add(out, "}\n"
+                      "texture_list { 5, texture { Sandstone }, texture { Talus }, texture { Plants[0] }, "
+                      "texture { Plants[1] }, texture { Plants[2] }");
     text_add(out, "}\nface_indices { %zu", m->n_triangles);
     for (size_t i = 0; i < m->n_triangles; i++) {
         const uint32_t *t = m->triangle + 3 * i;
         text_add(out, ",\n<%u,%u,%u>", t[0], t[1], t[2]);
+        if (!bare)
+            text_add(out, ",%d,%d,%d", ground_of(m, t[0]), ground_of(m, t[1]), ground_of(m, t[2]));
     }
-    text_add(out, "}\n}\n\n");
+    text_add(out, "}\n%s}\n\n", bare ? "texture { Sandstone }\n" : "");
 }
 
 static void add_part(struct text *out, const char *const *line)
@@ -153,9 +174,11 @@ status scene_write(const struct scene *s, struct text *out)
     text_add(out, "#declare High = <%.9g, %.9g, %.9g>;\n", s->high[0], s->high[1], s->high[2]);
     text_add(out, "#declare Center = (Low + High) / 2;\n#declare Size = %.9g;\n", size);
     add_strata(out, s);
+    add_part(out, scene_sandstone);
+    add_part(out, scene_scree);
     add_mesh(out, s);
     add_part(out, scene_light);
     add_part(out, scene_sky);
-    add_part(out, scene_sandstone);
+    text_add(out, "object { Rock }\n");
     return text_status(out);
 }

@@ -8,6 +8,10 @@
 
 enum preset { PRESET_DRAFT, PRESET_PREVIEW, PRESET_FINAL };
 
+/* The values the mesh comes with, 0 where a job has none. */
+enum { SCENE_VEGETATION, SCENE_DEPOSIT, SCENE_VALUES };
+extern const char *const scene_values[SCENE_VALUES];
+
 struct scene {
     const struct job *job;
     int frame;

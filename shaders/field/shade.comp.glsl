@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // What lies under each pixel: the fields there, and the stone's colour under sun and sky.
-// fields = (stress, von Mises, viability, erodibility); color = linear RGB and alpha; ids = layer, phase of
-// the nearest particle.
+// fields = (stress, von Mises, viability, erodibility); color = linear RGB and alpha; ids = layer, phase and
+// number of the nearest particle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -14,13 +14,17 @@ READ_U(4, start)
 READ_U(5, layer)
 READ_U(6, phase)
 READ_F(7, erodibility)
-READ_V(8, palette)
-WRITE_V(9, color)
-WRITE_V(10, fields)
-WRITE_U(11, ids)
+READ_F(8, vegetation)
+READ_V(9, palette)
+WRITE_V(10, color)
+WRITE_V(11, fields)
+WRITE_U(12, ids)
 PARAMS(shade_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
+
+const vec3 SAND = vec3(0.52, 0.36, 0.22);
+const vec3 GREEN = vec3(0.085, 0.115, 0.045); // dry shrubs
 
 void main()
 {
@@ -31,8 +35,8 @@ void main()
     if (where.w < 0.0) {
         AT(color, i) = vec4(0.0);
         AT(fields, i) = vec4(0.0);
-        AT(ids, 2u * i) = 0u;
-        AT(ids, 2u * i + 1u) = 0u;
+        for (uint b = 0u; b < 3u; b++)
+            AT(ids, 3u * i + b) = 0u;
         return;
     }
     vec3 x = where.xyz;
@@ -72,8 +76,13 @@ void main()
     float sky = 0.5 + 0.5 * normal.z;
     vec3 light = sun * vec3(2.6, 2.3, 1.9) + mix(vec3(0.22, 0.17, 0.13), vec3(0.32, 0.40, 0.55), sky);
     uint strata = LOAD_U(layer, found);
-    AT(color, i) = vec4(LOAD_V(palette, strata).rgb * light, 1.0);
+    vec3 stone = LOAD_V(palette, strata).rgb;
+    if (LOAD_U(phase, found) == PHASE_DEPOSIT)
+        stone = mix(stone, SAND, 0.6);
+    stone = mix(stone, GREEN, LOAD_F(vegetation, found));
+    AT(color, i) = vec4(stone * light, 1.0);
     AT(fields, i) = vec4(sum.xyz, LOAD_F(erodibility, found));
-    AT(ids, 2u * i) = strata;
-    AT(ids, 2u * i + 1u) = LOAD_U(phase, found);
+    AT(ids, 3u * i) = strata;
+    AT(ids, 3u * i + 1u) = LOAD_U(phase, found);
+    AT(ids, 3u * i + 2u) = found;
 }

@@ -56,6 +56,10 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
+#define PHASE_ROCK 0u
+#define PHASE_DEPOSIT 1u
+#define PHASE_FALLING 2u
+
 /* The share of space that is rock around a voxel's middle, from its own fill, its 6 face and its 12 edge
  * neighbours': the surface is where this is 1/2. The weights are those of (1 - r^2 / 4 h^2)^3, rounded so
  * that they add up to 1; on a plane face the surface lies exactly where the fill puts it. */
@@ -169,6 +173,15 @@ struct shade_params {
     float sun_x, sun_y, sun_z;
 };
 SHARED_SIZE(shade_params, 60)
+
+/* The lattice of the wind; one sample of it, alone, is the same everywhere. */
+struct pixel_weather_params {
+    uint n;
+    uint ax, ay, az;
+    float cell;
+    float origin_x, origin_y, origin_z; /* m: sample 0 */
+};
+SHARED_SIZE(pixel_weather_params, 32)
 
 /* ---- voxels: a bit a voxel, in words of 32 along x, with a margin of M rows and slabs around the domain and
  * one word of air between rows. A voxel's number is its bit's. See voxels/voxels.h. */

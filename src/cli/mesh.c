@@ -12,8 +12,10 @@
 #include "output/folder.h"
 #include "output/vdb.h"
 
-static const char *const values[] = {"stress", "von_mises", "viability"};
-enum { VALUES = sizeof values / sizeof *values };
+/* A job without water, plants or deposits has no such grids: 0. */
+static const char *const values[] = {"stress",    "von_mises",  "viability",
+                                     "discharge", "vegetation", "deposit"};
+enum { VALUES = sizeof values / sizeof *values, OPTIONAL = 3 };
 
 /* To the files' up axis. */
 static void turn(const float from[3], int up, float to[3])
@@ -72,7 +74,7 @@ static status write_frame(const char *root, const struct job *job, int frame, do
     struct vdb_mesh mesh = {0};
     struct text text = {0};
     TRY(folder_path(path, root, job->name, FILE_VOLUMES, frame, NULL));
-    TRY(vdb_mesh_read(path, adaptivity, values, VALUES, &mesh));
+    TRY(vdb_mesh_read(path, adaptivity, values, VALUES, OPTIONAL, &mesh));
     TRY(folder_path(path, root, job->name, FILE_MESH, frame, NULL));
     add_ply(&text, &mesh, job, frame);
     TRY(text_status(&text));

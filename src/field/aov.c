@@ -31,7 +31,7 @@ size_t aov_pixels(const struct job *job)
 
 uint64_t aov_bytes(size_t n_pixels)
 {
-    return (uint64_t)n_pixels * (4 * 16 + 8);
+    return (uint64_t)n_pixels * (5 * 16 + 12);
 }
 
 status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struct aov *a)
@@ -43,7 +43,9 @@ status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struc
     TRY(gpu_buffer_create(gpu, "ray normals", n_pixels, 16, &a->facing));
     TRY(gpu_buffer_create(gpu, "picture", n_pixels, 16, &a->color));
     TRY(gpu_buffer_create(gpu, "picture fields", n_pixels, 16, &a->fields));
-    TRY(gpu_buffer_create(gpu, "picture ids", 2 * n_pixels, 4, &a->ids));
+    TRY(gpu_buffer_create(gpu, "picture weather", n_pixels, 16, &a->weather));
+    TRY(gpu_buffer_create(gpu, "picture ids", 3 * n_pixels, 4, &a->ids));
+    TRY(gpu_buffer_create(gpu, "still air", 1, 16, &a->still));
     TRY(gpu_buffer_create(gpu, "palette", job->n_strata, 16, &a->palette));
     TRY(memory_alloc(job->n_strata, sizeof *palette, "the palette", &palette));
     for (size_t i = 0; i < job->n_strata; i++)
@@ -62,12 +64,14 @@ void aov_destroy(struct gpu *gpu, struct aov *a)
     gpu_buffer_destroy(gpu, &a->facing);
     gpu_buffer_destroy(gpu, &a->color);
     gpu_buffer_destroy(gpu, &a->fields);
+    gpu_buffer_destroy(gpu, &a->weather);
     gpu_buffer_destroy(gpu, &a->ids);
+    gpu_buffer_destroy(gpu, &a->still);
     gpu_buffer_destroy(gpu, &a->palette);
 }
 
 static void record(struct gpu *gpu, struct aov *a, const struct camera *c, const struct field *f,
-                   const struct particles *p)
+                   const struct particles *p, const struct aov_air *air)
 {
     double length = sqrt(SUN[0] * SUN[0] + SUN[1] * SUN[1] + SUN[2] * SUN[2]);
     struct march_params march = {
@@ -116,13 +120,26 @@ static void record(struct gpu *gpu, struct aov *a, const struct camera *c, const
     };
     GPU_RUN(gpu, field_march, march.n, march, f->distance, a->hit, a->facing);
     GPU_RUN(gpu, field_shade, shade.n, shade, a->hit, a->facing, f->means, p->field[ROCK_P], p->start,
-            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility], a->palette, a->color,
-            a->fields, a->ids);
+            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility], p->field[ROCK_vegetation],
+            a->palette, a->color, a->fields, a->ids);
+    const struct grid_lattice still = {{1, 1, 1}, 1, {0}}, *l = air ? &air->lattice : &still;
+    struct pixel_weather_params weather = {
+        .n = march.n,
+        .ax = (uint)l->n[0],
+        .ay = (uint)l->n[1],
+        .az = (uint)l->n[2],
+        .cell = (float)l->voxel,
+        .origin_x = (float)l->origin[0],
+        .origin_y = (float)l->origin[1],
+        .origin_z = (float)l->origin[2],
+    };
+    GPU_RUN(gpu, field_weather, weather.n, weather, a->hit, a->facing, a->ids, p->field[ROCK_discharge],
+            p->field[ROCK_vegetation], air ? air->velocity : a->still, a->weather);
 }
 
 /* From which of the downloaded vectors, and which component, each channel comes; `vector` rows are turned to
  * the files' up axis. */
-enum { FROM_HIT, FROM_FACING, FROM_COLOR, FROM_FIELDS, FROM_IDS };
+enum { FROM_HIT, FROM_FACING, FROM_COLOR, FROM_FIELDS, FROM_WEATHER, FROM_IDS };
 static const struct {
     const char *part, *name;
     int from, component, vector, half;
@@ -142,6 +159,9 @@ static const struct {
     {"stress", "stress.von_mises", FROM_FIELDS, 1, 0, 0},
     {"viability", "viability.Y", FROM_FIELDS, 2, 0, 0},
     {"erodibility", "erodibility.Y", FROM_FIELDS, 3, 0, 0},
+    {"discharge", "discharge.Y", FROM_WEATHER, 0, 0, 0},
+    {"wind", "wind.speed", FROM_WEATHER, 1, 0, 0},
+    {"vegetation", "vegetation.Y", FROM_WEATHER, 2, 0, 0},
     {"layer", "layer.id", FROM_IDS, 0, 0, 0},
     {"phase", "phase.id", FROM_IDS, 1, 0, 0},
 };
@@ -150,7 +170,8 @@ enum { CHANNELS = sizeof channels / sizeof *channels };
 /* Depth of pixels without rock: farther than anything. */
 static const float NOTHING = 1e10f;
 
-static void split(struct aov_image *image, size_t n, float *const source[4], const uint32_t *ids, int up)
+static void split(struct aov_image *image, size_t n, float *const source[FROM_IDS], const uint32_t *ids,
+                  int up)
 {
     float *plane = image->memory;
     for (size_t c = 0; c < CHANNELS; c++, plane += n) {
@@ -160,7 +181,7 @@ static void split(struct aov_image *image, size_t n, float *const source[4], con
         if (channels[c].from == FROM_IDS) {
             uint32_t *id = (uint32_t *)plane;
             for (size_t i = 0; i < n; i++)
-                id[i] = ids[2 * i + (size_t)channels[c].component];
+                id[i] = ids[3 * i + (size_t)channels[c].component];
             out->id = id;
             continue;
         }
@@ -180,33 +201,46 @@ static void split(struct aov_image *image, size_t n, float *const source[4], con
 }
 
 status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const struct job_camera *camera,
-                  const struct field *f, const struct particles *p, struct aov_image *out)
+                  const struct field *f, const struct particles *p, const struct aov_air *air,
+                  struct aov_image *out)
 {
     status st = OK;
     struct camera c = camera_of(camera);
     size_t n = (size_t)c.width * (size_t)c.height;
-    float *source[4] = {NULL};
+    float *source[FROM_IDS] = {NULL};
     uint32_t *ids = NULL;
-    struct gpu_buffer *from[4] = {a->hit, a->facing, a->color, a->fields};
+    struct gpu_buffer *from[FROM_IDS] = {a->hit, a->facing, a->color, a->fields, a->weather};
     *out = (struct aov_image){
         .camera = camera->name, .width = c.width, .height = c.height, .n_channels = CHANNELS};
     TRY(memory_alloc(CHANNELS, sizeof *out->channel, "channels", &out->channel));
     TRY(memory_alloc(n * CHANNELS, sizeof(float), "a picture", &out->memory));
-    record(gpu, a, &c, f, p);
-    for (int s = 0; s < 4; s++) {
+    record(gpu, a, &c, f, p, air);
+    for (int s = 0; s < FROM_IDS; s++) {
         TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &source[s]));
         TRY(gpu_download(gpu, from[s], 0, source[s], n));
     }
-    TRY(memory_alloc(n, 2 * sizeof(uint32_t), "a picture", &ids));
-    TRY(gpu_download(gpu, a->ids, 0, ids, 2 * n));
+    TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &ids));
+    TRY(gpu_download(gpu, a->ids, 0, ids, 3 * n));
     split(out, n, source, ids, job->output.up);
     camera_matrices(&c, job->output.up, out->world_to_camera, out->world_to_ndc);
 done:
-    for (int s = 0; s < 4; s++)
+    for (int s = 0; s < FROM_IDS; s++)
         free(source[s]);
     free(ids);
     if (st != OK)
         aov_image_free(out);
+    return st;
+}
+
+status aov_render_all(struct gpu *gpu, struct aov *a, const struct job *job, const struct field *f,
+                      const struct particles *p, const struct aov_air *air, struct frame *out)
+{
+    status st = OK;
+    TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
+    for (size_t i = 0; i < job->output.aov.n_cameras; i++)
+        TRY(aov_render(gpu, a, job, camera_named(job, job->output.aov.cameras[i]), f, p, air,
+                       &out->image[out->n_images++]));
+done:
     return st;
 }
 

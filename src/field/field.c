@@ -50,9 +50,9 @@ void field_destroy(struct gpu *gpu, struct field *f)
     gpu_buffer_destroy(gpu, &f->other);
 }
 
-void field_build(struct gpu *gpu, struct field *f, struct particles *p)
+static struct field_params params_of(const struct field *f, const struct particles *p)
 {
-    struct field_params k = {
+    return (struct field_params){
         .n = (uint)sample_count(f),
         .nx = (uint)p->voxels[0],
         .ny = (uint)p->voxels[1],
@@ -63,10 +63,15 @@ void field_build(struct gpu *gpu, struct field *f, struct particles *p)
         .fz = (uint)f->n[2],
         .margin = FIELD_MARGIN,
     };
+}
+
+void field_build(struct gpu *gpu, struct field *f, struct particles *p)
+{
+    struct field_params k = params_of(f, p);
     particles_fill(gpu, p);
     GPU_RUN(gpu, field_share, k.n, k, p->fill, f->share);
     GPU_RUN(gpu, field_means, k.n, k, p->start, p->field[ROCK_stress], p->field[ROCK_von_mises],
-            p->field[ROCK_viability], f->share, f->means);
+            p->field[ROCK_viability], p->field[ROCK_phase], f->share, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->share, f->distance);
     /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
@@ -75,7 +80,23 @@ void field_build(struct gpu *gpu, struct field *f, struct particles *p)
     }
 }
 
-status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out)
+/* `other` is free once the distances are there. */
+static status download_skin(struct gpu *gpu, struct field *f, struct particles *p, enum rock_field which,
+                            struct frame_grid *out)
+{
+    const struct field_params k = params_of(f, p);
+    status st = OK;
+    *out = (struct frame_grid){
+        .name = rock_field_table[which].name, .unit = rock_field_table[which].unit, .kind = GRID_PLAIN};
+    TRY(memory_alloc(k.n, sizeof(float), out->name, &out->value));
+    GPU_RUN(gpu, field_skin, k.n, k, p->start, p->field[ROCK_N], p->field[which], f->share, f->other);
+    TRY(gpu_download(gpu, f->other, 0, out->value, k.n));
+done:
+    return st;
+}
+
+status field_download(struct gpu *gpu, struct field *f, struct particles *p, const enum rock_field *skin,
+                      size_t n_skin, struct frame_grids *out)
 {
     static const struct frame_grid kinds[] = {
         {.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET},
@@ -107,6 +128,17 @@ status field_download(struct gpu *gpu, const struct field *f, struct frame_grids
         stress[i] = means[4 * i];
         mises[i] = means[4 * i + 1];
         viability[i] = means[4 * i + 2];
+    }
+    for (size_t s = 0; s < n_skin; s++) {
+        struct frame_grid *grid = &out->grid[out->n_grids++];
+        if (skin[s] != ROCK_phase) {
+            TRY(download_skin(gpu, f, p, skin[s], grid));
+            continue;
+        }
+        *grid = (struct frame_grid){.name = "deposit", .unit = "", .kind = GRID_PLAIN};
+        TRY(memory_alloc(n, sizeof(float), grid->name, &grid->value));
+        for (size_t i = 0; i < n; i++)
+            grid->value[i] = means[4 * i + 3];
     }
 done:
     free(means);

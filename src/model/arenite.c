@@ -141,10 +141,28 @@ static status measure(const struct model *m, struct frame *out)
     return OK;
 }
 
+/* Which values of the surface this job can have. */
+static size_t skin_fields(const struct job *job, enum rock_field out[3])
+{
+    size_t n = 0;
+    bool plants = false;
+    if (curve_max(&job->rain.m_per_yr) > 0 || job->n_sources)
+        out[n++] = ROCK_discharge;
+    for (size_t i = 0; i < job->n_paint; i++)
+        plants |= job->paint[i].vegetation > 0;
+    if (plants)
+        out[n++] = ROCK_vegetation;
+    if (curve_max(&job->deposition.viability) > 0)
+        out[n++] = ROCK_phase;
+    return n;
+}
+
 static status output(struct model *m, struct frame *out)
 {
     status st = OK;
     const struct job *job = m->job;
+    enum rock_field skin[3];
+    size_t n_skin = skin_fields(job, skin);
     *out = (struct frame){.number = m->frame,
                           .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
                           .ledger = m->ledger,
@@ -153,14 +171,9 @@ static status output(struct model *m, struct frame *out)
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
-    TRY(field_download(m->gpu, &m->field, &out->grids));
+    TRY(field_download(m->gpu, &m->field, &m->particles, skin, n_skin, &out->grids));
     gpu_stage(m->gpu, "pictures");
-    TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
-    for (size_t c = 0; c < job->output.aov.n_cameras; c++)
-        for (size_t i = 0; i < job->n_cameras; i++)
-            if (strcmp(job->cameras[i].name, job->output.aov.cameras[c]) == 0)
-                TRY(aov_render(m->gpu, &m->aov, job, &job->cameras[i], &m->field, &m->particles,
-                               &out->image[out->n_images++]));
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, NULL, out));
 done:
     if (st != OK)
         frame_free(out);

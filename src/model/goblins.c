@@ -152,16 +152,9 @@ static status show(struct model *m, struct particles *p, struct frame *out)
     gpu_stage(m->gpu, "field");
     field_build(m->gpu, &m->field, p);
     TRY(particles_download(m->gpu, p, DERIVED, &out->rock));
-    TRY(field_download(m->gpu, &m->field, &out->grids));
+    TRY(field_download(m->gpu, &m->field, p, NULL, 0, &out->grids));
     gpu_stage(m->gpu, "pictures");
-    TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
-    for (size_t c = 0; c < job->output.aov.n_cameras; c++)
-        for (size_t i = 0; i < job->n_cameras; i++)
-            if (strcmp(job->cameras[i].name, job->output.aov.cameras[c]) == 0)
-                TRY(aov_render(m->gpu, &m->aov, job, &job->cameras[i], &m->field, p,
-                               &out->image[out->n_images++]));
-    for (size_t i = 0; i < out->rock.n; i++)
-        out->max_stress_Pa = fmax(out->max_stress_Pa, fabs((double)out->rock.stress[i]));
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, p, NULL, out));
 done:
     return st;
 }

@@ -70,9 +70,10 @@ struct vdb_mesh {
     float *value;       /* [n_values][n_vertices], NULL if none were asked for */
 };
 
-/* adaptivity 0..1: larger merges flat parts into fewer triangles. */
+/* adaptivity 0..1: larger merges flat parts into fewer triangles. The last n_optional values are 0 where the
+ * file has no grid of that name. */
 MUST_USE status vdb_mesh_read(const char *path, double adaptivity, const char *const *values, size_t n_values,
-                              struct vdb_mesh *out);
+                              size_t n_optional, struct vdb_mesh *out);
 void vdb_mesh_free(struct vdb_mesh *mesh);
 
 #ifdef __cplusplus

@@ -47,7 +47,8 @@ template <class V> V sim_from_file(const V &f, bool y_up)
     return y_up ? V(f[0], 0 - f[2], f[1]) : f;
 }
 
-/* File metadata: how many voxels the frame's grids had, in the simulator's axes. */
+/* Metadata of the file: how many voxels the frame's grids had, in the simulator's axes. Of a grid: how many
+ * it had, where that is something else. */
 constexpr char LATTICE[] = "lattice_voxels";
 
 /* The frame's voxels in the file's index space: their box, and where each is in the dense arrays. */
