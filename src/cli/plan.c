@@ -8,6 +8,7 @@
 #include "cli/words.h"
 #include "gpu/primitives.h"
 #include "job/job.h"
+#include "model/branch.h"
 #include "model/model.h"
 
 /* Device time of one particle in one step, in units of one word read and written, measured on lavapipe with
@@ -55,7 +56,7 @@ static status answer(const struct job *job, struct gpu *gpu, struct text *t)
     json_text(t, "model", model_of(job)->name);
     json_text(t, "frames", range_text(job->frames, frames));
     json_integer(t, "frame_count", (int64_t)n_frames);
-    json_number(t, "years", (job->frames.last - job->frames.first) * job->clock.years_per_frame);
+    json_number(t, "years", job_years(job, job->frames.first, job->frames.last));
     json_integer(t, "particles", (int64_t)e.n_particles);
     json_object(t, "voxels");
     json_integer(t, "x", e.voxels[0]);
@@ -90,12 +91,18 @@ status cli_plan(int argc, char **argv)
     struct job *job = NULL;
     struct gpu *gpu = NULL;
     struct text t = {0};
+    char root[4096];
     bool help = false;
-    const struct option options[] = {OPTION_DEVICE(&c), OPTION_SET(&c), OPTION_JSON(&c)};
+    const struct option options[] = {OPTION_DEVICE(&c), OPTION_SET(&c), OPTION_OUT(&c), OPTION_FROM(&c),
+                                     OPTION_JSON(&c)};
     TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
     TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
+    TRY(output_folder(&c, job, root));
+    if (c.from)
+        TRY(branch_from(job, c.from, root));
+    TRY(branch_prepare(job, root));
     TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
     TRY(answer(job, gpu, &t));
     TRY(words_print(&t, c.json));

@@ -7,6 +7,7 @@
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
+#include "model/branch.h"
 #include "output/folder.h"
 
 struct shown {
@@ -38,20 +39,18 @@ status cli_run(int argc, char **argv)
     char root[4096], path[4200];
     bool help = false;
     const struct option options[] = {OPTION_OUT(&c), OPTION_FRAMES(&c),   OPTION_DEVICE(&c),
-                                     OPTION_SET(&c), OPTION_PROGRESS(&c), OPTION_RESUME(&c)};
+                                     OPTION_SET(&c), OPTION_PROGRESS(&c), OPTION_RESUME(&c),
+                                     OPTION_FROM(&c)};
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
     TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
-    int length =
-        c.out ? snprintf(root, sizeof root, "%s", c.out) : snprintf(root, sizeof root, "out/%s", job->name);
-    if (length < 0 || (size_t)length >= sizeof root - 200) {
-        st = fail(E_USAGE, "--out: the path is too long");
-        goto done;
-    }
+    TRY(output_folder(&c, job, root));
     TRY(folder_prepare(root));
     snprintf(path, sizeof path, "%s/log/run.log", root);
     TRY(log_open(path));
+    if (c.from)
+        TRY(branch_from(job, c.from, root));
     signals_install();
     shown.style = (enum progress_style)c.progress;
     TRY(run_job(job, &(struct run_options){.root = root,

@@ -114,6 +114,14 @@ const struct job *job_at(const struct job *job, int frame)
     return now;
 }
 
+bool job_marks(const struct job *job, int frame)
+{
+    for (size_t i = 0; i < job->checkpoint.n_mark; i++)
+        if (range_holds(job->checkpoint.mark[i], frame))
+            return true;
+    return false;
+}
+
 double job_years(const struct job *job, int from, int to)
 {
     double years = 0;

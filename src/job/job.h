@@ -128,6 +128,9 @@ MUST_USE status job_resolved(const struct job *job, struct text *out);
 /* The job as it is in a frame: with what the edits up to it set. Lives as long as `job`. */
 const struct job *job_at(const struct job *job, int frame);
 
+/* Whether checkpoint.mark holds the frame. */
+bool job_marks(const struct job *job, int frame);
+
 /* Years that pass from frame `from` to frame `to`, >= it. */
 double job_years(const struct job *job, int from, int to);
 

@@ -55,7 +55,7 @@
 #define MAYBE_NODE(s_, key_, meaning_) ROW(s_, key_, KEY_NODE, SIM, "", meaning_, "", .preset = "")
 #define RANGES(s_, key_, use_, meaning_)                                                                     \
     ROW(s_, key_, KEY_RANGES, use_, "", meaning_, "", .offset_n = offsetof(struct job_##s_, n_##key_))
-#define SETS(s_, key_, meaning_) ROW(s_, key_, KEY_SETS, SIM, "", meaning_, "")
+#define SETS(s_, key_, meaning_) ROW(s_, key_, KEY_SETS, SIM, "", meaning_, "", .preset = "")
 #define NODE(s_, key_, meaning_) ROW(s_, key_, KEY_NODE, SIM, "", meaning_, "", .preset = NULL)
 #define POINTS(s_, key_, use_, unit_, width_, min_, max_, meaning_, source_)                                 \
     ROW(s_, key_, KEY_POINTS, use_, unit_, meaning_, source_, .n = width_, .min = min_, .max = max_,         \

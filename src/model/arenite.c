@@ -3,7 +3,8 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
+ *   edits -> wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress
+ *         -> erodibility
  *
  * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
  * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
@@ -19,6 +20,7 @@
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
+#include "model/edits.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
@@ -28,8 +30,10 @@
 
 struct model {
     struct gpu *gpu;
-    const struct job *job;
+    const struct job *whole; /* as loaded */
+    const struct job *job;   /* as the edits up to this frame have it */
     int frame;
+    double years;        /* since the first frame */
     double start_volume; /* m3 */
     struct ledger ledger;
     struct gpu_work *work;
@@ -91,10 +95,66 @@ done:
     return st;
 }
 
+/* What lasts from frame to frame and depends on the number of particles. */
+static status create_particles(struct model *m, const struct rock *rock)
+{
+    status st = OK;
+    int voxels[3];
+    TRY(scene_voxels(m->job, voxels));
+    TRY(particles_create(m->gpu, m->work, rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(erosion_create(m->gpu, m->job, m->particles.n_max, &m->erosion));
+done:
+    return st;
+}
+
+static void destroy_particles(struct model *m)
+{
+    erosion_destroy(m->gpu, &m->erosion);
+    particles_destroy(m->gpu, &m->particles);
+}
+
+static struct elastic_options elastic_options(const struct job *job)
+{
+    return (struct elastic_options){
+        .lambda = 1e9 * job->rock.lame_GPa,
+        .mu = 1e9 * job->rock.shear_GPa,
+        .density = job->rock.density_kg_m3,
+        .gravity = job->rock.gravity_m_s2,
+        .tolerance = job->stress.tolerance,
+        .max_iterations = (int)job->stress.max_iterations,
+    };
+}
+
+/* A frame's edits: what they set and what they do to the rock. */
+static status edit(struct model *m)
+{
+    status st = OK;
+    struct rock rock = {0};
+    enum edits_kind kind = edits_of(m->whole, m->frame);
+    m->job = job_at(m->whole, m->frame);
+    if (kind == EDITS_NONE)
+        return OK;
+    gpu_stage(m->gpu, "edits");
+    m->elastic.options = elastic_options(m->job);
+    if (kind == EDITS_ROCK) {
+        TRY(particles_download(m->gpu, &m->particles, STATE, &rock));
+        TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
+        destroy_particles(m);
+        TRY(create_particles(m, &rock));
+        TRY(remove_unsupported(m));
+    }
+    TRY(settle(m, false));
+done:
+    rock_free(&rock);
+    return st;
+}
+
 static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
+    TRY(edit(m));
+    m->years += m->job->clock.years_per_frame;
     int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame));
     double kyr = m->job->clock.years_per_frame / 1000 / steps;
     for (int i = 0; i < steps && m->particles.n > 0; i++) {
@@ -164,7 +224,7 @@ static status output(struct model *m, struct frame *out)
     enum rock_field skin[3];
     size_t n_skin = skin_fields(job, skin);
     *out = (struct frame){.number = m->frame,
-                          .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
+                          .years = m->years,
                           .ledger = m->ledger,
                           .stress_iterations = m->elastic.iterations};
     gpu_stage(m->gpu, "field");
@@ -182,13 +242,23 @@ done:
 
 /* ---- the state */
 
+/* What the displacement depends on beside the rock's shape. */
+enum { ELASTICITY = 4 };
+
+static void elasticity(const struct model *m, double out[ELASTICITY])
+{
+    const struct elastic_options *e = &m->elastic.options;
+    const double numbers[ELASTICITY] = {e->lambda, e->mu, e->density, e->gravity};
+    memcpy(out, numbers, sizeof numbers);
+}
+
 static status save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
     void *data;
     size_t n = m->particles.n, nodes = elastic_nodes(&m->elastic);
-    *out = (struct checkpoint){.frame = m->frame,
-                               .years = (m->frame - m->job->frames.first) * m->job->clock.years_per_frame};
+    *out = (struct checkpoint){.frame = m->frame, .years = m->years};
+    TRY(section_add_domain(out, m->job));
     for (int f = 0; f < ROCK_FIELDS; f++) {
         if (rock_field_table[f].keep != STATE)
             continue;
@@ -204,17 +274,25 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->start_volume, sizeof m->start_volume);
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &m->elastic.iterations, 4);
+    TRY(section_add(out, "elasticity", 8, ELASTICITY, &data));
+    elasticity(m, data);
 done:
     if (st != OK)
         checkpoint_free(out);
     return st;
 }
 
-static status restore(struct model *m, const struct checkpoint *c, const int voxels[3])
+/* *settled: the displacement is that of this job's rock. A branch may have changed what it depends on. */
+static status restore(struct model *m, const struct checkpoint *c, bool *settled)
 {
     status st = OK;
     struct rock rock = {0};
     const struct checkpoint_section *s;
+    double now[ELASTICITY];
+    TRY(section_check_domain(c, m->job));
+    elasticity(m, now);
+    TRY(section_find(c, "elasticity", 8, ELASTICITY, &s));
+    *settled = memcmp(s->data, now, sizeof now) == 0;
     TRY(section_find(c, "id", 4, 0, &s));
     rock.n = s->n;
     for (int f = 0; f < ROCK_FIELDS; f++) {
@@ -232,20 +310,19 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
-    m->frame = c->frame;
+    TRY(create_particles(m, &rock));
 done:
     return st;
 }
 
-static status begin(struct model *m, const int voxels[3])
+static status begin(struct model *m)
 {
     status st = OK;
     struct rock rock = {0};
-    TRY(scene_sample(m->job, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
-    m->frame = m->job->frames.first;
+    TRY(scene_sample(m->whole, &rock));
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
+    TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
+    TRY(create_particles(m, &rock));
     TRY(remove_unsupported(m));
     if (m->ledger.fallen)
         log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out",
@@ -266,9 +343,8 @@ static void destroy(struct model **handle)
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
     blocks_destroy(m->gpu, &m->blocks);
-    erosion_destroy(m->gpu, &m->erosion);
     elastic_destroy(m->gpu, &m->elastic);
-    particles_destroy(m->gpu, &m->particles);
+    destroy_particles(m);
     gpu_work_destroy(m->gpu, &m->work);
     free(m);
     *handle = NULL;
@@ -281,17 +357,14 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     struct model *m = NULL;
     int voxels[3];
     double h = job->domain.spacing_m;
-    struct elastic_options options = {
-        .lambda = 1e9 * job->rock.lame_GPa,
-        .mu = 1e9 * job->rock.shear_GPa,
-        .density = job->rock.density_kg_m3,
-        .gravity = job->rock.gravity_m_s2,
-        .tolerance = job->stress.tolerance,
-        .max_iterations = (int)job->stress.max_iterations,
-    };
+    bool settled = false;
     TRY(memory_alloc(1, sizeof *m, "the model", &m));
     m->gpu = gpu;
-    m->job = job;
+    m->whole = job;
+    m->frame = from ? from->frame : job->frames.first;
+    m->years = from ? from->years : 0;
+    m->job = job_at(job, m->frame);
+    struct elastic_options options = elastic_options(m->job);
     gpu_stage(gpu, "start");
     TRY(scene_voxels(job, voxels));
     TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
@@ -300,9 +373,9 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
-    TRY(from ? restore(m, from, voxels) : begin(m, voxels));
-    TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
-    TRY(settle(m, from != NULL));
+    TRY(scene_edits_check(job, m->frame));
+    TRY(from ? restore(m, from, &settled) : begin(m));
+    TRY(settle(m, settled));
     *out = m;
     m = NULL;
 done:
@@ -334,7 +407,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
                        (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
     out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels));
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
-        out->steps += erosion_steps(job, f, wind_intensity(job, f));
+        out->steps += erosion_steps(job_at(job, f), f, wind_intensity(job_at(job, f), f));
 done:
     return st;
 }

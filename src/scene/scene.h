@@ -56,8 +56,28 @@ MUST_USE status scene_sample(const struct job *job, struct rock *rock);
  * Errors as scene_sample()'s; rock that `floats` need not touch the ground. */
 MUST_USE status scene_grid(const struct job *job, bool floats, float *share, float *factor);
 
-/* About how many particles scene_sample() will make, from a quarter of a million voxels of it. Files and
- * shapes fail as there; an empty scene is 0 particles. */
+/* What an edit did to the rock. */
+struct scene_edited {
+    size_t added, carved; /* particles */
+    double added_m3;      /* rock put in, in new particles and in those filled up */
+};
+
+/* Applies one edit's carve, add and paint, in this order, to the rock's STATE fields, whose arrays are replaced.
+ *
+ * Carve   a particle loses the share of its voxel that the shape holds, and goes when less than 1/64 is left.
+ * Add     an empty voxel gets a particle as in scene_sample(), without the scene's paint; in one that holds less
+ *         rock than the shape does, the particle of the lowest id is filled up. New ids are next_id and up.
+ * Paint   the factors multiply what particles have.
+ *
+ * `job` is the job as it is in that frame. E_USAGE, E_INPUT: as scene_sample(). */
+MUST_USE status scene_edit(const struct job *job, const struct job_edit *edit, uint64_t next_id,
+                           struct rock *rock, struct scene_edited *out);
+
+/* Reads every file and makes every shape of the edits after `frame`, so that what is wrong is said now. */
+MUST_USE status scene_edits_check(const struct job *job, int frame);
+
+/* About how many particles scene_sample() and the edits will make, from a quarter of a million voxels of each.
+ * Files and shapes fail as there; an empty scene is 0 particles. */
 MUST_USE status scene_estimate(const struct job *job, size_t *n_particles);
 
 #endif
