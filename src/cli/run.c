@@ -46,11 +46,11 @@ status cli_run(int argc, char **argv)
         goto done;
     TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
     TRY(output_folder(&c, job, root));
+    if (c.from)
+        TRY(branch_from(job, c.from, root));
     TRY(folder_prepare(root));
     snprintf(path, sizeof path, "%s/log/run.log", root);
     TRY(log_open(path));
-    if (c.from)
-        TRY(branch_from(job, c.from, root));
     signals_install();
     shown.style = (enum progress_style)c.progress;
     TRY(run_job(job, &(struct run_options){.root = root,
