@@ -4,6 +4,9 @@
 
 #include "job/parse.h"
 
+/* Each may be a job of its own. */
+enum { EDITS = 256 };
+
 /* The place of `key` where it is given, else of the mapping that lacks it. */
 static const struct yaml *place(const struct yaml *map, const char *key)
 {
@@ -159,6 +162,8 @@ static status check_sources(const struct yaml *root, const struct job *job)
 static status check_edits(const struct yaml *root, const struct job *job)
 {
     const struct yaml *list = yaml_get(root, "edits");
+    if (job->n_edits > EDITS)
+        return yaml_fail(list, NULL, "%zu edits (at most %d)", job->n_edits, EDITS);
     for (size_t i = 0; i < job->n_edits; i++) {
         const struct job_edit *e = &job->edits[i];
         const struct yaml *item = yaml_item(list, i);

@@ -85,8 +85,8 @@ status read_edited_jobs(struct yaml_tree *tree, struct yaml *root, const char *f
         TRY(memory_alloc(1, sizeof **edited, "an edited job", edited));
         TRY(read_section(SECTION_job, root, NULL, folder, *edited));
         TRY(read_default_layer(root, *edited));
-        TRY(check_job(root, *edited));
         TRY(check_counts(set, job, *edited));
+        TRY(check_job(root, *edited));
     }
 done:
     return st;

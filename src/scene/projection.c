@@ -138,7 +138,8 @@ double projection_at(const struct projection *p, const double x[3])
         size_t i = (size_t)(at[0] / p->cell), j = (size_t)(at[1] / p->cell);
         i = i < p->cells[0] ? i : p->cells[0] - 1;
         j = j < p->cells[1] ? j : p->cells[1] - 1;
-        if (at[2] > (double)p->first[j * p->cells[0] + i] + p->depth)
+        /* A particle's rock begins half a spacing before its middle. */
+        if (at[2] > (double)p->first[j * p->cells[0] + i] - p->h / 2 + p->depth)
             return 0;
     }
     return sample(p, u, v);
