@@ -27,9 +27,9 @@
 VERBS(VERB_DECLARE)
 #undef VERB_DECLARE
 
-/* Where a job's output goes: --out, or out/NAME. */
+/* The job of a file with --set and --from, and where its output goes: --out, or out/NAME. */
 struct job;
-MUST_USE status output_folder(const struct common *c, const struct job *job, char root[4096]);
+MUST_USE status load_job(const char *path, struct common *c, struct job **job, char root[4096]);
 
 /* The frames of the job in the output folder `root`, from its own copy of the job. */
 MUST_USE status job_frames(const char *root, struct frame_range *out);

@@ -2,11 +2,23 @@
 
 #include "cli/cli.h"
 #include "job/job.h"
+#include "model/branch.h"
 
-status output_folder(const struct common *c, const struct job *job, char root[4096])
+status load_job(const char *path, struct common *c, struct job **job, char root[4096])
 {
-    int n = c->out ? snprintf(root, 4096, "%s", c->out) : snprintf(root, 4096, "out/%s", job->name);
-    return n < 0 || n >= 4096 - 200 ? fail(E_USAGE, "--out: the path is too long") : OK;
+    status st = OK;
+    /* A branch may have edits before its first frame. Which checkpoint it is follows below: it may be in the output
+     * folder, which may be named by the job. */
+    if (c->from)
+        TRY(words_add(&c->sets, "from=checkpoint"));
+    TRY(job_load(path, c->sets.word, c->sets.n, job));
+    int n = c->out ? snprintf(root, 4096, "%s", c->out) : snprintf(root, 4096, "out/%s", (*job)->name);
+    if (n < 0 || n >= 4096 - 200)
+        return fail(E_USAGE, "--out: the path is too long");
+    if (c->from)
+        TRY(branch_from(*job, c->from, root));
+done:
+    return st;
 }
 
 status job_frames(const char *root, struct frame_range *out)

@@ -98,10 +98,7 @@ status cli_plan(int argc, char **argv)
     TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
-    TRY(output_folder(&c, job, root));
-    if (c.from)
-        TRY(branch_from(job, c.from, root));
+    TRY(load_job(operands.word[0], &c, &job, root));
     TRY(branch_prepare(job, root));
     TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
     TRY(answer(job, gpu, &t));

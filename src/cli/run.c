@@ -7,7 +7,6 @@
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
-#include "model/branch.h"
 #include "output/folder.h"
 
 struct shown {
@@ -44,10 +43,7 @@ status cli_run(int argc, char **argv)
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
-    TRY(output_folder(&c, job, root));
-    if (c.from)
-        TRY(branch_from(job, c.from, root));
+    TRY(load_job(operands.word[0], &c, &job, root));
     TRY(folder_prepare(root));
     snprintf(path, sizeof path, "%s/log/run.log", root);
     TRY(log_open(path));
