@@ -58,22 +58,22 @@ static bool holds(const struct scene *s, const struct camera *c, double share)
 
 struct camera scene_orbit(const struct scene *s, double azimuth_deg, int width, int height)
 {
-    struct job_camera orbit = {.focal_mm = 35, .aperture_mm = 36, .resolution = {width, height}};
-    orbit.orbit.elevation_deg = 12;
-    double size = 0;
+    const double elevation_deg = 12, film = 18.0 / 35;
+    double target[3], size = 0;
     for (int k = 0; k < 3; k++) {
-        orbit.orbit.target_m[k] = 0.5 * (s->low[k] + s->high[k]);
+        target[k] = 0.5 * (s->low[k] + s->high[k]);
         size = fmax(size, s->high[k] - s->low[k]);
     }
-    orbit.orbit.distance_m = fmax(0.5 * size, 1e-3);
     /* One distance for the whole orbit, or the rock would breathe. */
-    for (int azimuth = 0; azimuth < 360; azimuth += 5) {
-        orbit.orbit.azimuth_deg = azimuth;
-        for (struct camera c = camera_of(&orbit); !holds(s, &c, 0.86); c = camera_of(&orbit))
-            orbit.orbit.distance_m *= 1.01;
-    }
-    orbit.orbit.azimuth_deg = azimuth_deg;
-    return camera_of(&orbit);
+    double distance = fmax(0.5 * size, 1e-3);
+    for (int azimuth = 0; azimuth < 360; azimuth += 5)
+        for (;;) {
+            struct camera c = camera_orbit(target, distance, azimuth, elevation_deg, film, width, height);
+            if (holds(s, &c, 0.86))
+                break;
+            distance *= 1.01;
+        }
+    return camera_orbit(target, distance, azimuth_deg, elevation_deg, film, width, height);
 }
 
 static void add_vectors(struct text *out, const char *name, const struct scene *s, size_t offset)

@@ -160,8 +160,13 @@ struct march_params {
     float down_x, down_y, down_z;    /* half its height */
     float ahead_x, ahead_y, ahead_z;
     float sun_x, sun_y, sun_z; /* unit vector towards the sun */
+    uint ray, rays;      /* of the pixel; a single one has a sun without extent and an open sky */
+    float film_x, film_y;      /* px: where in the pixel */
 };
-SHARED_SIZE(march_params, 100)
+SHARED_SIZE(march_params, 116)
+
+#define LIT_SUN 1.0f
+#define LIT_SKY 2.0f
 
 struct shade_params {
     uint n;
@@ -171,8 +176,9 @@ struct shade_params {
     float voxel;
     float origin_x, origin_y, origin_z;
     float sun_x, sun_y, sun_z;
+    uint ray, rays;
 };
-SHARED_SIZE(shade_params, 60)
+SHARED_SIZE(shade_params, 68)
 
 /* The lattice of the wind; one sample of it, alone, is the same everywhere. */
 struct pixel_weather_params {

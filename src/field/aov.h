@@ -31,13 +31,13 @@ uint64_t aov_bytes(size_t n_pixels);
 MUST_USE status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struct aov *out);
 void aov_destroy(struct gpu *gpu, struct aov *a);
 
-/* The picture of one camera, in this air (NULL: none); out->memory and out->channel are freed with aov_image_free(). Waits. */
+/* The picture of one camera in a frame, in this air (NULL: none); out->memory and out->channel are freed with aov_image_free(). Waits. */
 MUST_USE status aov_render(struct gpu *gpu, struct aov *a, const struct job *job,
-                           const struct job_camera *camera, const struct field *f, const struct particles *p,
-                           const struct aov_air *air, struct aov_image *out);
-/* The pictures of all the job's AOV cameras, into out->image. */
+                           const struct job_camera *camera, int frame, const struct field *f,
+                           const struct particles *p, const struct aov_air *air, struct aov_image *out);
+/* The pictures of all the job's AOV cameras, into out->image; out->number is the
+ * frame. */
 MUST_USE status aov_render_all(struct gpu *gpu, struct aov *a, const struct job *job, const struct field *f,
                                const struct particles *p, const struct aov_air *air, struct frame *out);
-void aov_image_free(struct aov_image *image);
 
 #endif

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "job/parse.h"
 
 /* Each may be a job of its own. */
@@ -51,8 +52,18 @@ static status check_cylinder(const struct yaml *map, const struct job_cylinder *
 
 static status check_camera(const struct yaml *map, const struct job_camera *c)
 {
-    if (c->orbit.distance_m == 0 && distance(c->position_m, c->target_m) < 1e-6)
-        return yaml_fail(place(map, "target_m"), NULL, "the same point as position_m");
+    /* Where either has a key; between keys it is only a picture. */
+    const struct curve *keys[] = {&c->position_m, &c->target_m};
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < keys[k]->n; i++) {
+            double frame = keys[k]->frame[i], eye[3], target[3];
+            if (curve_at(&c->orbit.distance_m, frame) > 0)
+                continue;
+            track_at(&c->position_m, frame, eye);
+            track_at(&c->target_m, frame, target);
+            if (distance(eye, target) < 1e-6)
+                return yaml_fail(place(map, "target_m"), NULL, "the same point as position_m");
+        }
     return OK;
 }
 
@@ -126,6 +137,25 @@ static status check_strata(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+static status check_aov_layers(const struct yaml *root, const struct job *job)
+{
+    const struct job_aov *aov = &job->output.aov;
+    if (aov->n_layers == 0)
+        return OK;
+    const struct yaml *list = yaml_get(yaml_get(yaml_get(root, "output"), "aov"), "layers");
+    for (size_t i = 0; i < aov->n_layers; i++) {
+        bool found = false;
+        for (size_t k = 0; k < AOV_LAYER_COUNT; k++)
+            found |= strcmp(aov->layers[i], aov_layer_names[k]) == 0;
+        if (!found) {
+            const char *near = nearest_word(aov->layers[i], aov_layer_names, AOV_LAYER_COUNT);
+            return yaml_fail(yaml_item(list, i), NULL, "no layer '%s'%s%s", aov->layers[i],
+                             near ? "; did you mean " : " (see jobs/README.md)", near ? near : "");
+        }
+    }
+    return OK;
+}
+
 static status check_aov_cameras(const struct yaml *root, const struct job *job)
 {
     const struct job_aov *aov = &job->output.aov;
@@ -194,6 +224,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_aov_cameras(root, job));
     TRY(check_sources(root, job));
     TRY(check_edits(root, job));
+    TRY(check_aov_layers(root, job));
 done:
     return st;
 }

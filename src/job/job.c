@@ -34,6 +34,7 @@ void free_section(enum job_section_id section, void *base)
             free(*(char **)member);
             break;
         case KEY_CURVE:
+        case KEY_TRACK:
             free(((struct curve *)member)->frame); /* value is its second half */
             break;
         case KEY_SUB:
@@ -134,6 +135,21 @@ double job_years(const struct job *job, int from, int to)
         }
     }
     return years + (to - from) * job_at(job, to)->clock.years_per_frame;
+}
+
+const char *const aov_layer_names[AOV_LAYER_COUNT] = {
+#define AOV_LAYER(name) #name,
+    AOV_LAYERS(AOV_LAYER)
+#undef AOV_LAYER
+};
+
+bool job_wants_layer(const struct job *job, enum aov_layer layer)
+{
+    const struct job_aov *a = &job->output.aov;
+    for (size_t i = 0; i < a->n_layers; i++)
+        if (strcmp(a->layers[i], aov_layer_names[layer]) == 0)
+            return true;
+    return a->n_layers == 0;
 }
 
 size_t job_layer_at(const struct job *job, double z)

@@ -16,7 +16,8 @@
 
 enum curve_ease { EASE_LINEAR, EASE_SMOOTH, EASE_STEP };
 
-/* A number, or a number that changes with the frame. Constant outside its first and last frame. */
+/* A number, or a number that changes with the frame. Constant outside its first and last frame. A TRACK has
+ * three numbers for each frame. */
 struct curve {
     size_t n; /* >= 1 */
     double *frame, *value;
@@ -25,6 +26,7 @@ struct curve {
 
 double curve_at(const struct curve *c, double frame);
 double curve_max(const struct curve *c);
+void track_at(const struct curve *c, double frame, double out[3]);
 
 enum job_node_kind { NODE_UNION, NODE_INTERSECTION, NODE_DIFFERENCE, NODE_SHAPE };
 enum job_shape {
@@ -62,6 +64,7 @@ struct job_sets {
 #define INPUT(section, key, use, preset, meaning, source) char *key;
 #define NUM(section, key, use, unit, preset, min, max, meaning, source) double key;
 #define CURVE(section, key, use, unit, preset, min, max, meaning, source) struct curve key;
+#define TRACK(section, key, use, unit, preset, min, max, meaning, source) struct curve key;
 #define INT(section, key, use, unit, preset, min, max, meaning, source) int64_t key;
 #define BOOL(section, key, use, preset, meaning, source) bool key;
 #define CHOICE(section, key, use, preset, choices, meaning, source) int key;
@@ -113,6 +116,31 @@ enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
 enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
+
+/* The layers of an AOV picture (DESIGN 2), by name; output.aov.layers chooses among them. */
+#define AOV_LAYERS(X)                                                                                        \
+    X(rgba)                                                                                                  \
+    X(depth)                                                                                                 \
+    X(N)                                                                                                     \
+    X(P)                                                                                                     \
+    X(stress)                                                                                                \
+    X(viability)                                                                                             \
+    X(erodibility)                                                                                           \
+    X(discharge)                                                                                             \
+    X(wind)                                                                                                  \
+    X(vegetation)                                                                                            \
+    X(layer)                                                                                                 \
+    X(phase)
+enum aov_layer {
+#define AOV_LAYER(name) AOV_##name,
+    AOV_LAYERS(AOV_LAYER)
+#undef AOV_LAYER
+        AOV_LAYER_COUNT
+};
+extern const char *const aov_layer_names[AOV_LAYER_COUNT];
+
+/* Whether the job wants a layer. */
+bool job_wants_layer(const struct job *job, enum aov_layer layer);
 
 /* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside
  * are made absolute against the job file's folder. E_INPUT: the file cannot be read. E_USAGE: it is wrong;

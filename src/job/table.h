@@ -24,6 +24,7 @@ enum key_type {
     KEY_INPUT,
     KEY_NUM,
     KEY_CURVE,
+    KEY_TRACK,
     KEY_INT,
     KEY_BOOL,
     KEY_CHOICE,
@@ -48,10 +49,10 @@ struct job_key {
     const char *name, *unit, *meaning, *source;
     size_t offset;       /* of the member in its struct */
     size_t offset_n;     /* LIST, MAP, POINTS, NAMES, RANGES: of the member n_<key> */
-    size_t n;            /* VEC, POINTS: numbers of one */
-    const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, RANGE; NULL: required */
+    size_t n;            /* VEC, TRACK, POINTS: numbers of one; else 0 */
+    const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, TRACK, RANGE; NULL: required */
     double number;       /* NUM, CURVE, INT, BOOL: default; NaN: required */
-    double min, max;     /* NUM, CURVE, INT, VEC, POINTS */
+    double min, max;     /* NUM, CURVE, INT, VEC, TRACK, POINTS */
     const char *choices; /* CHOICE: "a|b|c" */
     int child;           /* SUB, MAYBE, LIST, MAP: its section */
 };

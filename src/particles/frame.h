@@ -46,14 +46,24 @@ struct aov_channel {
     int half;           /* write as half */
 };
 
+/* A text attribute of the file. */
+struct aov_note {
+    char name[64];
+    char *value;
+};
+
 struct aov_image {
     const char *camera;
-    int width, height;
+    int width, height; /* overscan included */
+    int margin[2];     /* px: of it, on every side, in x and y */
     double world_to_camera[16], world_to_ndc[16]; /* as EXR stores them, row vectors, in the files' axes */
     size_t n_channels;
     struct aov_channel *channel;
     void *memory; /* holds every plane; owned by the frame */
+    size_t n_notes;
+    struct aov_note *note; /* owned by the frame */
 };
+void aov_image_free(struct aov_image *image);
 
 /* Where every particle of the start went. start = rock + deposit + fallen + left, exactly. */
 struct ledger {
