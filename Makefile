@@ -3,7 +3,7 @@
 PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers \
 	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
 	libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
-TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-numpy python3-scipy
+TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy
 PEER_PACKAGES = blender
 DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
 

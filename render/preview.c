@@ -19,35 +19,6 @@ struct wanted {
     const char *camera, *resolution;
 };
 
-/* The frames of --frames (or all) whose volumes were written, ascending. */
-static status choose_frames(const struct preview *p, const struct frame_range *range, int **out, size_t *n)
-{
-    status st = OK;
-    int *frames = NULL;
-    size_t n_all;
-    char path[4096];
-    *n = 0;
-    TRY(folder_frames(p->root, p->job->name, &frames, &n_all));
-    for (size_t i = 0; i < n_all; i++) {
-        if (range->step && !range_holds(*range, frames[i]))
-            continue;
-        TRY(folder_path(path, p->root, p->job->name, FILE_VOLUMES, frames[i], NULL));
-        if (access(path, R_OK) == 0)
-            frames[(*n)++] = frames[i];
-    }
-    if (*n == 0) {
-        char asked[48];
-        st = fail(E_INPUT, "%s holds no volumes of %s; run the job first", p->root,
-                  range->step ? range_text(*range, asked) : "any frame");
-        goto done;
-    }
-    *out = frames;
-    frames = NULL;
-done:
-    free(frames);
-    return st;
-}
-
 static status check(const struct wanted *w, struct preview *p)
 {
     char rest;
@@ -141,7 +112,7 @@ status cli_preview(int argc, char **argv)
     TRY(job_load(path, NULL, 0, &job));
     p.job = job;
     TRY(check(&w, &p));
-    TRY(choose_frames(&p, &w.common.frames, &frames, &n));
+    TRY(volume_frames(p.root, p.job->name, w.common.frames, &frames, &n));
     TRY(make_folder(p.root, "log"));
     TRY(make_folder(p.root, w.turntable ? "turntable" : "preview"));
     signals_install();

@@ -160,7 +160,7 @@ struct march_params {
     float down_x, down_y, down_z;    /* half its height */
     float ahead_x, ahead_y, ahead_z;
     float sun_x, sun_y, sun_z; /* unit vector towards the sun */
-    uint ray, rays;      /* of the pixel; a single one has a sun without extent and an open sky */
+    uint ray, rays;            /* of the pixel; a single one has a sun without extent and an open sky */
     float film_x, film_y;      /* px: where in the pixel */
 };
 SHARED_SIZE(march_params, 116)

@@ -16,6 +16,7 @@
     X(plan, "JOB", "what it would do: frames, particles, memory, disk, time (nothing is written)")           \
     X(status, "OUT", "frames done, missing and damaged, checkpoints, rate, time left")                       \
     X(verify, "OUT", "re-read every file against its manifest; names each damaged or missing one")           \
+    X(aov, "OUT", "render AOVs again from the frames' VDBs: other cameras, resolution, layers")              \
     X(mesh, "OUT", "a surface mesh per frame (PLY and OBJ)")                                                 \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
     X(inspect, "FILE", "what a checkpoint, VDB, EXR or manifest holds, in words or --json")                  \
@@ -30,6 +31,11 @@ VERBS(VERB_DECLARE)
 /* The job of a file with --set and --from, and where its output goes: --out, or out/NAME. */
 struct job;
 MUST_USE status load_job(const char *path, struct common *c, struct job **job, char root[4096]);
+
+/* The frames whose volumes a verb can read, of those in `range` (step 0: all), ascending; *frames freed with
+ * free(). E_INPUT if there are none. */
+MUST_USE status volume_frames(const char *root, const char *name, struct frame_range range, int **frames,
+                              size_t *n);
 
 /* The frames of the job in the output folder `root`, from its own copy of the job. */
 MUST_USE status job_frames(const char *root, struct frame_range *out);

@@ -85,8 +85,9 @@ static void compose(struct progress *p, const char *note)
 {
     char left[32];
     size_t size = sizeof p->line;
-    int n = snprintf(p->line, size, "frame %d, %zu/%zu, %.1f%% of the rock left", p->frame, p->done, p->total,
-                     100 * p->share);
+    int n = snprintf(p->line, size, "frame %d, %zu/%zu", p->frame, p->done, p->total);
+    if (p->share >= 0)
+        n += snprintf(p->line + n, size - (size_t)n, ", %.1f%% of the rock left", 100 * p->share);
     if (p->seconds_per_frame > 0 && n > 0 && (size_t)n < size) {
         double rate = 1 / p->seconds_per_frame;
         n += snprintf(p->line + n, size - (size_t)n, ", %.*f frames/s, %s to go", rate < 0.1 ? 4 : 2, rate,

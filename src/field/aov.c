@@ -25,7 +25,7 @@ static void overscan_of(const struct job_camera *c, int margin[2])
         margin[a] = (int)ceil(c->overscan * c->resolution[a]);
 }
 
-static size_t picture_pixels(const struct job_camera *c)
+size_t aov_camera_pixels(const struct job_camera *c)
 {
     int margin[2];
     overscan_of(c, margin);
@@ -38,7 +38,7 @@ size_t aov_pixels(const struct job *job)
     size_t most = 0;
     for (size_t i = 0; i < job->output.aov.n_cameras; i++) {
         const struct job_camera *c = camera_named(job, job->output.aov.cameras[i]);
-        size_t n = c ? picture_pixels(c) : 0;
+        size_t n = c ? aov_camera_pixels(c) : 0;
         most = n > most ? n : most;
     }
     return most;
@@ -47,6 +47,12 @@ size_t aov_pixels(const struct job *job)
 uint64_t aov_bytes(size_t n_pixels)
 {
     return (uint64_t)n_pixels * (5 * 16 + 12);
+}
+
+uint64_t aov_picture_bytes(const struct job *job)
+{
+    return (uint64_t)aov_pixels(job) * 4 *
+           (20 + (job->output.aov.cryptomatte ? (uint64_t)MATTE_CHANNELS : 0));
 }
 
 status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struct aov *a)

@@ -27,7 +27,10 @@ struct aov_air {
 
 /* The largest picture among the job's AOV cameras; 0 if it asks for none. */
 size_t aov_pixels(const struct job *job);
+size_t aov_camera_pixels(const struct job_camera *camera);
 uint64_t aov_bytes(size_t n_pixels);
+/* Bytes of one picture's channels in host memory. */
+uint64_t aov_picture_bytes(const struct job *job);
 MUST_USE status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struct aov *out);
 void aov_destroy(struct gpu *gpu, struct aov *a);
 

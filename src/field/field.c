@@ -147,6 +147,40 @@ done:
     return st;
 }
 
+static const float *grid_named(const struct frame_grids *grids, const char *name)
+{
+    for (size_t g = 0; g < grids->n_grids; g++)
+        if (strcmp(grids->grid[g].name, name) == 0 && grids->grid[g].own.n[0] == 0)
+            return grids->grid[g].value;
+    return NULL;
+}
+
+status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids)
+{
+    static const char *const names[4] = {"stress", "von_mises", "viability", "deposit"};
+    const float *surface = grid_named(grids, "surface");
+    size_t n = sample_count(f);
+    float *means = NULL;
+    status st = OK;
+    if (!surface)
+        return fail(E_INPUT, "it has no grid 'surface'");
+    for (int a = 0; a < 3; a++)
+        if (grids->n[a] != f->n[a] || fabs(grids->origin[a] - f->origin[a]) > 1e-3 * f->voxel)
+            return fail(E_INPUT, "its grids have %d x %d x %d voxels, and the job's %d x %d x %d",
+                        grids->n[0], grids->n[1], grids->n[2], f->n[0], f->n[1], f->n[2]);
+    TRY(memory_alloc(4 * n, sizeof *means, "field means", &means));
+    for (size_t c = 0; c < 4; c++) {
+        const float *from = grid_named(grids, names[c]);
+        for (size_t i = 0; from && i < n; i++)
+            means[4 * i + c] = from[i];
+    }
+    TRY(gpu_upload(gpu, f->means, 0, means, n));
+    TRY(gpu_upload(gpu, f->distance, 0, surface, n));
+done:
+    free(means);
+    return st;
+}
+
 void field_grids_free(struct frame_grids *grids)
 {
     for (size_t g = 0; g < grids->n_grids; g++)

@@ -32,6 +32,10 @@ void field_destroy(struct gpu *gpu, struct field *f);
 /* From the particles, whose stress must be current. Records only. */
 void field_build(struct gpu *gpu, struct field *f, struct particles *p);
 
+/* The field of a frame that was written: surface, stress, von_mises, viability and deposit from its grids, what
+ * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
+MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);
+
 /* The grids surface, density, stress, von_mises and viability, and one for each field of `skin`: means of what
  * only the surface's particles have, such as discharge; for ROCK_phase the share of deposits, as `deposit`. Freed with field_grids_free(). Waits. */
 MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p,

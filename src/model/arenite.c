@@ -101,7 +101,7 @@ static status create_particles(struct model *m, const struct rock *rock)
     status st = OK;
     int voxels[3];
     TRY(scene_voxels(m->job, voxels));
-    TRY(particles_create(m->gpu, m->work, rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     TRY(erosion_create(m->gpu, m->job, m->particles.n_max, &m->erosion));
 done:
     return st;
@@ -399,7 +399,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
                         aov_bytes(pixels);
     /* Two frames wait at most; files are made in memory. */
-    uint64_t picture = pixels * 17 * 4;
+    uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
     /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
      * 0.6. */

@@ -171,7 +171,7 @@ static status output(struct model *m, struct frame *out)
     TRY(voxels_download(m->gpu, &m->voxels, share, factor));
     out->volume_m3 = volume_of(share, n, m->voxels.h);
     TRY(rock_of(m, share, factor, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, m->voxels.n, m->voxels.h, &p));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels.n, m->voxels.h, &p));
     TRY(gpu_upload(m->gpu, p.field[ROCK_erodibility], 0, rock.erodibility, rock.n));
     TRY(show(m, &p, out));
     out->stress_iterations = m->elastic.iterations;
@@ -314,7 +314,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
     TRY(scene_voxels(job, out->voxels));
     TRY(scene_estimate(job, &out->n_particles));
     size_t n = out->n_particles, voxels = voxel_count(out->voxels);
-    uint64_t rock = 0, field = field_bytes(out->voxels), picture = (uint64_t)pixels * 17 * 4;
+    uint64_t rock = 0, field = field_bytes(out->voxels), picture = aov_picture_bytes(job);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
     /* A third of the rock active is more than most have. */

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ios>
 #include <new>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ extern "C" {
     catch (const std::bad_alloc &)                                                                           \
     {                                                                                                        \
         return fail(E_MEMORY, "%s: out of memory", subject);                                                 \
+    }                                                                                                        \
+    catch (const std::ios_base::failure &)                                                                   \
+    {                                                                                                        \
+        return fail(wrong, "%s: cut short or unreadable", subject);                                          \
     }                                                                                                        \
     catch (const std::exception &caught)                                                                     \
     {                                                                                                        \

@@ -54,8 +54,8 @@ struct aov_note {
 
 struct aov_image {
     const char *camera;
-    int width, height; /* overscan included */
-    int margin[2];     /* px: of it, on every side, in x and y */
+    int width, height;                            /* overscan included */
+    int margin[2];                                /* px: of it, on every side, in x and y */
     double world_to_camera[16], world_to_ndc[16]; /* as EXR stores them, row vectors, in the files' axes */
     size_t n_channels;
     struct aov_channel *channel;

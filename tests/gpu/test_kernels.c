@@ -183,7 +183,7 @@ static struct bed bed_of(const int n[3], double h,
                 rock.n++;
             }
     assert_ok(gpu_work_create(bed.gpu, voxels + 2, &bed.work));
-    assert_ok(particles_create(bed.gpu, bed.work, &rock, n, h, &bed.p));
+    assert_ok(particles_create(bed.gpu, bed.work, &rock, STATE, n, h, &bed.p));
     assert_ok(particles_surface(bed.gpu, bed.work, &bed.p));
     assert_ok(particles_download(bed.gpu, &bed.p, DERIVED, &bed.rock));
     rock_free(&rock);
