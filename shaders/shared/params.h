@@ -113,10 +113,11 @@ struct erosion_params {
 };
 SHARED_SIZE(erosion_params, 24)
 
-/* Words the erosion counts into. */
+/* Words the erosion counts into; COUNT_FASTEST is a float. */
 #define COUNT_ERODED 0u
 #define COUNT_FALLEN 1u
 #define COUNT_CHANGED 2u
+#define COUNT_FASTEST 3u
 
 /* ---- wind */
 
@@ -132,7 +133,51 @@ struct wind_params {
 };
 SHARED_SIZE(wind_params, 56)
 
-/* ---- water */
+/* ---- water: see water/water.h. Cells are 2 x 2 x 2 voxels; voxel v lies in cell (v + shift) / 2. A column's
+ * cells are bits, `words` words of 32 levels each; its spans are nodes, numbered upwards, column by column. */
+
+#define WATER_EMPTY 0u
+#define WATER_SURF 1u
+#define WATER_WALL 2u
+#define WATER_SOLID 3u
+#define WATER_KIND 3u
+#define WATER_OUT 4u
+#define WATER_DEAD 8u
+
+/* Spacings that water takes in a step at most. */
+#define WATER_DEPTH 2.0f
+
+/* What a hash is for (with water_params.random). */
+#define RANDOM_ROUGHNESS 1u
+#define RANDOM_RECEIVER 2u
+#define RANDOM_SHIFT 3u
+
+struct water_params {
+    uint n;
+    uint vx, vy, vz; /* voxels of the domain */
+    uint sx, sy, sz; /* shift */
+    uint cx, cy, cz; /* cells */
+    uint words;      /* of a column */
+    uint nodes;      /* that many; also the number that stands for outside */
+    uint basins;     /* likewise */
+    uint leak;
+    uint random;             /* hash of seed, frame and step */
+    float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
+};
+SHARED_SIZE(water_params, 68)
+
+struct water_surface_params {
+    uint n;
+    uint sx, sy, sz;
+    uint cx, cy, cz;
+    uint words;
+    float cell;                   /* m */
+    float rain_unit, spring_unit; /* m3/yr */
+    float rate, shear, threshold; /* k_t (1/Pa), k_f (Pa), tau_c (Pa) */
+    float steepest;
+    float most; /* m/kyr */
+};
+SHARED_SIZE(water_surface_params, 64)
 
 /* ---- deposits */
 

@@ -3,7 +3,7 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   edits -> wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress
+ *   edits -> wind -> water -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress
  *         -> erodibility
  *
  * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
@@ -26,7 +26,12 @@
 #include "particles/particles.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
+#include "water/water.h"
 #include "wind/wind.h"
+
+/* Spacings that a step may take where water is fast, before it is cut shorter: those the carry can still take
+ * off whole. */
+static const double WATER_STEP = 1.5;
 
 struct model {
     struct gpu *gpu;
@@ -40,6 +45,8 @@ struct model {
     struct particles particles;
     struct elastic elastic;
     struct erosion erosion;
+    struct water water;
+    bool told; /* that water is held back */
     struct blocks blocks;
     struct field field;
     struct aov aov;
@@ -125,6 +132,58 @@ static struct elastic_options elastic_options(const struct job *job)
     };
 }
 
+/* Does anything in the job need to know where water runs? */
+static bool routes(const struct job *job)
+{
+    return water_ever_flows(job) || curve_max(&job->deposition.viability) > 0;
+}
+
+/* For the job as it is now. */
+static status create_water(struct model *m)
+{
+    status st = OK;
+    int voxels[3];
+    TRY(scene_voxels(m->job, voxels));
+    if (routes(m->job))
+        TRY(water_create(m->gpu, m->job, voxels, m->job->domain.spacing_m, &m->water));
+done:
+    return st;
+}
+
+/* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
+ * water is fast; cut into parts of `least` it would not be into fewer. */
+static status run_water(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    const struct job *job = m->job;
+    bool deposits = curve_at(&job->deposition.viability, m->frame) > 0, flows = water_flows(job, m->frame);
+    struct water_routing how = {.seed = (uint32_t)job->seed,
+                                .frame = m->frame,
+                                .step = step,
+                                .leak = job->rain.leak,
+                                .cells = deposits};
+    double fastest;
+    gpu_stage(m->gpu, "water");
+    if (deposits || flows)
+        TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    if (!flows)
+        goto done;
+    TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
+    water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
+    TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
+    if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {
+        log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
+                 "rain.steps (%d), or lower rain.erosion",
+                 m->frame, (double)WATER_DEPTH, (int)job->rain.steps);
+        m->told = true;
+    }
+    /* Equal parts: at most as many as `least` goes into *kyr, now and after each. */
+    if (fastest * *kyr > WATER_STEP * job->domain.spacing_m)
+        *kyr /= ceil(*kyr / fmax(least, WATER_STEP * job->domain.spacing_m / fastest) - 1e-6);
+done:
+    return st;
+}
+
 /* A frame's edits: what they set and what they do to the rock. */
 static status edit(struct model *m)
 {
@@ -136,6 +195,8 @@ static status edit(struct model *m)
         return OK;
     gpu_stage(m->gpu, "edits");
     m->elastic.options = elastic_options(m->job);
+    water_destroy(m->gpu, &m->water);
+    TRY(create_water(m));
     if (kind == EDITS_ROCK) {
         TRY(particles_download(m->gpu, &m->particles, STATE, &rock));
         TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
@@ -149,26 +210,38 @@ done:
     return st;
 }
 
+/* One step of up to *kyr. */
+static status erode(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    uint32_t n_eroded;
+    gpu_stage(m->gpu, "wind");
+    wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
+    TRY(run_water(m, step, least, kyr));
+    gpu_stage(m->gpu, "viability");
+    TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &n_eroded));
+    gpu_stage(m->gpu, "particles");
+    TRY(remove_eroded(m, n_eroded));
+    if (n_eroded)
+        TRY(remove_unsupported(m));
+    TRY(settle(m, false));
+done:
+    return st;
+}
+
 static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
     TRY(edit(m));
     m->years += m->job->clock.years_per_frame;
-    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame));
-    double kyr = m->job->clock.years_per_frame / 1000 / steps;
-    for (int i = 0; i < steps && m->particles.n > 0; i++) {
-        uint32_t n_eroded;
-        gpu_stage(m->gpu, "wind");
-        wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
-        gpu_stage(m->gpu, "viability");
-        TRY(erosion_weather(m->gpu, m->work, &m->erosion, kyr, &m->particles, &n_eroded));
-        gpu_stage(m->gpu, "particles");
-        TRY(remove_eroded(m, n_eroded));
-        if (n_eroded)
-            TRY(remove_unsupported(m));
-        TRY(settle(m, false));
-    }
+    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame)), number = 0;
+    double whole = m->job->clock.years_per_frame / 1000 / steps, least = whole / (double)m->job->rain.steps;
+    for (int i = 0; i < steps; i++)
+        for (double left = whole, kyr; left > 0 && m->particles.n > 0; left -= kyr) {
+            kyr = left;
+            TRY(erode(m, number++, fmin(least, left), &kyr));
+        }
 done:
     return st;
 }
@@ -201,12 +274,31 @@ static status measure(const struct model *m, struct frame *out)
     return OK;
 }
 
-/* Which values of the surface this job can have. */
-static size_t skin_fields(const struct job *job, enum rock_field out[3])
+/* The discharge over the shape as it is now. One grid and one set of choices for all frames, so that streams
+ * move only where the rock has changed. */
+static status show_water(struct model *m)
 {
+    status st = OK;
+    struct water_routing how = {.seed = (uint32_t)m->job->seed, .leak = m->job->rain.leak};
+    if (!water_flows(m->job, m->frame)) {
+        gpu_fill(m->gpu, m->particles.field[ROCK_discharge], 0);
+        return OK;
+    }
+    gpu_stage(m->gpu, "water");
+    TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    TRY(water_discharge(m->gpu, m->work, &m->water, m->job, m->frame, &m->particles));
+    water_show(m->gpu, &m->water, &m->particles);
+done:
+    return st;
+}
+
+/* Which values of the surface this job can have. */
+static size_t skin_fields(const struct model *m, enum rock_field out[3])
+{
+    const struct job *job = m->job;
     size_t n = 0;
-    bool plants = false;
-    if (curve_max(&job->rain.m_per_yr) > 0 || job->n_sources)
+    bool plants = edits_plant(m->whole, m->frame);
+    if (water_ever_flows(job))
         out[n++] = ROCK_discharge;
     for (size_t i = 0; i < job->n_paint; i++)
         plants |= job->paint[i].vegetation > 0;
@@ -222,11 +314,12 @@ static status output(struct model *m, struct frame *out)
     status st = OK;
     const struct job *job = m->job;
     enum rock_field skin[3];
-    size_t n_skin = skin_fields(job, skin);
+    size_t n_skin = skin_fields(m, skin);
     *out = (struct frame){.number = m->frame,
                           .years = m->years,
                           .ledger = m->ledger,
                           .stress_iterations = m->elastic.iterations};
+    TRY(show_water(m));
     gpu_stage(m->gpu, "field");
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
@@ -343,6 +436,7 @@ static void destroy(struct model **handle)
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
     blocks_destroy(m->gpu, &m->blocks);
+    water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
     destroy_particles(m);
     gpu_work_destroy(m->gpu, &m->work);
@@ -375,6 +469,7 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(scene_edits_check(job, m->frame));
     TRY(from ? restore(m, from, &settled) : begin(m));
+    TRY(create_water(m));
     TRY(settle(m, settled));
     *out = m;
     m = NULL;
@@ -395,9 +490,12 @@ static status estimate(const struct job *job, struct model_estimate *out)
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
+    bool routes_water = routes(job);
+    for (size_t i = 0; i < job->n_edits; i++)
+        routes_water |= job->edits[i].set.job && routes(job->edits[i].set.job);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels);
+                        aov_bytes(pixels) + (routes_water ? water_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);

@@ -17,6 +17,15 @@ enum edits_kind edits_of(const struct job *job, int frame)
     return kind;
 }
 
+bool edits_plant(const struct job *job, int frame)
+{
+    for (size_t i = 0; i < job->n_edits && job->edits[i].frame <= frame; i++)
+        for (size_t k = 0; k < job->edits[i].n_paint; k++)
+            if (job->edits[i].paint[k].vegetation > 0)
+                return true;
+    return false;
+}
+
 status edits_apply(const struct job *job, int frame, struct rock *rock, struct ledger *ledger,
                    double *start_volume)
 {

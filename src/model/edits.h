@@ -2,6 +2,8 @@
 #ifndef HOODOO_EDITS_H
 #define HOODOO_EDITS_H
 
+#include <stdbool.h>
+
 #include "job/job.h"
 #include "particles/frame.h"
 #include "particles/rock.h"
@@ -10,6 +12,9 @@ enum edits_kind { EDITS_NONE, EDITS_SET, EDITS_ROCK };
 
 /* What the edits of this frame change: nothing, parameters (job_at() has them), or also the rock. */
 enum edits_kind edits_of(const struct job *job, int frame);
+
+/* Has an edit up to this frame planted anything? */
+bool edits_plant(const struct job *job, int frame);
 
 /* Carves, adds and paints, in the list's order, on the rock's STATE fields, whose arrays are replaced. What is added
  * counts as start and rock in the ledger, and in *start_volume (m3); what is carved as left. E_USAGE, E_INPUT: a
