@@ -15,6 +15,8 @@ enum random_purpose {
     RANDOM_NOISE = 2,
     RANDOM_ESTIMATE = 3,
     RANDOM_WATER = 4,
+    RANDOM_DEPOSIT = 5,
+    RANDOM_PLANTS = 6,
     RANDOM_PAINT = 20
 };
 

@@ -67,7 +67,8 @@ status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *j
     status st = OK;
     TRY(upload_layers(gpu, e, job, frame));
     GPU_RUN(gpu, erosion_interlock, p->n, k, e->layers, p->field[ROCK_layer], p->field[ROCK_rate_factor],
-            p->field[ROCK_interlock_factor], p->field[ROCK_stress], p->field[ROCK_erodibility]);
+            p->field[ROCK_interlock_factor], p->field[ROCK_stress], p->field[ROCK_phase],
+            p->field[ROCK_erodibility]);
 done:
     return st;
 }

@@ -40,6 +40,15 @@ static status check_direction(const struct yaml *map, const char *key, const dou
     return length(v) < 1e-6 ? yaml_fail(place(map, key), NULL, "has no length, so no direction") : OK;
 }
 
+static status check_wind(const struct yaml *map, const struct job_wind *w)
+{
+    const double *d = w->direction;
+    if (length(d) >= 1e-6 && w->flow.solver == FLOW_SPH && hypot(d[0], d[1]) < 0.5 * length(d))
+        return yaml_fail(place(map, "direction"), NULL,
+                         "steeper than 60 degrees, which flow.solver: sph cannot lay flat (use uniform)");
+    return check_direction(map, "direction", d);
+}
+
 static status check_cylinder(const struct yaml *map, const struct job_cylinder *c)
 {
     if (distance(c->from_m, c->to_m) < 1e-6)
@@ -117,7 +126,7 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
     case SECTION_plane:
         return check_direction(map, "normal", ((const struct job_plane *)base)->normal);
     case SECTION_wind:
-        return check_direction(map, "direction", ((const struct job_wind *)base)->direction);
+        return check_wind(map, base);
     case SECTION_camera:
         return check_camera(map, base);
     default:

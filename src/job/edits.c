@@ -60,14 +60,22 @@ done:
     return st;
 }
 
-/* Particles know their layer by its index, and processes keep something for every source. */
-static status check_counts(const struct yaml *at, const struct job *job, const struct job *edited)
+/* Particles know their layer by its index; processes keep something for every source, and the air its box. */
+static status check_layout(const struct yaml *at, const struct job *job, const struct job *edited)
 {
     if (edited->n_strata != job->n_strata)
         return yaml_fail(at, NULL, "an edit cannot add to strata");
     if (edited->n_sources != job->n_sources)
         return yaml_fail(
             at, NULL, "an edit cannot add to sources; list it from the start, with m3_per_yr 0 until then");
+    const struct job_flow *was = &job->wind.flow, *is = &edited->wind.flow;
+    if (is->solver != was->solver || is->spacing_m != was->spacing_m || is->domain != was->domain ||
+        is->density_iterations != was->density_iterations ||
+        is->divergence_iterations != was->divergence_iterations || is->viscosity != was->viscosity)
+        return yaml_fail(
+            at, NULL,
+            "an edit cannot change wind.flow but for flushes, rock_change and wind_change: the air is laid "
+            "out at the start");
     return OK;
 }
 
@@ -85,7 +93,7 @@ status read_edited_jobs(struct yaml_tree *tree, struct yaml *root, const char *f
         TRY(memory_alloc(1, sizeof **edited, "an edited job", edited));
         TRY(read_section(SECTION_job, root, NULL, folder, *edited));
         TRY(read_default_layer(root, *edited));
-        TRY(check_counts(set, job, *edited));
+        TRY(check_layout(set, job, *edited));
         TRY(check_job(root, *edited));
     }
 done:

@@ -3,12 +3,13 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   edits -> wind -> water -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress
- *         -> erodibility
+ *   edits -> plants -> wind -> water -> viability -> eroded particles, deposits -> unsupported blocks
+ *   -> surface, normals -> stress -> erodibility
  *
- * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
- * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
- * from them, so that a resumed run has the same bits.
+ * all but the first once or more, until the frame's years have passed; output() then adds the surface field and
+ * the pictures.
+ * The state between frames is the particles, the grid's displacement, the air and the ledger; the rest is
+ * found anew from them, so that a resumed run has the same bits.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -17,13 +18,16 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "blocks/blocks.h"
+#include "deposit/deposit.h"
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
+#include "model/air.h"
 #include "model/edits.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
+#include "plants/plants.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
 #include "water/water.h"
@@ -45,9 +49,12 @@ struct model {
     struct particles particles;
     struct elastic elastic;
     struct erosion erosion;
+    struct wind wind;
     struct water water;
     bool told; /* that water is held back */
+    struct deposit deposit;
     struct blocks blocks;
+    bool deposits, plants; /* does the run ever have any? */
     struct field field;
     struct aov aov;
 };
@@ -59,11 +66,47 @@ static size_t voxel_count(const int voxels[3])
 
 /* ---- a frame */
 
-static status remove_eroded(struct model *m, uint32_t n_eroded)
+/* What the particles are now; where the others went is counted as they go. */
+static status count_rock(struct model *m)
 {
-    m->ledger.rock -= n_eroded;
-    m->ledger.left += n_eroded; /* carried away: nothing deposits them yet */
-    return n_eroded ? particles_index(m->gpu, m->work, &m->particles) : OK;
+    status st = OK;
+    uint32_t n_deposits = 0;
+    if (m->deposits)
+        TRY(deposit_count(m->gpu, m->work, &m->particles, &n_deposits));
+    m->ledger.deposit = n_deposits;
+    m->ledger.rock = m->particles.n - n_deposits;
+done:
+    return st;
+}
+
+/* Does what erodes in this frame stay in the domain? */
+static bool depositing(const struct model *m)
+{
+    return m->deposits && curve_at(&m->job->deposition.viability, m->frame) > 0;
+}
+
+/* Eroded particles, in a step of the frame, leave, or come to rest elsewhere. Did anything move? */
+static status remove_eroded(struct model *m, int step, uint32_t n_eroded, bool *changed)
+{
+    status st = OK;
+    struct deposit_counts moved = {.crumbs = n_eroded, .left = n_eroded};
+    if (depositing(m) && (n_eroded > 0 || m->ledger.deposit > 0)) {
+        struct deposit_routing routing = {.tag = m->water.tag, .receiver = m->water.receiver};
+        memcpy(routing.cells, m->water.cells, sizeof routing.cells);
+        memcpy(routing.shift, m->water.shift, sizeof routing.shift);
+        gpu_stage(m->gpu, "deposition");
+        TRY(deposit_land(m->gpu, m->work, &m->deposit, m->job, m->frame, step, &routing, &m->particles,
+                         &moved));
+    }
+    m->ledger.left += moved.left;
+    *changed = moved.crumbs > 0;
+    gpu_stage(m->gpu, "particles");
+    if (*changed) {
+        TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
+done:
+    return st;
 }
 
 static status remove_unsupported(struct model *m)
@@ -72,10 +115,11 @@ static status remove_unsupported(struct model *m)
     uint32_t n_fallen = 0;
     gpu_stage(m->gpu, "blocks");
     TRY(blocks_fall(m->gpu, m->work, &m->blocks, &m->particles, &n_fallen));
-    m->ledger.rock -= n_fallen;
     m->ledger.fallen += n_fallen;
-    if (n_fallen)
+    if (n_fallen) {
         TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
 done:
     return st;
 }
@@ -98,6 +142,8 @@ static status settle(struct model *m, bool solved)
     elastic_recover(m->gpu, &m->elastic, &m->particles);
     gpu_stage(m->gpu, "erodibility");
     TRY(erosion_interlock(m->gpu, &m->erosion, m->job, m->frame, &m->particles));
+    if (m->plants)
+        plants_bind(m->gpu, m->job, &m->particles);
 done:
     return st;
 }
@@ -135,7 +181,16 @@ static struct elastic_options elastic_options(const struct job *job)
 /* Does anything in the job need to know where water runs? */
 static bool routes(const struct job *job)
 {
-    return water_ever_flows(job) || curve_max(&job->deposition.viability) > 0;
+    return water_ever_flows(job) || deposit_wanted(job);
+}
+
+/* Does the job want that, now or once edited? */
+static bool ever(const struct job *job, bool (*wanted)(const struct job *))
+{
+    bool any = wanted(job);
+    for (size_t i = 0; i < job->n_edits && !any; i++)
+        any = job->edits[i].set.job && wanted(job->edits[i].set.job);
+    return any;
 }
 
 /* For the job as it is now. */
@@ -156,7 +211,7 @@ static status run_water(struct model *m, int step, double least, double *kyr)
 {
     status st = OK;
     const struct job *job = m->job;
-    bool deposits = curve_at(&job->deposition.viability, m->frame) > 0, flows = water_flows(job, m->frame);
+    bool deposits = depositing(m), flows = water_flows(job, m->frame);
     struct water_routing how = {.seed = (uint32_t)job->seed,
                                 .frame = m->frame,
                                 .step = step,
@@ -169,6 +224,8 @@ static status run_water(struct model *m, int step, double least, double *kyr)
     if (!flows)
         goto done;
     TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
+    if (deposits)
+        water_sweep(m->gpu, &m->water, job, &m->particles);
     water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
     TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
     if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {
@@ -202,6 +259,7 @@ static status edit(struct model *m)
         TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
         destroy_particles(m);
         TRY(create_particles(m, &rock));
+        TRY(count_rock(m));
         TRY(remove_unsupported(m));
     }
     TRY(settle(m, false));
@@ -215,14 +273,17 @@ static status erode(struct model *m, int step, double least, double *kyr)
 {
     status st = OK;
     uint32_t n_eroded;
+    bool changed;
     gpu_stage(m->gpu, "wind");
-    wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
+    TRY(wind_update(m->gpu, &m->wind, m->job, m->frame, &m->particles));
+    wind_erode(m->gpu, &m->wind, m->job, m->frame, &m->particles, m->erosion.intensity);
     TRY(run_water(m, step, least, kyr));
+    if (m->plants)
+        plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
     gpu_stage(m->gpu, "viability");
     TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &n_eroded));
-    gpu_stage(m->gpu, "particles");
-    TRY(remove_eroded(m, n_eroded));
-    if (n_eroded)
+    TRY(remove_eroded(m, step, n_eroded, &changed));
+    if (changed)
         TRY(remove_unsupported(m));
     TRY(settle(m, false));
 done:
@@ -235,6 +296,10 @@ static status step(struct model *m)
     m->frame++;
     TRY(edit(m));
     m->years += m->job->clock.years_per_frame;
+    if (m->plants) {
+        gpu_stage(m->gpu, "plants");
+        plants_grow(m->gpu, m->job, m->frame, &m->particles);
+    }
     int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame)), number = 0;
     double whole = m->job->clock.years_per_frame / 1000 / steps, least = whole / (double)m->job->rain.steps;
     for (int i = 0; i < steps; i++)
@@ -297,14 +362,11 @@ static size_t skin_fields(const struct model *m, enum rock_field out[3])
 {
     const struct job *job = m->job;
     size_t n = 0;
-    bool plants = edits_plant(m->whole, m->frame);
     if (water_ever_flows(job))
         out[n++] = ROCK_discharge;
-    for (size_t i = 0; i < job->n_paint; i++)
-        plants |= job->paint[i].vegetation > 0;
-    if (plants)
+    if (m->plants)
         out[n++] = ROCK_vegetation;
-    if (curve_max(&job->deposition.viability) > 0)
+    if (m->deposits)
         out[n++] = ROCK_phase;
     return n;
 }
@@ -315,6 +377,7 @@ static status output(struct model *m, struct frame *out)
     const struct job *job = m->job;
     enum rock_field skin[3];
     size_t n_skin = skin_fields(m, skin);
+    struct aov_air air = {0};
     *out = (struct frame){.number = m->frame,
                           .years = m->years,
                           .ledger = m->ledger,
@@ -325,9 +388,13 @@ static status output(struct model *m, struct frame *out)
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
     TRY(field_download(m->gpu, &m->field, &m->particles, skin, n_skin, &out->grids));
+    TRY(air_grid(m->gpu, &m->wind, job, m->frame, m->particles.voxels,
+                 &out->grids.grid[out->grids.n_grids++]));
     gpu_stage(m->gpu, "pictures");
-    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, NULL, out));
+    TRY(air_upload(m->gpu, &out->grids, &air));
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, &air, out));
 done:
+    gpu_buffer_destroy(m->gpu, &air.velocity);
     if (st != OK)
         frame_free(out);
     return st;
@@ -343,6 +410,62 @@ static void elasticity(const struct model *m, double out[ELASTICITY])
     const struct elastic_options *e = &m->elastic.options;
     const double numbers[ELASTICITY] = {e->lambda, e->mu, e->density, e->gravity};
     memcpy(out, numbers, sizeof numbers);
+}
+
+/* What air has to have in common with a checkpoint's to go on from it. */
+enum { AIR_BOX = 4 };
+
+static void air_box(const struct flow *air, double out[AIR_BOX])
+{
+    const double numbers[AIR_BOX] = {air->spacing, air->box[0], air->box[1], air->box[2]};
+    memcpy(out, numbers, sizeof numbers);
+}
+
+static status save_air(struct model *m, struct checkpoint *out)
+{
+    status st = OK;
+    void *data;
+    struct flow *air = &m->wind.flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_add(out, "air box", 8, AIR_BOX, &data));
+    air_box(air, data);
+    TRY(section_add(out, "air", 8, sizeof air->state / 8, &data));
+    memcpy(data, &air->state, sizeof air->state);
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        TRY(section_add(out, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &data));
+        TRY(gpu_download(m->gpu, array[i].buffer, 0, data, array[i].n));
+    }
+done:
+    return st;
+}
+
+/* A branch whose air is of another size than the checkpoint's, or that has none yet, begins with still air. */
+static status restore_air(struct model *m, const struct checkpoint *c)
+{
+    status st = OK;
+    const struct checkpoint_section *s = checkpoint_find(c, "air box", 8);
+    double box[AIR_BOX];
+    air_box(&m->wind.flow, box);
+    if (!s || s->n != AIR_BOX || memcmp(s->data, box, sizeof box) != 0) {
+        log_info("frame %d: the checkpoint has no air of this size: it begins anew", c->frame);
+        return OK;
+    }
+    struct flow *air = &m->wind.flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_find(c, "air", 8, sizeof air->state / 8, &s));
+    memcpy(&air->state, s->data, sizeof air->state);
+    TRY(flow_check(air));
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        if (array[i].n == 0)
+            continue;
+        TRY(section_find(c, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &s));
+        TRY(gpu_upload(m->gpu, array[i].buffer, 0, s->data, array[i].n));
+    }
+    flow_restore(m->gpu, air);
+done:
+    return st;
 }
 
 static status save(struct model *m, struct checkpoint *out)
@@ -369,6 +492,10 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->elastic.iterations, 4);
     TRY(section_add(out, "elasticity", 8, ELASTICITY, &data));
     elasticity(m, data);
+    TRY(section_add(out, "processes", 8, 2, &data));
+    memcpy(data, (const double[]){m->deposits, m->plants}, 2 * sizeof(double));
+    if (m->wind.flows)
+        TRY(save_air(m, out));
 done:
     if (st != OK)
         checkpoint_free(out);
@@ -403,6 +530,11 @@ static status restore(struct model *m, const struct checkpoint *c, bool *settled
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
+    TRY(section_find(c, "processes", 8, 2, &s));
+    m->deposits |= ((const double *)s->data)[0] != 0;
+    m->plants |= ((const double *)s->data)[1] != 0;
+    if (m->wind.flows)
+        TRY(restore_air(m, c));
     TRY(create_particles(m, &rock));
 done:
     return st;
@@ -416,6 +548,7 @@ static status begin(struct model *m)
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
     TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
     TRY(create_particles(m, &rock));
+    TRY(count_rock(m));
     TRY(remove_unsupported(m));
     if (m->ledger.fallen)
         log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out",
@@ -435,7 +568,9 @@ static void destroy(struct model **handle)
         return;
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
+    deposit_destroy(m->gpu, &m->deposit);
     blocks_destroy(m->gpu, &m->blocks);
+    wind_destroy(m->gpu, &m->wind);
     water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
     destroy_particles(m);
@@ -464,11 +599,16 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
+    m->plants = plants_wanted(job) || edits_plant(job);
+    m->deposits = ever(job, deposit_wanted);
+    TRY(wind_create(gpu, job, voxels, &m->wind));
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(scene_edits_check(job, m->frame));
     TRY(from ? restore(m, from, &settled) : begin(m));
+    if (m->deposits)
+        TRY(deposit_create(gpu, voxels, &m->deposit));
     TRY(create_water(m));
     TRY(settle(m, settled));
     *out = m;
@@ -485,17 +625,17 @@ static status estimate(const struct job *job, struct model_estimate *out)
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
     TRY(scene_estimate(job, &out->n_particles));
+    TRY(wind_check(job, out->voxels));
     n = out->n_particles;
     size_t voxels = voxel_count(out->voxels);
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
-    bool routes_water = routes(job);
-    for (size_t i = 0; i < job->n_edits; i++)
-        routes_water |= job->edits[i].set.job && routes(job->edits[i].set.job);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
-                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels) + (routes_water ? water_bytes(out->voxels) : 0);
+                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) +
+                        wind_bytes(job, out->voxels) + field + aov_bytes(pixels) +
+                        (ever(job, routes) ? water_bytes(out->voxels) : 0) +
+                        (ever(job, deposit_wanted) ? deposit_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
@@ -503,7 +643,8 @@ static status estimate(const struct job *job, struct model_estimate *out)
      * 0.6. */
     out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.2 * (double)field) +
                        (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
-    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels));
+    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels) +
+                                       0.9 * (double)wind_checkpoint_bytes(job, out->voxels));
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
         out->steps += erosion_steps(job_at(job, f), f, wind_intensity(job_at(job, f), f));
 done:

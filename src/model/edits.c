@@ -17,9 +17,9 @@ enum edits_kind edits_of(const struct job *job, int frame)
     return kind;
 }
 
-bool edits_plant(const struct job *job, int frame)
+bool edits_plant(const struct job *job)
 {
-    for (size_t i = 0; i < job->n_edits && job->edits[i].frame <= frame; i++)
+    for (size_t i = 0; i < job->n_edits; i++)
         for (size_t k = 0; k < job->edits[i].n_paint; k++)
             if (job->edits[i].paint[k].vegetation > 0)
                 return true;
@@ -38,8 +38,6 @@ status edits_apply(const struct job *job, int frame, struct rock *rock, struct l
         /* Every particle there ever was counts as start, so that the next id is their number. */
         TRY(scene_edit(job_at(job, frame), e, ledger->start, rock, &done));
         ledger->start += done.added;
-        ledger->rock += done.added;
-        ledger->rock -= done.carved;
         ledger->left += done.carved;
         *start_volume += done.added_m3;
         log_info("frame %d: edit %zu added %zu particles and carved %zu out", frame, i, done.added,

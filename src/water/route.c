@@ -91,7 +91,9 @@ static status join_basins(struct gpu *gpu, struct gpu_work *work, struct water *
     GPU_RUN(gpu, gpu_iota, n.n, n, node[WATER_COMPONENT]);
     gpu_fill(gpu, node[WATER_LOWEST], UINT32_MAX);
     gpu_fill(gpu, node[WATER_PICK], UINT32_MAX);
-    while (changed) {
+    for (int round = 0; changed; round++) {
+        if (round == 64) /* each at least halves the basins without a way out that have a pass */
+            return fail(E_NUMERIC, "water: %zu basins do not join: the device computes wrongly", w->n_basins);
         gpu_fill(gpu, counts, 0);
         GPU_RUN(gpu, water_lowest, n_border, k, border, w->pass, node[WATER_BASIN], node[WATER_COMPONENT],
                 node[WATER_Z], node[WATER_LOWEST]);

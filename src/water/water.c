@@ -146,7 +146,10 @@ static status let_it_rain(struct gpu *gpu, struct gpu_work *work, struct water *
     k.n = (uint)w->n_nodes + 1;
     GPU_RUN(gpu, water_downstream, k.n, k, node[WATER_FINAL], node[WATER_BASIN], node[WATER_COMPONENT],
             pointer[0]);
-    while (changed) {
+    for (int round = 0; changed; round++) {
+        if (round == 32) /* 2^64 hops */
+            return fail(E_NUMERIC, "water: %zu receivers have a cycle: the device computes wrongly",
+                        w->n_nodes);
         gpu_fill(gpu, counts, 0);
         for (int i = 0; i < 2; i++) {
             gpu_copy(gpu, sum[!i], sum[i], w->n_nodes + 1);
@@ -241,6 +244,16 @@ void water_show(struct gpu *gpu, struct water *w, struct particles *p)
     GPU_RUN(gpu, water_show, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
             w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING],
             p->field[ROCK_discharge]);
+}
+
+void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct particles *p)
+{
+    struct water_surface_params k = surface_params(w, p);
+    k.shear = (float)job->rain.shear_Pa;
+    k.threshold = (float)job->deposition.carry_Pa;
+    k.steepest = (float)job->rain.steepest;
+    GPU_RUN(gpu, water_sweep, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
+            w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING], w->tag);
 }
 
 void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,

@@ -54,7 +54,7 @@ struct water {
 
     /* On request of the routing, for every cell:
      *   tag       uint: WATER_EMPTY, _SURF, _WALL or _SOLID (tag & WATER_KIND), and the flags WATER_OUT (what
-     *             gets here leaves the domain) and WATER_DEAD (params.h)
+     *             gets here leaves the domain), WATER_DEAD and, after water_sweep(), WATER_SWEPT (params.h)
      *   z         uint, 2^16 per cell's height, from cell 0's floor ((2 k - shift) h is cell k's): a SURF
      *             cell's altitude, k + its share of rock, roughened by up to 1/64 so that no two are level.
      *             Any other cell's floor
@@ -114,6 +114,10 @@ MUST_USE status water_discharge(struct gpu *gpu, struct gpu_work *work, struct w
 /* The field `discharge` (m3/yr): 0 inside the rock and on ceilings. For the surface of the shape that was
  * routed. Records only. */
 void water_show(struct gpu *gpu, struct water *w, struct particles *p);
+
+/* Marks the cells (WATER_SWEPT, in tag) whose water pulls harder than deposition.carry_Pa. For the surface and
+ * normals of the shape that was routed, cells included. Records only. */
+void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct particles *p);
 
 /* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14), held to what takes
  * WATER_DEPTH spacings in `kyr`: below its surface a step reaches no further (erosion/carry). For the surface,

@@ -108,7 +108,7 @@ int main(int argc, char **argv)
     check(gpu_create(&(struct gpu_options){.device = "auto"}, &gpu));
     printf("hoodoo %s, commit %s, on %s\n\n", hoodoo_version, hoodoo_commit, gpu_info(gpu)->name);
     check(gpu_work_create(gpu, (size_t)VOXELS * VOXELS * VOXELS + 2, &work));
-    check(particles_create(gpu, work, &rock, n, 1, &p));
+    check(particles_create(gpu, work, &rock, STATE, n, 1, &p));
     rock_free(&rock);
     check(particles_download(gpu, &p, STATE, &rock));
     check(water_create(gpu, &job, n, 1, &w));

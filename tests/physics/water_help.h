@@ -70,7 +70,7 @@ static inline struct bed bed_of(struct gpu *gpu, const struct scene *s, double h
         rock.n = 1;
     }
     assert_ok(gpu_work_create(gpu, voxels + 2, &bed.work));
-    assert_ok(particles_create(gpu, bed.work, &rock, bed.n, h, &bed.p));
+    assert_ok(particles_create(gpu, bed.work, &rock, STATE, bed.n, h, &bed.p));
     rock_free(&rock);
     assert_ok(particles_surface(gpu, bed.work, &bed.p));
     assert_ok(particles_download(gpu, &bed.p, DERIVED, &bed.rock));

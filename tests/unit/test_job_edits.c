@@ -175,6 +175,7 @@ static const struct {
     {"  - {frame: 1010, set: {strata.1.to_m: 3}}\n", {"strata.1.to_m: 3 m is not above the layer below"}},
     {"  - {frame: 1010, set: {sources.0.m3_per_yr: 3}}\n", {"an edit cannot add to sources"}},
     {"  - {frame: 1010, set: {sources.0.bed_m: 3}}\n", {"beds are taken out at the start"}},
+    {"  - {frame: 1010, set: {wind.flow.solver: sph}}\n", {"an edit cannot change wind.flow but for"}},
     {"  - {frame: 1010, set: [1]}\n", {"edits.0.set: a list, but a mapping of key paths is wanted"}},
     {"  - {frame: 1010, set: {wind.speed_m_s.x.y: 3}}\n", {"wind.speed_m_s"}},
     {"  - {frame: 1010, add: [{layer: 1}]}\n", {"job.yaml:8:25: edits.0.add.0.shape: missing"}},
