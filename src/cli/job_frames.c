@@ -4,25 +4,7 @@
 
 #include "cli/cli.h"
 #include "job/job.h"
-#include "model/branch.h"
 #include "output/folder.h"
-
-status load_job(const char *path, struct common *c, struct job **job, char root[4096])
-{
-    status st = OK;
-    /* A branch may have edits before its first frame. Which checkpoint it is follows below: it may be in the output
-     * folder, which may be named by the job. */
-    if (c->from)
-        TRY(words_add(&c->sets, "from=checkpoint"));
-    TRY(job_load(path, c->sets.word, c->sets.n, job));
-    int n = c->out ? snprintf(root, 4096, "%s", c->out) : snprintf(root, 4096, "out/%s", (*job)->name);
-    if (n < 0 || n >= 4096 - 200)
-        return fail(E_USAGE, "--out: the path is too long");
-    if (c->from)
-        TRY(branch_from(*job, c->from, root));
-done:
-    return st;
-}
 
 status job_frames(const char *root, struct frame_range *out)
 {
@@ -36,6 +18,14 @@ status job_frames(const char *root, struct frame_range *out)
 done:
     job_destroy(&job);
     return st;
+}
+
+status wedge_folder(const char *root, int wedge, char out[4096])
+{
+    int n = wedge ? snprintf(out, 4096, "%s/w%04d", root, wedge) : snprintf(out, 4096, "%s", root);
+    if (wedge < 0 || wedge > 9999)
+        return fail(E_USAGE, "--wedge %d: 1 to 9999", wedge);
+    return n < 0 || n >= 4096 ? fail(E_INPUT, "%.200s...: the path is too long", root) : OK;
 }
 
 status volume_frames(const char *root, const char *name, struct frame_range range, int **out, size_t *n)

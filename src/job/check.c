@@ -226,6 +226,24 @@ static status check_edits(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+/* Lists that are zipped must end together. */
+static status check_wedge(const struct yaml *root, const struct job_wedge *wedge)
+{
+    const struct yaml *map = yaml_get(root, "wedge"), *list = yaml_get(map ? map : root, "over");
+    for (size_t i = 0; i < wedge->n_over; i++) {
+        const struct yaml *at = yaml_item(list, i);
+        if (wedge->over[i].n_values == 0)
+            return yaml_fail(place(at, "values"), NULL, "a wedge without values");
+        if (wedge->combine == WEDGE_ZIP && wedge->over[i].n_values != wedge->over[0].n_values)
+            return yaml_fail(place(at, "values"), NULL,
+                             "%zu values, but %s has %zu; zipped lists are of one length (or combine: cross)",
+                             wedge->over[i].n_values, wedge->over[0].key, wedge->over[0].n_values);
+    }
+    if (wedge->n_over && *wedge->csv)
+        return yaml_fail(place(map, "csv"), NULL, "given beside over; a wedge has one of the two");
+    return OK;
+}
+
 status check_job(const struct yaml *root, const struct job *job)
 {
     status st = OK;
@@ -233,6 +251,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_aov_cameras(root, job));
     TRY(check_sources(root, job));
     TRY(check_edits(root, job));
+    TRY(check_wedge(root, &job->wedge));
     TRY(check_aov_layers(root, job));
 done:
     return st;

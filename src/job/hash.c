@@ -220,6 +220,7 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
             put_range(w, ranges[i]);
         break;
     case KEY_NAMES:
+    case KEY_TEXTS:
         names = key_items(key, base, &n);
         put_count(w, n);
         for (size_t i = 0; i < n; i++)

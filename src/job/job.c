@@ -64,6 +64,7 @@ void free_section(enum job_section_id section, void *base)
             free(key_items(key, base, &n));
             break;
         case KEY_NAMES:
+        case KEY_TEXTS:
             items = key_items(key, base, &n);
             for (size_t k = 0; k < n; k++)
                 free(((char **)(void *)items)[k]);
@@ -186,6 +187,7 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     TRY(read_default_layer(root, job));
     TRY(check_job(root, job));
     TRY(read_edited_jobs(&tree, root, folder, job));
+    TRY(read_wedge_csv(folder, job));
     *out = job;
     job = NULL;
 done:

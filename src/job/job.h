@@ -88,6 +88,7 @@ struct job_sets {
 #define NAMES(section, key, use, meaning)                                                                    \
     char **key;                                                                                              \
     size_t n_##key;
+#define TEXTS(section, key, use, meaning) NAMES(section, key, use, meaning)
 #include "job/keys.def"
 
 struct job_node {
@@ -109,12 +110,14 @@ struct job_node {
     } u;
 };
 
+enum { WEDGE_ZIP, WEDGE_CROSS };
 enum { MODEL_ARENITE, MODEL_GOBLINS };
 enum { FLOW_SPH, FLOW_UNIFORM };
 enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
+enum { USD_POINTS_SURFACE, USD_POINTS_NONE };
 enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
 
 /* The layers of an AOV picture (DESIGN 2), by name; output.aov.layers chooses among them. */
@@ -148,6 +151,19 @@ bool job_wants_layer(const struct job *job, enum aov_layer layer);
  * *out is freed with job_destroy(). */
 MUST_USE status job_load(const char *path, const char *const *sets, size_t n_sets, struct job **out);
 void job_destroy(struct job **job);
+
+/* Puts the job's input files where OpenJD's path mapping rules (the file of a session) say they are here.
+ * E_INPUT: the file is missing or wrong. */
+MUST_USE status job_map_paths(struct job *job, const char *file);
+
+/* Wedges: the job with other values, side by side. How many there are; 0 if the job has none, or is one. */
+size_t job_wedges(const struct job *job);
+
+/* Wedge `index` (1..job_wedges(base)) of the job that job_load(path, sets) gave as `base`: named
+ * NAME_w0001, with wedge.index and wedge.label filled in and no wedges of its own. E_USAGE: there is no such
+ * wedge, or its values are wrong. */
+MUST_USE status job_load_wedge(const char *path, const char *const *sets, size_t n_sets,
+                               const struct job *base, int index, struct job **out);
 
 /* The job as run: YAML with every key, its value and, as a comment, its unit and meaning. Loading it again
  * gives an equal job. */

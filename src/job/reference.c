@@ -104,6 +104,8 @@ static const char *type_name(const struct job_key *key)
         return "list of frame ranges";
     case KEY_SETS:
         return "mapping of key paths";
+    case KEY_TEXTS:
+        return "list of values";
     }
     return "";
 }
@@ -139,6 +141,7 @@ static void put_default(struct text *t, const struct job_key *key)
     case KEY_POINTS:
     case KEY_NAMES:
     case KEY_RANGES:
+    case KEY_TEXTS:
         text_add(t, "`[]`");
         break;
     case KEY_MAP:

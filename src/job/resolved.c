@@ -150,6 +150,7 @@ static void put_value(struct text *t, const struct job_key *key, const void *bas
         put_sets(t, member);
         break;
     case KEY_NAMES:
+    case KEY_TEXTS:
         names = key_items(key, base, &n);
         text_add(t, "[");
         for (size_t i = 0; i < n; i++) {

@@ -65,6 +65,8 @@
         .offset_n = offsetof(struct job_##s_, n_##key_))
 #define NAMES(s_, key_, use_, meaning_)                                                                      \
     ROW(s_, key_, KEY_NAMES, use_, "", meaning_, "", .offset_n = offsetof(struct job_##s_, n_##key_))
+#define TEXTS(s_, key_, use_, meaning_)                                                                      \
+    ROW(s_, key_, KEY_TEXTS, use_, "", meaning_, "", .offset_n = offsetof(struct job_##s_, n_##key_))
 #include "job/keys.def"
 
 const struct job_section job_sections[JOB_SECTIONS] = {
@@ -115,6 +117,7 @@ bool key_required(const struct job_key *key)
     case KEY_MAYBE:
     case KEY_RANGES:
     case KEY_SETS:
+    case KEY_TEXTS:
         break;
     }
     return false;
@@ -206,6 +209,7 @@ const char *key_allowed(const struct job_key *key, char out[256])
     case KEY_MAYBE:
     case KEY_RANGES:
     case KEY_SETS:
+    case KEY_TEXTS:
         break;
     }
     return out;

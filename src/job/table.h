@@ -38,7 +38,8 @@ enum key_type {
     KEY_NAMES,
     KEY_MAYBE,
     KEY_RANGES,
-    KEY_SETS
+    KEY_SETS,
+    KEY_TEXTS
 };
 
 enum key_use { OUT, SIM };
@@ -48,7 +49,7 @@ struct job_key {
     enum key_use use; /* SIM for SUB, MAYBE, LIST, MAP and NODE: their own keys decide */
     const char *name, *unit, *meaning, *source;
     size_t offset;       /* of the member in its struct */
-    size_t offset_n;     /* LIST, MAP, POINTS, NAMES, RANGES: of the member n_<key> */
+    size_t offset_n;     /* LIST, MAP, POINTS, NAMES, RANGES, TEXTS: of the member n_<key> */
     size_t n;            /* VEC, TRACK, POINTS: numbers of one; else 0 */
     const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, TRACK, RANGE; NULL: required */
     double number;       /* NUM, CURVE, INT, BOOL: default; NaN: required */

@@ -299,6 +299,56 @@ static status read_names(const struct job_key *key, const struct yaml *v, void *
     return st;
 }
 
+/* A value of any kind as one line of YAML, for --set to read again. Texts in quotes are YAML already. */
+static void put_flow(struct text *t, const struct yaml *v, bool top)
+{
+    if (v->kind == YAML_SCALAR && (top || !v->quoted)) {
+        text_add(t, "%s", v->text);
+    } else if (v->kind == YAML_SCALAR) {
+        text_add(t, "'");
+        for (const char *s = v->text; *s; s++)
+            text_add(t, *s == '\'' ? "''" : "%c", *s);
+        text_add(t, "'");
+    } else {
+        bool map = v->kind == YAML_MAP;
+        text_add(t, map ? "{" : "[");
+        for (const struct yaml *item = v->first; item; item = item->next) {
+            if (map)
+                text_add(t, "%s: ", item->key);
+            put_flow(t, item, false);
+            text_add(t, item->next ? ", " : "");
+        }
+        text_add(t, map ? "}" : "]");
+    }
+}
+
+static status read_texts(const struct job_key *key, const struct yaml *v, void *base)
+{
+    char **texts = NULL;
+    if (v->kind != YAML_LIST)
+        return yaml_fail(v, NULL, "%s, but a list of values is wanted ([] for none)", yaml_what(v));
+    if (v->n > NAMES)
+        return yaml_fail(v, NULL, "%zu values (at most %d)", v->n, NAMES);
+    status st = memory_alloc(v->n, sizeof *texts, key->name, &texts);
+    if (st != OK)
+        return st;
+    key_set_items(key, base, texts, v->n);
+    for (const struct yaml *item = v->first; item && st == OK; item = item->next) {
+        struct text t = {0};
+        put_flow(&t, item, true);
+        st = text_status(&t);
+        if (st == OK && (!t.data || !printable(t.data) || t.size >= YAML_TEXT))
+            st = yaml_fail(item, NULL,
+                           !t.data               ? "is empty"
+                           : t.size >= YAML_TEXT ? "is too long"
+                                                 : "holds a control character");
+        if (st == OK)
+            st = memory_strdup(t.data, texts++);
+        text_free(&t);
+    }
+    return st;
+}
+
 status read_value(const struct job_key *key, const struct yaml *v, const char *folder, void *base)
 {
     void *member = key_member(key, base);
@@ -338,6 +388,8 @@ status read_value(const struct job_key *key, const struct yaml *v, const char *f
         return read_ranges(key, v, base);
     case KEY_SETS:
         return read_sets(v, member);
+    case KEY_TEXTS:
+        return read_texts(key, v, base);
     case KEY_SUB:
     case KEY_MAYBE:
     case KEY_LIST:

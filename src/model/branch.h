@@ -11,6 +11,10 @@
 #include "checkpoint/checkpoint.h"
 #include "job/job.h"
 
+/* What --set has to say while a job is loaded that branch_from() is for: a branch may have edits before its first
+ * frame. */
+#define BRANCH_SET "from=checkpoint"
+
 /* Where the copy is, or would be: ROOT/checkpoint/NAME.from.ckpt. */
 MUST_USE status branch_copy(char out[4096], const char *root, const char *name);
 

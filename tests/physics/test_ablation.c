@@ -86,9 +86,99 @@ static void an_arch_needs_deflation_and_leans_with_abrasion(void **state)
     assert_true(both.across > 0.03 && both.across > 3 * deflation.across);
 }
 
+/* ---- fig. 14: what water and wind do to hoodoos */
+
+/* A layered block whose top has two furrows. */
+static const char hoodoos[] = "hoodoo: 1\n"
+                              "name: hoodoos\n"
+                              "frames: 1001-1041\n"
+                              "clock: {years_per_frame: 500}\n"
+                              "seed: 3\n"
+                              "domain: {size_m: [40, 24, 32], spacing_m: 1}\n"
+                              "scene:\n"
+                              "  difference:\n"
+                              "    - box: {min_m: [4, 4, 0], max_m: [36, 20, 28]}\n"
+                              "    - box: {min_m: [14, 0, 25], max_m: [16, 24, 30]}\n"
+                              "    - box: {min_m: [24, 0, 25], max_m: [26, 24, 30]}\n"
+                              "strata:\n"
+                              "  - {to_m: 6, weak_m_per_kyr: 0.05, interlock_MPa: 1e9}\n"
+                              "  - {to_m: 11, weak_m_per_kyr: 0.20, interlock_MPa: 1e9}\n"
+                              "  - {to_m: 16, weak_m_per_kyr: 0.05, interlock_MPa: 1e9}\n"
+                              "  - {to_m: 21, weak_m_per_kyr: 0.20, interlock_MPa: 1e9}\n"
+                              "  - {to_m: 40, weak_m_per_kyr: 0.05, interlock_MPa: 1e9}\n"
+                              "noise: {amplitude: 0.2, scale_m: 8}\n";
+
+struct pillars {
+    double left;
+    int n;          /* in the hard layer half way up, of at least 9 m2 */
+    double notches; /* how much less rock there is in weak layers than in hard ones, as a share */
+};
+
+static double slab_area(const struct shape *s, int low, int high)
+{
+    size_t n = 0, slab = (size_t)s->n[0] * (size_t)s->n[1];
+    for (size_t v = (size_t)low * slab; v < (size_t)high * slab; v++)
+        n += s->rock[v];
+    return (double)n * s->h * s->h / (high - low);
+}
+
+static int count_pillars(const struct shape *s, int level)
+{
+    size_t slab = (size_t)s->n[0] * (size_t)s->n[1];
+    struct shape cut = {.n = {s->n[0], s->n[1], 1}, .h = s->h, .rock = malloc(slab)};
+    int n = 0;
+    memcpy(cut.rock, s->rock + (size_t)level * slab, slab);
+    for (int j = 0; j < s->n[1]; j++)
+        for (int i = 0; i < s->n[0]; i++)
+            if (cut.rock[(size_t)j * (size_t)s->n[0] + (size_t)i] == 1)
+                n += shape_flood(&cut, cut.rock, 1, (int[]){i, j, 0}, (int[]){i + 1, j + 1, 1}) >= 9;
+    free(cut.rock);
+    return n;
+}
+
+static struct pillars pillars(const char *what, const char *weather)
+{
+    char *text = malloc(sizeof hoodoos + strlen(weather));
+    struct pillars out;
+    sprintf(text, "%s%s", hoodoos, weather);
+    struct sim s = sim_begin(text);
+    free(text);
+    for (int f = 1001; f < 1041; f++)
+        assert_ok(s.type->step(s.model));
+    struct frame frame = sim_output(&s);
+    struct shape shape = shape_inside(&frame.grids, FIELD_MARGIN);
+    out.left = frame.volume_m3 / frame.start_volume_m3;
+    out.n = count_pillars(&shape, 13);
+    double weak = 0.5 * (slab_area(&shape, 7, 10) + slab_area(&shape, 17, 20));
+    double hard = (slab_area(&shape, 2, 5) + slab_area(&shape, 12, 15) + slab_area(&shape, 22, 24)) / 3;
+    out.notches = 1 - weak / hard;
+    print_message("# %s: %.0f %% left, %d pillars half way up, weak layers %.0f %% smaller than hard ones\n",
+                  what, 100 * out.left, out.n, 100 * out.notches);
+    shape_free(&shape);
+    frame_free(&frame);
+    sim_end(&s);
+    return out;
+}
+
+#define WATER "rain: {m_per_yr: 1, erosion: 6, shear_Pa: 0.2, threshold_Pa: 0.3}\n"
+#define WIND "wind: {direction: [0.7, 0.7, 0], abrasion: 0.3}\n"
+#define CALM "wind: {abrasion: 0, deflation: {intensity: 0}}\n"
+
+static void hoodoos_need_water_and_wind(void **state)
+{
+    (void)state;
+    struct pillars both = pillars("water and wind", WATER WIND);
+    struct pillars wind = pillars("wind only", WIND);
+    struct pillars water = pillars("water only", WATER CALM);
+    assert_true(both.n >= 3 && water.n >= 3 && wind.n == 1);
+    assert_true(both.notches > 0.1 && wind.notches > 0.1);
+    assert_true(water.notches < 0.5 * both.notches);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hoodoos_need_water_and_wind),
         cmocka_unit_test(an_arch_needs_deflation_and_leans_with_abrasion),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
