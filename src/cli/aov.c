@@ -15,6 +15,7 @@
 #include "cli/signals.h"
 #include "field/field.h"
 #include "model/air.h"
+#include "model/branch.h"
 #include "output/exr.h"
 #include "output/folder.h"
 #include "output/vdb.h"
@@ -232,6 +233,7 @@ status cli_aov(int argc, char **argv)
     TRY(folder_open(s.root, s.name));
     snprintf(path, sizeof path, "%.4096s/job.yaml", s.root);
     TRY(job_load(path, NULL, 0, &s.job));
+    TRY(branch_prepare_own(s.job, s.root));
     TRY(job_hash(s.job, &s.job_hash));
     job_destroy(&s.job);
     TRY(job_load(path, c.sets.word, c.sets.n, &s.job));
