@@ -1,14 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Particles that no block on the ground holds are taken out.
+// Particles that nothing on the ground holds are taken out.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_V(0, position)
 READ_U(1, solid)
 READ_U(2, root)
-WRITE_F(3, viability)
-WRITE_U(4, counts)
+READ_U(3, start)
+READ_U(4, phase)
+WRITE_F(5, viability)
+WRITE_U(6, counts)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
 #include "blocks/stands.glsl"
@@ -16,7 +18,7 @@ PARAMS(voxel_params)
 void main()
 {
     uint i = THREAD;
-    if (i >= k.n || held(voxel_of(LOAD_V(position, i).xyz)))
+    if (i >= k.n || held(voxel_of(LOAD_V(position, i).xyz), LOAD_U(phase, i)))
         return;
     AT(viability, i) = 0.0;
     atomicAdd(AT(counts, COUNT_FALLEN), 1u);

@@ -14,6 +14,8 @@
 #include "cli/progress.h"
 #include "cli/signals.h"
 #include "field/field.h"
+#include "model/air.h"
+#include "model/branch.h"
 #include "output/exr.h"
 #include "output/folder.h"
 #include "output/vdb.h"
@@ -50,28 +52,6 @@ static void unload(struct shot *s, struct loaded *l)
     gpu_buffer_destroy(s->gpu, &l->air.velocity);
 }
 
-static status load_air(struct shot *s, struct loaded *l)
-{
-    status st = OK;
-    float *velocity = NULL;
-    for (size_t g = 0; g < l->grids.n_grids; g++) {
-        const struct frame_grid *grid = &l->grids.grid[g];
-        if (strcmp(grid->name, "vel") != 0 || grid->own.n[0] == 0 || grid->components != 3)
-            continue;
-        size_t n = (size_t)grid->own.n[0] * (size_t)grid->own.n[1] * (size_t)grid->own.n[2];
-        TRY(memory_alloc(n, 4 * sizeof *velocity, "the wind", &velocity));
-        for (size_t i = 0; i < n; i++)
-            memcpy(velocity + 4 * i, grid->value + 3 * i, 3 * sizeof *velocity);
-        TRY(gpu_buffer_create(s->gpu, "the wind", n, 16, &l->air.velocity));
-        TRY(gpu_upload(s->gpu, l->air.velocity, 0, velocity, n));
-        l->air.lattice = grid->own;
-        break;
-    }
-done:
-    free(velocity);
-    return st;
-}
-
 static status load(struct shot *s, int frame, struct loaded *l)
 {
     status st = OK;
@@ -96,7 +76,7 @@ static status load(struct shot *s, int frame, struct loaded *l)
     }
     TRY(particles_create(s->gpu, s->work, &l->rock, DERIVED, s->voxels, s->job->domain.spacing_m,
                          &l->particles));
-    TRY(load_air(s, l));
+    TRY(air_upload(s->gpu, &l->grids, &l->air));
 done:
     return st;
 }
@@ -253,6 +233,7 @@ status cli_aov(int argc, char **argv)
     TRY(folder_open(s.root, s.name));
     snprintf(path, sizeof path, "%.4096s/job.yaml", s.root);
     TRY(job_load(path, NULL, 0, &s.job));
+    TRY(branch_prepare_own(s.job, s.root));
     TRY(job_hash(s.job, &s.job_hash));
     job_destroy(&s.job);
     TRY(job_load(path, c.sets.word, c.sets.n, &s.job));

@@ -20,6 +20,14 @@ done:
     return st;
 }
 
+status wedge_folder(const char *root, int wedge, char out[4096])
+{
+    int n = wedge ? snprintf(out, 4096, "%s/w%04d", root, wedge) : snprintf(out, 4096, "%s", root);
+    if (wedge < 0 || wedge > 9999)
+        return fail(E_USAGE, "--wedge %d: 1 to 9999", wedge);
+    return n < 0 || n >= 4096 ? fail(E_INPUT, "%.200s...: the path is too long", root) : OK;
+}
+
 status volume_frames(const char *root, const char *name, struct frame_range range, int **out, size_t *n)
 {
     status st = OK;

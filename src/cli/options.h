@@ -90,7 +90,7 @@ void common_free(struct common *c);
 #define OPTION_DEVICE(c)                                                                                     \
     {                                                                                                        \
         "device", "WHICH", OPTION_TEXT, &(c)->device,                                                        \
-            "auto, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default auto)"                                  \
+            "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default auto)"                             \
     }
 #define OPTION_SET(c)                                                                                        \
     {                                                                                                        \
@@ -111,7 +111,13 @@ void common_free(struct common *c);
 #define OPTION_FROM(c)                                                                                       \
     {                                                                                                        \
         "from", "OUT@FRAME", OPTION_TEXT, &(c)->from,                                                        \
-            "start from another run's checkpoint; the job may differ"                                        \
+            "a branch: begin with another run's checkpoint of that frame (kept by its checkpoint.mark); "    \
+            "the job "                                                                                       \
+            "may differ in all but domain and number of strata"                                              \
+    }
+#define OPTION_WEDGE(number)                                                                                 \
+    {                                                                                                        \
+        "wedge", "N", OPTION_INT, number, "one of the job's wedges, from 1"                                  \
     }
 #define OPTION_JSON(c)                                                                                       \
     {                                                                                                        \

@@ -122,25 +122,38 @@ static void show(struct progress *p)
     }
 }
 
-void progress_begin(struct progress *p, enum progress_style style, struct frame_range frames, size_t done)
+/* Settles the style, and takes the terminal's last line if it is a bar. */
+static void attach(struct progress *p, enum progress_style style)
 {
     const char *terminal = getenv("TERM");
-    *p = (struct progress){.style = style, .frames = frames, .total = range_count(frames), .share = 1};
-    p->done = done < p->total ? done : p->total;
+    p->style = style;
     p->last_s = seconds_now();
     if (style == PROGRESS_AUTO) {
         bool capable = isatty(STDERR_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
         p->style = capable ? PROGRESS_BAR : PROGRESS_PLAIN;
     }
-    char range[48];
-    snprintf(p->line, sizeof p->line, "frames %s, %zu/%zu", range_text(frames, range), p->done, p->total);
     if (p->style == PROGRESS_BAR) {
         pthread_mutex_lock(&lock);
         shown = p;
         pthread_mutex_unlock(&lock);
         log_set_guard(step_aside);
     }
+}
+
+void progress_begin(struct progress *p, enum progress_style style, struct frame_range frames, size_t done)
+{
+    char range[48];
+    *p = (struct progress){.frames = frames, .total = range_count(frames), .share = 1};
+    p->done = done < p->total ? done : p->total;
+    snprintf(p->line, sizeof p->line, "frames %s, %zu/%zu", range_text(frames, range), p->done, p->total);
+    attach(p, style);
     show(p);
+}
+
+void progress_begin_notes(struct progress *p, enum progress_style style)
+{
+    *p = (struct progress){.share = 1};
+    attach(p, style);
 }
 
 void progress_stage(struct progress *p, int frame, const char *stage)
@@ -169,6 +182,17 @@ void progress_frame(struct progress *p, int frame, double volume_share, const ch
     compose(p, note);
     pthread_mutex_unlock(&lock);
     show(p);
+}
+
+void progress_note(struct progress *p, size_t done, size_t total, const char *line)
+{
+    pthread_mutex_lock(&lock);
+    p->done = done;
+    p->total = total;
+    snprintf(p->line, sizeof p->line, "%s", line);
+    pthread_mutex_unlock(&lock);
+    if (p->style != PROGRESS_PLAIN)
+        show(p);
 }
 
 void progress_end(struct progress *p)

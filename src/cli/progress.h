@@ -41,6 +41,11 @@ void progress_stage(struct progress *p, int frame, const char *stage);
  * negative share says nothing. */
 void progress_frame(struct progress *p, int frame, double volume_share, const char *note);
 
+/* A farm's progress, in the caller's own words: `done` of `total`. Plain says nothing: the caller logs what
+ * happens. */
+void progress_begin_notes(struct progress *p, enum progress_style style);
+void progress_note(struct progress *p, size_t done, size_t total, const char *line);
+
 /* Leaves the terminal as it should be found. Harmless on {0} and twice. */
 void progress_end(struct progress *p);
 

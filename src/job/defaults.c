@@ -92,7 +92,11 @@ status read_default(const struct job_key *key, const struct yaml *map, const cha
     case KEY_MAP:
     case KEY_POINTS:
     case KEY_NAMES:
+    case KEY_TEXTS:
     case KEY_NODE:
+    case KEY_MAYBE:
+    case KEY_RANGES:
+    case KEY_SETS:
         break; /* zeroed: none */
     }
     return OK;

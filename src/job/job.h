@@ -36,7 +36,20 @@ enum job_shape {
     SHAPE_PLANE,
     SHAPE_MESH,
     SHAPE_HEIGHTFIELD,
-    SHAPE_JOINTMAP
+    SHAPE_JOINTMAP,
+    SHAPE_STROKE
+};
+
+/* What an edit sets. */
+struct job_set {
+    char *path, *value; /* "wind.speed_m_s"; the value as one line of YAML */
+};
+
+struct job_sets {
+    struct job_set *item;
+    size_t n;
+    struct job
+        *job; /* the job as it is from this edit on, all earlier ones counted; NULL if it sets nothing */
 };
 
 /* The top section is the job itself: struct job, not struct job_job. */
@@ -62,13 +75,20 @@ enum job_shape {
     struct job_##child *key;                                                                                 \
     size_t n_##key;
 #define MAP(section, key, child, meaning) LIST(section, key, child, meaning)
+#define MAYBE(section, key, child, meaning) struct job_##child *key;
 #define NODE(section, key, meaning) struct job_node *key;
+#define MAYBE_NODE(section, key, meaning) struct job_node *key;
+#define RANGES(section, key, use, meaning)                                                                   \
+    struct frame_range *key;                                                                                 \
+    size_t n_##key;
+#define SETS(section, key, meaning) struct job_sets key;
 #define POINTS(section, key, use, unit, n, min, max, meaning, source)                                        \
     double(*key)[n];                                                                                         \
     size_t n_##key;
 #define NAMES(section, key, use, meaning)                                                                    \
     char **key;                                                                                              \
     size_t n_##key;
+#define TEXTS(section, key, use, meaning) NAMES(section, key, use, meaning)
 #include "job/keys.def"
 
 struct job_node {
@@ -85,10 +105,12 @@ struct job_node {
         struct job_mesh mesh;
         struct job_heightfield heightfield;
         struct job_jointmap jointmap;
+        struct job_stroke stroke;
         struct job_group group; /* operators */
     } u;
 };
 
+enum { WEDGE_ZIP, WEDGE_CROSS };
 enum { MODEL_ARENITE, MODEL_GOBLINS };
 enum { FLOW_SPH, FLOW_UNIFORM };
 enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
@@ -97,6 +119,7 @@ enum { COLLAPSE_VANISH, COLLAPSE_FALL };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
+enum { USD_POINTS_SURFACE, USD_POINTS_NONE };
 enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
 
 /* The layers of an AOV picture (DESIGN 2), by name; output.aov.layers chooses among them. */
@@ -132,9 +155,31 @@ bool job_wants_layer(const struct job *job, enum aov_layer layer);
 MUST_USE status job_load(const char *path, const char *const *sets, size_t n_sets, struct job **out);
 void job_destroy(struct job **job);
 
+/* Puts the job's input files where OpenJD's path mapping rules (the file of a session) say they are here.
+ * E_INPUT: the file is missing or wrong. */
+MUST_USE status job_map_paths(struct job *job, const char *file);
+
+/* Wedges: the job with other values, side by side. How many there are; 0 if the job has none, or is one. */
+size_t job_wedges(const struct job *job);
+
+/* Wedge `index` (1..job_wedges(base)) of the job that job_load(path, sets) gave as `base`: named
+ * NAME_w0001, with wedge.index and wedge.label filled in and no wedges of its own. E_USAGE: there is no such
+ * wedge, or its values are wrong. */
+MUST_USE status job_load_wedge(const char *path, const char *const *sets, size_t n_sets,
+                               const struct job *base, int index, struct job **out);
+
 /* The job as run: YAML with every key, its value and, as a comment, its unit and meaning. Loading it again
  * gives an equal job. */
 MUST_USE status job_resolved(const struct job *job, struct text *out);
+
+/* The job as it is in a frame: with what the edits up to it set. Lives as long as `job`. */
+const struct job *job_at(const struct job *job, int frame);
+
+/* Whether checkpoint.mark holds the frame. */
+bool job_marks(const struct job *job, int frame);
+
+/* Years that pass from frame `from` to frame `to`, >= it. */
+double job_years(const struct job *job, int from, int to);
 
 /* The index of the stratum at a height, m. */
 size_t job_layer_at(const struct job *job, double z);

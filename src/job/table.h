@@ -15,7 +15,7 @@ enum job_section_id {
 
 /* The shapes of a CSG node are the sections before `group`, so that a job_shape is its own section. */
 enum { SHAPES = SECTION_group };
-_Static_assert((int)SHAPE_BOX == (int)SECTION_box && (int)SHAPE_JOINTMAP == (int)SECTION_group - 1,
+_Static_assert((int)SHAPE_BOX == (int)SECTION_box && (int)SHAPE_STROKE == (int)SECTION_group - 1,
                "enum job_shape and keys.def differ");
 
 enum key_type {
@@ -35,23 +35,27 @@ enum key_type {
     KEY_MAP,
     KEY_NODE,
     KEY_POINTS,
-    KEY_NAMES
+    KEY_NAMES,
+    KEY_MAYBE,
+    KEY_RANGES,
+    KEY_SETS,
+    KEY_TEXTS
 };
 
 enum key_use { OUT, SIM };
 
 struct job_key {
     enum key_type type;
-    enum key_use use; /* SIM for SUB, LIST, MAP and NODE: their own keys decide */
+    enum key_use use; /* SIM for SUB, MAYBE, LIST, MAP and NODE: their own keys decide */
     const char *name, *unit, *meaning, *source;
     size_t offset;       /* of the member in its struct */
-    size_t offset_n;     /* LIST, MAP, POINTS, NAMES: of the member n_<key> */
+    size_t offset_n;     /* LIST, MAP, POINTS, NAMES, RANGES, TEXTS: of the member n_<key> */
     size_t n;            /* VEC, TRACK, POINTS: numbers of one; else 0 */
     const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, TRACK, RANGE; NULL: required */
     double number;       /* NUM, CURVE, INT, BOOL: default; NaN: required */
     double min, max;     /* NUM, CURVE, INT, VEC, TRACK, POINTS */
     const char *choices; /* CHOICE: "a|b|c" */
-    int child;           /* SUB, LIST, MAP: its section */
+    int child;           /* SUB, MAYBE, LIST, MAP: its section */
 };
 
 struct job_section {

@@ -3,11 +3,13 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
+ *   edits -> plants -> wind -> water -> viability -> eroded particles, deposits -> unsupported blocks
+ *   -> surface, normals -> stress -> erodibility
  *
- * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
- * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
- * from them, so that a resumed run has the same bits.
+ * all but the first once or more, until the frame's years have passed; output() then adds the surface field and
+ * the pictures.
+ * The state between frames is the particles, the grid's displacement, the air and the ledger; the rest is
+ * found anew from them, so that a resumed run has the same bits.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -16,21 +18,32 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "blocks/blocks.h"
+#include "deposit/deposit.h"
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
+#include "model/air.h"
 #include "model/collapse.h"
+#include "model/edits.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
+#include "plants/plants.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
+#include "water/water.h"
 #include "wind/wind.h"
+
+/* Spacings that a step may take where water is fast, before it is cut shorter: those the carry can still take
+ * off whole. */
+static const double WATER_STEP = 1.5;
 
 struct model {
     struct gpu *gpu;
-    const struct job *job;
+    const struct job *whole; /* as loaded */
+    const struct job *job;   /* as the edits up to this frame have it */
     int frame;
+    double years;        /* since the first frame */
     double start_volume; /* m3 */
     struct ledger ledger;
     struct gpu_work *work;
@@ -39,7 +52,12 @@ struct model {
     struct mpm mpm; /* stress.solver: mpm */
     struct collapse collapse;
     struct erosion erosion;
+    struct wind wind;
+    struct water water;
+    bool told; /* that water is held back */
+    struct deposit deposit;
     struct blocks blocks;
+    bool deposits, plants; /* does the run ever have any? */
     struct field field;
     struct aov aov;
 };
@@ -51,11 +69,47 @@ static size_t voxel_count(const int voxels[3])
 
 /* ---- a frame */
 
-static status remove_eroded(struct model *m, uint32_t n_eroded)
+/* What the particles are now; where the others went is counted as they go. */
+static status count_rock(struct model *m)
 {
-    m->ledger.rock -= n_eroded;
-    m->ledger.left += n_eroded; /* carried away: nothing deposits them yet */
-    return n_eroded ? particles_index(m->gpu, m->work, &m->particles) : OK;
+    status st = OK;
+    uint32_t n_deposits = 0;
+    if (m->deposits || m->collapse.falls)
+        TRY(deposit_count(m->gpu, m->work, &m->particles, &n_deposits));
+    m->ledger.deposit = n_deposits;
+    m->ledger.rock = m->particles.n - n_deposits;
+done:
+    return st;
+}
+
+/* Does what erodes in this frame stay in the domain? */
+static bool depositing(const struct model *m)
+{
+    return m->deposits && curve_at(&m->job->deposition.viability, m->frame) > 0;
+}
+
+/* Eroded particles, in a step of the frame, leave, or come to rest elsewhere. Did anything move? */
+static status remove_eroded(struct model *m, int step, uint32_t n_eroded, bool *changed)
+{
+    status st = OK;
+    struct deposit_counts moved = {.crumbs = n_eroded, .left = n_eroded};
+    if (depositing(m) && (n_eroded > 0 || m->ledger.deposit > 0)) {
+        struct deposit_routing routing = {.tag = m->water.tag, .receiver = m->water.receiver};
+        memcpy(routing.cells, m->water.cells, sizeof routing.cells);
+        memcpy(routing.shift, m->water.shift, sizeof routing.shift);
+        gpu_stage(m->gpu, "deposition");
+        TRY(deposit_land(m->gpu, m->work, &m->deposit, m->job, m->frame, step, &routing, &m->particles,
+                         &moved));
+    }
+    m->ledger.left += moved.left;
+    *changed = moved.crumbs > 0;
+    gpu_stage(m->gpu, "particles");
+    if (*changed) {
+        TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
+done:
+    return st;
 }
 
 static status remove_unsupported(struct model *m)
@@ -66,10 +120,11 @@ static status remove_unsupported(struct model *m)
     if (m->collapse.falls)
         return collapse_blocks(m->gpu, m->work, &m->collapse, &m->blocks, &m->particles, &m->ledger);
     TRY(blocks_fall(m->gpu, m->work, &m->blocks, &m->particles, &n_fallen));
-    m->ledger.rock -= n_fallen;
     m->ledger.fallen += n_fallen;
-    if (n_fallen)
+    if (n_fallen) {
         TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
 done:
     return st;
 }
@@ -79,9 +134,19 @@ static status solve(struct model *m, bool solved)
 {
     status st = OK;
     struct elastic *e = &m->elastic;
-    if (m->job->stress.solver == STRESS_MPM)
-        return mpm_rest(m->gpu, m->work, &m->mpm, &m->particles, e->options.tolerance,
-                        e->options.max_iterations, &e->iterations, &e->error);
+    if (m->job->stress.solver == STRESS_MPM) {
+        const struct mpm_options material = {.lambda = e->options.lambda,
+                                             .mu = e->options.mu,
+                                             .density = e->options.density,
+                                             .gravity = e->options.gravity,
+                                             .cfl = m->job->collapse.cfl};
+        if (!m->mpm.n_max)
+            TRY(mpm_create(m->gpu, m->particles.voxels, m->particles.h, m->particles.n_max, &material, &m->mpm));
+        m->mpm.options = material;
+        TRY(mpm_rest(m->gpu, m->work, &m->mpm, &m->particles, e->options.tolerance, e->options.max_iterations,
+                     &e->iterations, &e->error));
+        goto done;
+    }
     TRY(elastic_assemble(m->gpu, m->work, e, &m->particles));
     if (!solved)
         TRY(elastic_solve(m->gpu, m->work, e));
@@ -105,6 +170,160 @@ static status settle(struct model *m, bool solved)
                  m->frame, m->elastic.iterations, m->elastic.error, m->elastic.options.tolerance);
     gpu_stage(m->gpu, "erodibility");
     TRY(erosion_interlock(m->gpu, &m->erosion, m->job, m->frame, &m->particles));
+    if (m->plants)
+        plants_bind(m->gpu, m->job, &m->particles);
+done:
+    return st;
+}
+
+/* What lasts from frame to frame and depends on the number of particles. */
+static status create_particles(struct model *m, const struct rock *rock)
+{
+    status st = OK;
+    int voxels[3];
+    TRY(scene_voxels(m->job, voxels));
+    TRY(particles_create(m->gpu, m->work, rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(erosion_create(m->gpu, m->job, m->particles.n_max, &m->erosion));
+    TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+done:
+    return st;
+}
+
+static void destroy_particles(struct model *m)
+{
+    mpm_destroy(m->gpu, &m->mpm);
+    collapse_destroy(m->gpu, &m->collapse);
+    erosion_destroy(m->gpu, &m->erosion);
+    particles_destroy(m->gpu, &m->particles);
+}
+
+static struct elastic_options elastic_options(const struct job *job)
+{
+    return (struct elastic_options){
+        .lambda = 1e9 * job->rock.lame_GPa,
+        .mu = 1e9 * job->rock.shear_GPa,
+        .density = job->rock.density_kg_m3,
+        .gravity = job->rock.gravity_m_s2,
+        .tolerance = job->stress.tolerance,
+        .max_iterations = (int)job->stress.max_iterations,
+    };
+}
+
+/* Does anything in the job need to know where water runs? */
+static bool routes(const struct job *job)
+{
+    return water_ever_flows(job) || deposit_wanted(job);
+}
+
+/* Does the job want that, now or once edited? */
+static bool ever(const struct job *job, bool (*wanted)(const struct job *))
+{
+    bool any = wanted(job);
+    for (size_t i = 0; i < job->n_edits && !any; i++)
+        any = job->edits[i].set.job && wanted(job->edits[i].set.job);
+    return any;
+}
+
+/* For the job as it is now. */
+static status create_water(struct model *m)
+{
+    status st = OK;
+    int voxels[3];
+    TRY(scene_voxels(m->job, voxels));
+    if (routes(m->job))
+        TRY(water_create(m->gpu, m->job, voxels, m->job->domain.spacing_m, &m->water));
+done:
+    return st;
+}
+
+/* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
+ * water is fast; cut into parts of `least` it would not be into fewer. */
+static status run_water(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    const struct job *job = m->job;
+    bool deposits = depositing(m), flows = water_flows(job, m->frame);
+    struct water_routing how = {.seed = (uint32_t)job->seed,
+                                .frame = m->frame,
+                                .step = step,
+                                .leak = job->rain.leak,
+                                .cells = deposits};
+    double fastest;
+    gpu_stage(m->gpu, "water");
+    if (deposits || flows)
+        TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    if (!flows)
+        goto done;
+    TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
+    if (deposits)
+        water_sweep(m->gpu, &m->water, job, &m->particles);
+    water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
+    TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
+    if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {
+        log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
+                 "rain.steps (%d), or lower rain.erosion",
+                 m->frame, (double)WATER_DEPTH, (int)job->rain.steps);
+        m->told = true;
+    }
+    /* Equal parts: at most as many as `least` goes into *kyr, now and after each. */
+    if (fastest * *kyr > WATER_STEP * job->domain.spacing_m)
+        *kyr /= ceil(*kyr / fmax(least, WATER_STEP * job->domain.spacing_m / fastest) - 1e-6);
+done:
+    return st;
+}
+
+/* A frame's edits: what they set and what they do to the rock. */
+static status edit(struct model *m)
+{
+    status st = OK;
+    struct rock rock = {0};
+    enum edits_kind kind = edits_of(m->whole, m->frame);
+    m->job = job_at(m->whole, m->frame);
+    if (kind == EDITS_NONE)
+        return OK;
+    gpu_stage(m->gpu, "edits");
+    m->elastic.options = elastic_options(m->job);
+    water_destroy(m->gpu, &m->water);
+    TRY(create_water(m));
+    if (kind != EDITS_ROCK) {
+        collapse_destroy(m->gpu, &m->collapse);
+        TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+    }
+    if (kind == EDITS_ROCK) {
+        TRY(particles_download(m->gpu, &m->particles, STATE, &rock));
+        TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
+        destroy_particles(m);
+        TRY(create_particles(m, &rock));
+        TRY(count_rock(m));
+        if (!m->collapse.shot)
+            TRY(remove_unsupported(m));
+    }
+    if (m->collapse.shot) /* from here on */
+        TRY(collapse_load(m->gpu, &m->collapse, &m->particles));
+    TRY(settle(m, false));
+done:
+    rock_free(&rock);
+    return st;
+}
+
+/* One step of up to *kyr. */
+static status erode(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    uint32_t n_eroded;
+    bool changed;
+    gpu_stage(m->gpu, "wind");
+    TRY(wind_update(m->gpu, &m->wind, m->job, m->frame, &m->particles));
+    wind_erode(m->gpu, &m->wind, m->job, m->frame, &m->particles, m->erosion.intensity);
+    TRY(run_water(m, step, least, kyr));
+    if (m->plants)
+        plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
+    gpu_stage(m->gpu, "viability");
+    TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &n_eroded));
+    TRY(remove_eroded(m, step, n_eroded, &changed));
+    if (changed)
+        TRY(remove_unsupported(m));
+    TRY(settle(m, false));
 done:
     return st;
 }
@@ -113,6 +332,8 @@ static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
+    TRY(edit(m));
+    m->years += m->job->clock.years_per_frame;
     if (m->collapse.shot) {
         gpu_stage(m->gpu, "collapse");
         TRY(collapse_frame(m->gpu, m->work, &m->collapse, m->job->clock.seconds_per_frame, &m->particles,
@@ -120,20 +341,17 @@ static status step(struct model *m)
         TRY(settle(m, false));
         goto done;
     }
-    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame));
-    double kyr = m->job->clock.years_per_frame / 1000 / steps;
-    for (int i = 0; i < steps && m->particles.n > 0; i++) {
-        uint32_t n_eroded;
-        gpu_stage(m->gpu, "wind");
-        wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
-        gpu_stage(m->gpu, "viability");
-        TRY(erosion_weather(m->gpu, m->work, &m->erosion, kyr, &m->particles, &n_eroded));
-        gpu_stage(m->gpu, "particles");
-        TRY(remove_eroded(m, n_eroded));
-        if (n_eroded)
-            TRY(remove_unsupported(m));
-        TRY(settle(m, false));
+    if (m->plants) {
+        gpu_stage(m->gpu, "plants");
+        plants_grow(m->gpu, m->job, m->frame, &m->particles);
     }
+    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame)), number = 0;
+    double whole = m->job->clock.years_per_frame / 1000 / steps, least = whole / (double)m->job->rain.steps;
+    for (int i = 0; i < steps; i++)
+        for (double left = whole, kyr; left > 0 && m->particles.n > 0; left -= kyr) {
+            kyr = left;
+            TRY(erode(m, number++, fmin(least, left), &kyr));
+        }
 done:
     return st;
 }
@@ -166,18 +384,34 @@ static status measure(const struct model *m, struct frame *out)
     return OK;
 }
 
-/* Which values of the surface this job can have. */
-static size_t skin_fields(const struct job *job, enum rock_field out[3])
+/* The discharge over the shape as it is now. One grid and one set of choices for all frames, so that streams
+ * move only where the rock has changed. */
+static status show_water(struct model *m)
 {
+    status st = OK;
+    struct water_routing how = {.seed = (uint32_t)m->job->seed, .leak = m->job->rain.leak};
+    if (!water_flows(m->job, m->frame)) {
+        gpu_fill(m->gpu, m->particles.field[ROCK_discharge], 0);
+        return OK;
+    }
+    gpu_stage(m->gpu, "water");
+    TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    TRY(water_discharge(m->gpu, m->work, &m->water, m->job, m->frame, &m->particles));
+    water_show(m->gpu, &m->water, &m->particles);
+done:
+    return st;
+}
+
+/* Which values of the surface this job can have. */
+static size_t skin_fields(const struct model *m, enum rock_field out[3])
+{
+    const struct job *job = m->job;
     size_t n = 0;
-    bool plants = false;
-    if (curve_max(&job->rain.m_per_yr) > 0 || job->n_sources)
+    if (water_ever_flows(job))
         out[n++] = ROCK_discharge;
-    for (size_t i = 0; i < job->n_paint; i++)
-        plants |= job->paint[i].vegetation > 0;
-    if (plants)
+    if (m->plants)
         out[n++] = ROCK_vegetation;
-    if (curve_max(&job->deposition.viability) > 0)
+    if (m->deposits)
         out[n++] = ROCK_phase;
     return n;
 }
@@ -187,19 +421,25 @@ static status output(struct model *m, struct frame *out)
     status st = OK;
     const struct job *job = m->job;
     enum rock_field skin[3];
-    size_t n_skin = skin_fields(job, skin);
+    size_t n_skin = skin_fields(m, skin);
+    struct aov_air air = {0};
     *out = (struct frame){.number = m->frame,
-                          .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
+                          .years = m->years,
                           .ledger = m->ledger,
                           .stress_iterations = m->elastic.iterations};
+    TRY(show_water(m));
     gpu_stage(m->gpu, "field");
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
     TRY(field_download(m->gpu, &m->field, &m->particles, skin, n_skin, &out->grids));
+    TRY(air_grid(m->gpu, &m->wind, job, m->frame, m->particles.voxels,
+                 &out->grids.grid[out->grids.n_grids++]));
     gpu_stage(m->gpu, "pictures");
-    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, NULL, out));
+    TRY(air_upload(m->gpu, &out->grids, &air));
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, &air, out));
 done:
+    gpu_buffer_destroy(m->gpu, &air.velocity);
     if (st != OK)
         frame_free(out);
     return st;
@@ -207,13 +447,79 @@ done:
 
 /* ---- the state */
 
+/* What the displacement depends on beside the rock's shape. */
+enum { ELASTICITY = 4 };
+
+static void elasticity(const struct model *m, double out[ELASTICITY])
+{
+    const struct elastic_options *e = &m->elastic.options;
+    const double numbers[ELASTICITY] = {e->lambda, e->mu, e->density, e->gravity};
+    memcpy(out, numbers, sizeof numbers);
+}
+
+/* What air has to have in common with a checkpoint's to go on from it. */
+enum { AIR_BOX = 4 };
+
+static void air_box(const struct flow *air, double out[AIR_BOX])
+{
+    const double numbers[AIR_BOX] = {air->spacing, air->box[0], air->box[1], air->box[2]};
+    memcpy(out, numbers, sizeof numbers);
+}
+
+static status save_air(struct model *m, struct checkpoint *out)
+{
+    status st = OK;
+    void *data;
+    struct flow *air = &m->wind.flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_add(out, "air box", 8, AIR_BOX, &data));
+    air_box(air, data);
+    TRY(section_add(out, "air", 8, sizeof air->state / 8, &data));
+    memcpy(data, &air->state, sizeof air->state);
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        TRY(section_add(out, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &data));
+        TRY(gpu_download(m->gpu, array[i].buffer, 0, data, array[i].n));
+    }
+done:
+    return st;
+}
+
+/* A branch whose air is of another size than the checkpoint's, or that has none yet, begins with still air. */
+static status restore_air(struct model *m, const struct checkpoint *c)
+{
+    status st = OK;
+    const struct checkpoint_section *s = checkpoint_find(c, "air box", 8);
+    double box[AIR_BOX];
+    air_box(&m->wind.flow, box);
+    if (!s || s->n != AIR_BOX || memcmp(s->data, box, sizeof box) != 0) {
+        log_info("frame %d: the checkpoint has no air of this size: it begins anew", c->frame);
+        return OK;
+    }
+    struct flow *air = &m->wind.flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_find(c, "air", 8, sizeof air->state / 8, &s));
+    memcpy(&air->state, s->data, sizeof air->state);
+    TRY(flow_check(air));
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        if (array[i].n == 0)
+            continue;
+        TRY(section_find(c, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &s));
+        TRY(gpu_upload(m->gpu, array[i].buffer, 0, s->data, array[i].n));
+    }
+    flow_restore(m->gpu, air);
+done:
+    return st;
+}
+
 static status save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
     void *data;
     size_t n = m->particles.n, nodes = elastic_nodes(&m->elastic);
-    *out = (struct checkpoint){.frame = m->frame,
-                               .years = (m->frame - m->job->frames.first) * m->job->clock.years_per_frame};
+    *out = (struct checkpoint){.frame = m->frame, .years = m->years};
+    TRY(section_add_domain(out, m->job));
     for (int f = 0; f < ROCK_FIELDS; f++) {
         if (rock_field_table[f].keep != STATE)
             continue;
@@ -229,6 +535,12 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->start_volume, sizeof m->start_volume);
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &m->elastic.iterations, 4);
+    TRY(section_add(out, "elasticity", 8, ELASTICITY, &data));
+    elasticity(m, data);
+    TRY(section_add(out, "processes", 8, 2, &data));
+    memcpy(data, (const double[]){m->deposits, m->plants}, 2 * sizeof(double));
+    if (m->wind.flows)
+        TRY(save_air(m, out));
     if (m->collapse.shot)
         TRY(collapse_save(m->gpu, &m->collapse, out));
 done:
@@ -237,11 +549,17 @@ done:
     return st;
 }
 
-static status restore(struct model *m, const struct checkpoint *c, const int voxels[3])
+/* *settled: the displacement is that of this job's rock. A branch may have changed what it depends on. */
+static status restore(struct model *m, const struct checkpoint *c, bool *settled)
 {
     status st = OK;
     struct rock rock = {0};
     const struct checkpoint_section *s;
+    double now[ELASTICITY];
+    TRY(section_check_domain(c, m->job));
+    elasticity(m, now);
+    TRY(section_find(c, "elasticity", 8, ELASTICITY, &s));
+    *settled = memcmp(s->data, now, sizeof now) == 0;
     TRY(section_find(c, "id", 4, 0, &s));
     rock.n = s->n;
     for (int f = 0; f < ROCK_FIELDS; f++) {
@@ -259,9 +577,12 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
-    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
-    m->frame = c->frame;
-    TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+    TRY(section_find(c, "processes", 8, 2, &s));
+    m->deposits |= ((const double *)s->data)[0] != 0;
+    m->plants |= ((const double *)s->data)[1] != 0;
+    if (m->wind.flows)
+        TRY(restore_air(m, c));
+    TRY(create_particles(m, &rock));
     /* A shot may begin where years have passed. */
     if (m->collapse.shot && checkpoint_find(c, mpm_word_names[MPM_ID], 4))
         TRY(collapse_restore(m->gpu, &m->collapse, &m->particles, c));
@@ -271,15 +592,15 @@ done:
     return st;
 }
 
-static status begin(struct model *m, const int voxels[3])
+static status begin(struct model *m)
 {
     status st = OK;
     struct rock rock = {0};
-    TRY(scene_sample(m->job, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
-    m->frame = m->job->frames.first;
+    TRY(scene_sample(m->whole, &rock));
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
-    TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+    TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
+    TRY(create_particles(m, &rock));
+    TRY(count_rock(m));
     if (m->collapse.shot)
         TRY(collapse_load(m->gpu, &m->collapse, &m->particles));
     else
@@ -302,12 +623,12 @@ static void destroy(struct model **handle)
         return;
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
+    deposit_destroy(m->gpu, &m->deposit);
     blocks_destroy(m->gpu, &m->blocks);
-    erosion_destroy(m->gpu, &m->erosion);
+    wind_destroy(m->gpu, &m->wind);
+    water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
-    mpm_destroy(m->gpu, &m->mpm);
-    collapse_destroy(m->gpu, &m->collapse);
-    particles_destroy(m->gpu, &m->particles);
+    destroy_particles(m);
     gpu_work_destroy(m->gpu, &m->work);
     free(m);
     *handle = NULL;
@@ -320,38 +641,32 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     struct model *m = NULL;
     int voxels[3];
     double h = job->domain.spacing_m;
-    struct elastic_options options = {
-        .lambda = 1e9 * job->rock.lame_GPa,
-        .mu = 1e9 * job->rock.shear_GPa,
-        .density = job->rock.density_kg_m3,
-        .gravity = job->rock.gravity_m_s2,
-        .tolerance = job->stress.tolerance,
-        .max_iterations = (int)job->stress.max_iterations,
-    };
-    const struct mpm_options material = {
-        .lambda = options.lambda,
-        .mu = options.mu,
-        .density = options.density,
-        .gravity = options.gravity,
-        .cfl = job->collapse.cfl,
-    };
+    bool settled = false;
     TRY(memory_alloc(1, sizeof *m, "the model", &m));
     m->gpu = gpu;
-    m->job = job;
+    m->whole = job;
+    m->frame = from ? from->frame : job->frames.first;
+    m->years = from ? from->years : 0;
+    m->job = job_at(job, m->frame);
+    struct elastic_options options = elastic_options(m->job);
     gpu_stage(gpu, "start");
     TRY(scene_voxels(job, voxels));
     size_t nodes = mpm_nodes(voxels);
     TRY(gpu_work_create(gpu, (nodes > voxel_count(voxels) ? nodes : voxel_count(voxels)) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
+    m->plants = plants_wanted(job) || edits_plant(job);
+    m->deposits = ever(job, deposit_wanted);
+    TRY(wind_create(gpu, job, voxels, &m->wind));
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
-    TRY(from ? restore(m, from, voxels) : begin(m, voxels));
-    TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
-    if (job->stress.solver == STRESS_MPM && !m->collapse.shot)
-        TRY(mpm_create(gpu, voxels, h, m->particles.n_max, &material, &m->mpm));
-    TRY(settle(m, from != NULL));
+    TRY(scene_edits_check(job, m->frame));
+    TRY(from ? restore(m, from, &settled) : begin(m));
+    if (m->deposits)
+        TRY(deposit_create(gpu, voxels, &m->deposit));
+    TRY(create_water(m));
+    TRY(settle(m, settled));
     *out = m;
     m = NULL;
 done:
@@ -366,14 +681,18 @@ static status estimate(const struct job *job, struct model_estimate *out)
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
     TRY(scene_estimate(job, &out->n_particles));
+    TRY(wind_check(job, out->voxels));
     n = out->n_particles;
     size_t voxels = voxel_count(out->voxels);
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
-                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels) + collapse_bytes(job, n, out->voxels) +
+                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) +
+                        wind_bytes(job, out->voxels) + field + aov_bytes(pixels) +
+                        (ever(job, routes) ? water_bytes(out->voxels) : 0) +
+                        (ever(job, deposit_wanted) ? deposit_bytes(out->voxels) : 0) +
+                        collapse_bytes(job, n, out->voxels) +
                         (job->stress.solver == STRESS_MPM ? mpm_bytes(n, out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
@@ -382,9 +701,10 @@ static status estimate(const struct job *job, struct model_estimate *out)
      * 0.6. */
     out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.2 * (double)field) +
                        (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
-    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels));
+    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels) +
+                                       0.9 * (double)wind_checkpoint_bytes(job, out->voxels));
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
-        out->steps += erosion_steps(job, f, wind_intensity(job, f));
+        out->steps += erosion_steps(job_at(job, f), f, wind_intensity(job_at(job, f), f));
 done:
     return st;
 }

@@ -7,10 +7,14 @@
 
 #include "base/atomic_file.h"
 #include "base/hash.h"
+#include "base/lock.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/version.h"
+#include "model/branch.h"
 #include "model/model.h"
+#include "model/stage.h"
+#include "model/timing.h"
 #include "model/writer.h"
 #include "output/folder.h"
 
@@ -23,10 +27,14 @@ struct run {
     struct gpu *gpu;
     struct model *model;
     struct writer *writer;
-    bool *done;        /* [last - first + 1], by frame number */
-    int first_missing; /* last + 1: none */
+    struct lock *lock;
+    char lock_path[4096];
+    bool lacks_checkpoint; /* the last frame's, or a later one */
+    bool *done;            /* [last - first + 1], by frame number */
+    int first_missing;     /* last + 1: none */
     int last_missing;
     size_t n_done;
+    int began; /* the frame the model was made or restored at */
 };
 
 /* ---- what is there */
@@ -37,12 +45,35 @@ static status frame_done(const struct run *r, int frame, bool *done)
     const char *bad = "";
     status st = manifest_read(r->options->root, r->job->name, frame, &manifest);
     if (st == OK)
-        st = manifest_check(r->options->root, &manifest, false, &bad);
+        st = manifest_check(r->options->root, &manifest, r->options->repair, &bad);
     *done = st == OK && *bad == '\0' && manifest.job_hash == r->job_hash;
     if (st == OK && !*done)
         log_info("frame %d is there but %s; it will be made again", frame, *bad ? bad : "of another job");
     manifest_free(&manifest);
     return st == E_MEMORY ? st : OK; /* missing or damaged is no error here */
+}
+
+/* Marked frames' checkpoints: those there are to be kept, those missing are work. */
+static status survey_marks(struct run *r, const int *there, size_t n)
+{
+    status st = OK;
+    for (int f = r->frames.first; f <= r->frames.last && r->job->checkpoint.n_mark; f++) {
+        bool found = false;
+        if (!job_marks(r->job, f))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            found |= there[i] == f;
+        if (found) {
+            TRY(checkpoint_mark(r->options->root, r->job->name, f));
+            continue;
+        }
+        if (r->first_missing > r->frames.last)
+            r->last_missing = f;
+        r->first_missing = f < r->first_missing ? f : r->first_missing;
+        r->last_missing = f > r->last_missing ? f : r->last_missing;
+    }
+done:
+    return st;
 }
 
 static status survey(struct run *r)
@@ -51,6 +82,9 @@ static status survey(struct run *r)
     size_t n = (size_t)(r->frames.last - r->frames.first) + 1;
     int *there = NULL, *checkpoints = NULL;
     size_t n_there, n_checkpoints;
+    free(r->done);
+    r->done = NULL;
+    r->n_done = 0;
     TRY(memory_alloc(n, sizeof *r->done, "the frames", &r->done));
     TRY(folder_frames(r->options->root, r->job->name, &there, &n_there));
     for (size_t i = 0; i < n_there; i++)
@@ -68,8 +102,10 @@ static status survey(struct run *r)
         }
     /* Without the last frame's checkpoint there is more to do than the frames. */
     TRY(checkpoint_list(r->options->root, r->job->name, &checkpoints, &n_checkpoints));
-    if (n_checkpoints == 0 || checkpoints[0] < r->frames.last)
+    r->lacks_checkpoint = n_checkpoints == 0 || checkpoints[0] < r->frames.last;
+    if (r->lacks_checkpoint)
         r->last_missing = r->frames.last;
+    TRY(survey_marks(r, checkpoints, n_checkpoints));
 done:
     free(there);
     free(checkpoints);
@@ -87,7 +123,8 @@ static status check_owner(struct run *r)
         return fail(E_OUTPUT, "%.100s...: the path is too long", r->options->root);
     if (access(path, F_OK) != 0)
         return OK;
-    if (job_load(path, NULL, 0, &theirs) != OK || job_hash(theirs, &hash) != OK) {
+    if (job_load(path, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, r->options->root) != OK ||
+        job_hash(theirs, &hash) != OK) {
         st = fail(E_CHECKPOINT,
                   "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
                   "--resume never to start over",
@@ -127,6 +164,46 @@ done:
     return st;
 }
 
+/* --repair: a checkpoint that is damaged is none; what it stood for is made again. */
+static status drop_damaged(const struct run *r)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    char path[4096];
+    struct checkpoint c;
+    TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
+    for (size_t i = 0; i < n; i++) {
+        TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
+        st = checkpoint_read_index(path, &c);
+        if (st == E_CHECKPOINT) {
+            log_warn("%s; it is removed", status_message());
+            unlink(path);
+            st = OK;
+        }
+        TRY(st);
+    }
+done:
+    free(frames);
+    return st;
+}
+
+/* From here on this process alone simulates into the folder; what was surveyed before may have changed. */
+static status own_folder(struct run *r)
+{
+    status st = OK;
+    char what[128], frames[48];
+    snprintf(what, sizeof what, "simulates frames %s here", range_text(r->frames, frames));
+    TRY(lock_take(r->lock_path, what, (struct lock_patience){0}, r->options->stop, &r->lock));
+    if (r->options->resume == RUN_NEVER)
+        TRY(forget(r));
+    if (r->options->repair)
+        TRY(drop_damaged(r));
+    TRY(survey(r));
+done:
+    return st;
+}
+
 /* ---- checkpoints */
 
 static void provenance(const struct run *r, struct checkpoint *c)
@@ -145,7 +222,7 @@ static status check_provenance(const struct run *r, const struct checkpoint *c, 
 {
     struct checkpoint here = {0};
     provenance(r, &here);
-    if (c->job_hash != here.job_hash)
+    if (c->job_hash != here.job_hash && strcmp(path, r->job->from) != 0)
         return fail(E_CHECKPOINT, "%s is of another job; use another --out, or --resume never to start over",
                     path);
     bool same_code = strcmp(c->shaders, here.shaders) == 0 && strcmp(c->version, here.version) == 0;
@@ -235,6 +312,16 @@ static status write_papers(const struct run *r)
     json_text(&t, "device_pci", info->pci);
     json_integer(&t, "seed", r->job->seed);
     json_text(&t, "job_hash", hash_text(r->job_hash, hash));
+    if (*r->job->from) {
+        json_object(&t, "from");
+        json_text(&t, "checkpoint", r->job->from);
+        json_integer(&t, "frame", r->job->frames.first);
+        json_end_object(&t);
+    }
+    if (r->job->wedge.index) {
+        json_integer(&t, "wedge", r->job->wedge.index);
+        json_text(&t, "wedge_values", r->job->wedge.label);
+    }
     json_array(&t, "inputs");
     for (size_t i = 0; i < n_inputs; i++) {
         json_object(&t, NULL);
@@ -298,17 +385,23 @@ static status begin(struct run *r)
                  r->options->root, r->first_missing);
         goto done;
     }
-    if (!found && r->frames.first != r->job->frames.first) {
+    if (!found && r->frames.first != r->job->frames.first && !r->options->repair) {
         st = fail(E_CHECKPOINT,
                   "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the "
                   "block before it first",
                   r->options->root, r->first_missing);
         goto done;
     }
-    if (found)
+    if (!found && *r->job->from) {
+        TRY(branch_read(r->job, r->options->root, &c));
+        TRY(check_provenance(r, &c, r->job->from));
+        found = true;
+        log_info("branching from %s, frame %d, %.10g years", r->job->from, c.frame, c.years);
+    } else if (found)
         log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
                  range_count(r->frames));
     TRY(r->type->create(r->gpu, r->job, found ? &c : NULL, &r->model));
+    r->began = r->type->frame(r->model);
     TRY(write_papers(r)); /* not before: a scene that is refused does not claim the folder */
     TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
 done:
@@ -344,16 +437,21 @@ static status simulate(struct run *r)
         r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
     for (;;) {
         int number = r->type->frame(r->model);
+        TRY(lock_check(r->lock));
         /* The last frame says that all is done: what the next block begins from is there before it. */
         if (fresh && number >= last && !repair)
             TRY(save(r));
         if (fresh)
             TRY(finish_frame(r));
-        if (number >= last)
+        bool marked = job_marks(r->job, number);
+        if (number >= last) {
+            if (fresh && repair && marked)
+                TRY(save(r));
             break;
+        }
         bool stop = r->options->stop && r->options->stop();
         bool due = (number - r->job->frames.first) % (int)r->job->checkpoint.every == 0;
-        if (fresh && ((due && !repair) || stop))
+        if (fresh && ((due && !repair) || marked || stop))
             TRY(save(r));
         if (stop) {
             TRY(writer_finish(&r->writer));
@@ -371,20 +469,26 @@ done:
     return st;
 }
 
-static void log_times(struct gpu *gpu)
-{
-    const struct gpu_time *times;
-    size_t n = gpu_stage_times(gpu, &times);
-    for (size_t i = 0; i < n; i++)
-        if (times[i].ns)
-            log_note("device time: %-12s %8.2f s in %llu dispatches", times[i].name,
-                     (double)times[i].ns / 1e9, (unsigned long long)times[i].dispatches);
-}
-
-status run_job(const struct job *job, const struct run_options *options)
+/* Of a folder that is complete: as its files are, whatever the job now says of output. */
+static status write_stage(const struct run *r)
 {
     status st = OK;
+    char path[4096];
+    struct job *theirs = NULL;
+    snprintf(path, sizeof path, "%.4000s/job.yaml", r->options->root);
+    TRY(job_load(path, NULL, 0, &theirs));
+    TRY(stage_write(theirs, r->job_hash, r->options->root));
+done:
+    job_destroy(&theirs);
+    return st;
+}
+
+status run_job(struct job *job, const struct run_options *options)
+{
+    status st = OK;
+    const double started = timing_now();
     struct run r = {.job = job, .options = options, .type = model_of(job), .frames = options->frames};
+    TRY(branch_prepare(job, options->root));
     if (r.frames.step == 0)
         r.frames = job->frames;
     if (!range_holds(job->frames, r.frames.first) || !range_holds(job->frames, r.frames.last)) {
@@ -394,23 +498,30 @@ status run_job(const struct job *job, const struct run_options *options)
     }
     TRY(job_hash(job, &r.job_hash));
     TRY(folder_prepare(options->root));
-    if (options->resume == RUN_NEVER)
-        TRY(forget(&r));
-    else
+    if (snprintf(r.lock_path, sizeof r.lock_path, "%s/lock", options->root) >= (int)sizeof r.lock_path)
+        return fail(E_OUTPUT, "%.100s...: the path is too long", options->root);
+    if (options->resume != RUN_NEVER)
         TRY(check_owner(&r));
-    TRY(survey(&r));
+    if (!options->repair)
+        TRY(survey(&r));
+    if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
+        TRY(own_folder(&r));
+    else
+        lock_sweep(r.lock_path);
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
-    if (r.first_missing > r.frames.last) {
+    if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {
         log_info("all %zu frames are done already", r.n_done);
+        st = write_stage(&r);
         goto done;
     }
     TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
     TRY(check_memory(&r));
     TRY(begin(&r));
     TRY(simulate(&r));
-    log_times(r.gpu);
 done:
+    if (r.model)
+        timing_write(options->root, r.gpu, r.began, r.type->frame(r.model), started);
     if (st != OK && r.writer) {
         /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
         char message[2048];
@@ -422,6 +533,7 @@ done:
     if (r.model)
         r.type->destroy(&r.model);
     gpu_destroy(&r.gpu);
+    lock_release(&r.lock);
     free(r.done);
     return st;
 }

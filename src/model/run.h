@@ -6,8 +6,15 @@
  *             it, or from the job's first frame. Frames simulated on the way that are done already are not
  *             written again.
  *             It ends with the last frame that is not done, if the last frame's checkpoint is there.
+ * Branches    A job with `from` begins with that checkpoint (branch.h): its first frame becomes the checkpoint's.
+ * Marks       Frames in checkpoint.mark have their checkpoints made, if need be by simulating up to them again, and
+ *             kept.
  * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or
  *             the first frame asked for is not the job's first and there is no checkpoint before it.
+ * Repair      As above, but files are read, not only looked at, damaged checkpoints are removed, and a range of
+ *             frames without a checkpoint before it is reached from the job's first frame.
+ * Alone       root/lock (base/lock.h) keeps a second writer out: E_OUTPUT. A run with nothing to do needs no
+ *             lock.
  * Stop        When a stop is requested, the frame under way is finished and written, then a checkpoint:
  *             STOPPED.
  */
@@ -27,6 +34,7 @@ struct run_options {
     const char *device;        /* gpu_options */
     struct frame_range frames; /* which of the job's to produce; step 0: all */
     enum run_resume resume;
+    bool repair; /* read every file, and make again what is missing or damaged */
 
     /* What the caller shows. Any may be NULL. */
     void (*begin)(void *user, struct frame_range frames, size_t done);
@@ -35,6 +43,6 @@ struct run_options {
     void *user;
 };
 
-MUST_USE status run_job(const struct job *job, const struct run_options *options);
+MUST_USE status run_job(struct job *job, const struct run_options *options);
 
 #endif

@@ -110,6 +110,8 @@ static status add_attributes(exr_context_t exr, int part, const struct aov_image
         TRY_EXR(exr_attr_set_string(exr, part, "comments", options->comments));
     TRY_EXR(exr_attr_set_string(exr, part, "hoodoo:version", hoodoo_version));
     TRY_EXR(exr_attr_set_string(exr, part, "hoodoo:jobHash", hash_text(options->job_hash, hash)));
+    if (options->wedge && *options->wedge)
+        TRY_EXR(exr_attr_set_string(exr, part, "hoodoo:wedge", options->wedge));
     TRY_EXR(exr_attr_set_int(exr, part, "hoodoo:frame", options->frame));
     TRY_EXR(exr_attr_set_double(exr, part, "hoodoo:years", options->years));
     if (image->camera && *image->camera)

@@ -20,6 +20,7 @@ static const struct {
     [FILE_MANIFEST] = {"frames", "json"},
     [FILE_CHECKPOINT] = {"checkpoint", "ckpt"},
     [FILE_MESH] = {"mesh", "ply"},
+    [FILE_USD] = {"points", "usdc"},
 };
 
 /* Made by the verbs that fill them: mesh, preview, turntable, report, log. */

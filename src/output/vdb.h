@@ -48,6 +48,10 @@ MUST_USE status vdb_points(const struct rock *rock, const struct vdb_options *op
 struct text;
 MUST_USE status vdb_describe(const char *path, struct text *out);
 
+/* The same without reading any voxels: grids with name, type, class, and the box in m (file's axes) of the
+ * lattice each was written from. */
+MUST_USE status vdb_describe_lattices(const char *path, struct text *out);
+
 /* Reads every grid of the file completely. E_INPUT if anything is missing or damaged. */
 MUST_USE status vdb_check(const char *path);
 

@@ -73,6 +73,9 @@ double shape_distance(const struct shape *shape, const double x[3])
     case SHAPE_JOINTMAP:
         d = jointmap_distance(shape->u.jointmap, p);
         break;
+    case SHAPE_STROKE:
+        d = stroke_distance(shape->u.stroke, p);
+        break;
     case SHAPE_MESH:
         break;
     }
@@ -194,6 +197,13 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         placement_box(place, j->min_m, j->max_m, s->min, s->max);
         break;
     }
+    case SHAPE_STROKE: {
+        double lo[3], hi[3];
+        TRY(stroke_create(&node->u.stroke, &s->u.stroke));
+        stroke_bounds(s->u.stroke, lo, hi);
+        placement_box(place, lo, hi, s->min, s->max);
+        break;
+    }
     }
 done:
     return st;
@@ -207,4 +217,6 @@ void shape_deinit(struct shape *shape)
         heightfield_destroy(&shape->u.heightfield);
     if (shape->kind == SHAPE_JOINTMAP)
         jointmap_destroy(&shape->u.jointmap);
+    if (shape->kind == SHAPE_STROKE)
+        stroke_destroy(&shape->u.stroke);
 }

@@ -6,6 +6,7 @@
 #include "scene/jointmap.h"
 #include "scene/mesh_shim.h"
 #include "scene/placement.h"
+#include "scene/stroke.h"
 
 struct shape {
     enum job_shape kind;
@@ -23,6 +24,7 @@ struct shape {
         struct vdb_sdf *mesh; /* already in the world: its vertices were placed */
         struct heightfield *heightfield;
         struct jointmap *jointmap;
+        struct stroke *stroke;
     } u;
 };
 

@@ -354,10 +354,13 @@ static void compare(void)
         "a step of 1 M points   device %7.1f ms   plain C %7.1f ms   ratio %5.2f (goal 1.6)   after %d steps "
         "speeds differ by %.1g m/s; a sort %.1f ms, every few steps\n",
         1e3 * device, 1e3 * plain, device / plain, REPEATS + 1, error, 1e3 * sorted);
-    static const enum gpu_kernel parts[] = {KERNEL_mpm_scatter, KERNEL_mpm_node, KERNEL_mpm_gather};
+    static const struct {
+        enum gpu_kernel kernel;
+        const char *name;
+    } part[] = {{KERNEL_mpm_scatter, "scatter"}, {KERNEL_mpm_node, "node"}, {KERNEL_mpm_gather, "gather"}};
     for (size_t i = 0; i < 3; i++) {
-        const struct gpu_time *t = gpu_kernel_time(gpu, parts[i]);
-        printf("    %-12s %7.1f ms on average\n", t->name, 1e-6 * (double)t->ns / (double)t->dispatches);
+        const struct gpu_time *t = gpu_kernel_time(gpu, part[i].kernel);
+        printf("    %-12s %7.1f ms on average\n", part[i].name, 1e-6 * (double)t->ns / (double)t->dispatches);
     }
     mpm_destroy(gpu, &m);
     gpu_work_destroy(gpu, &work);

@@ -12,7 +12,7 @@ static void a_job_holds_what_its_file_says(void **state)
     struct job *job = load_good(good_job);
     assert_string_equal(job->name, "arch");
     assert_int_equal(job->frames.first, 1001);
-    assert_int_equal(job->frames.last, 1110);
+    assert_int_equal(job->frames.last, 1109); /* 1110 is not one of every second frame */
     assert_int_equal(job->frames.step, 2);
     assert_int_equal(job->seed, 7);
     assert_true(job->rock.density_kg_m3 == 2300);
