@@ -67,8 +67,8 @@ status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, st
     status st = OK;
     TRY(find(gpu, work, b, p));
     struct voxel_params k = particles_params(p, p->n);
-    GPU_RUN(gpu, blocks_loose, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->start, p->field[ROCK_phase],
-            p->flags);
+    GPU_RUN(gpu, blocks_loose, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->start,
+            p->field[ROCK_phase], p->flags);
     TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, n));
     p->n_surface = 0;
 done:

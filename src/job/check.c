@@ -234,8 +234,9 @@ static status check_edits(const struct yaml *root, const struct job *job)
             return yaml_fail(place(item, "frame"), NULL, "frame %lld is before the job's first, %d",
                              (long long)e->frame, job->frames.first);
         if (job->clock.seconds_per_frame > 0 && e->frame > job->frames.first)
-            return yaml_fail(place(item, "frame"), NULL,
-                             "a shot in real time (clock.seconds_per_frame) has no edits after its first frame");
+            return yaml_fail(
+                place(item, "frame"), NULL,
+                "a shot in real time (clock.seconds_per_frame) has no edits after its first frame");
         if (!e->carve && !e->n_add && !e->n_paint && !e->set.n)
             return yaml_fail(item, NULL, "changes nothing: give it carve, add, paint or set");
         for (size_t k = 0; k < e->n_add; k++)

@@ -141,7 +141,8 @@ static status solve(struct model *m, bool solved)
                                              .gravity = e->options.gravity,
                                              .cfl = m->job->collapse.cfl};
         if (!m->mpm.n_max)
-            TRY(mpm_create(m->gpu, m->particles.voxels, m->particles.h, m->particles.n_max, &material, &m->mpm));
+            TRY(mpm_create(m->gpu, m->particles.voxels, m->particles.h, m->particles.n_max, &material,
+                           &m->mpm));
         m->mpm.options = material;
         TRY(mpm_rest(m->gpu, m->work, &m->mpm, &m->particles, e->options.tolerance, e->options.max_iterations,
                      &e->iterations, &e->error));
@@ -687,13 +688,12 @@ static status estimate(const struct job *job, struct model_estimate *out)
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
-    out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
-                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) +
-                        wind_bytes(job, out->voxels) + field + aov_bytes(pixels) +
-                        (ever(job, routes) ? water_bytes(out->voxels) : 0) +
-                        (ever(job, deposit_wanted) ? deposit_bytes(out->voxels) : 0) +
-                        collapse_bytes(job, n, out->voxels) +
-                        (job->stress.solver == STRESS_MPM ? mpm_bytes(n, out->voxels) : 0);
+    out->device_bytes =
+        gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) + elastic_bytes(out->voxels) +
+        erosion_bytes(n) + blocks_bytes(out->voxels) + wind_bytes(job, out->voxels) + field +
+        aov_bytes(pixels) + (ever(job, routes) ? water_bytes(out->voxels) : 0) +
+        (ever(job, deposit_wanted) ? deposit_bytes(out->voxels) : 0) + collapse_bytes(job, n, out->voxels) +
+        (job->stress.solver == STRESS_MPM ? mpm_bytes(n, out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
