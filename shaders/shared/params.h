@@ -264,11 +264,11 @@ SHARED_SIZE(plants_params, 48)
 
 struct mpm_params {
     uint n;
-    uint cx, cy, cz; /* cells of the domain */
-    uint n_cells;    /* occupied */
-    uint rock;       /* 1: resting rock is an obstacle */
-    float dx;        /* m */
-    float dt;        /* s */
+    uint cx, cy, cz;             /* cells of the domain */
+    uint n_cells;                /* occupied */
+    uint rock;                   /* 1: resting rock is an obstacle */
+    float dx;                    /* m */
+    float dt;                    /* s */
     float lambda, mu, viscosity; /* Pa, Pa, Pa s */
     float push;                  /* m3/(kg m2): 4 / (density dx^2), or 0 to leave the stress out */
     float mass;                  /* kg: of a whole particle */

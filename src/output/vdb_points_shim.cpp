@@ -131,13 +131,12 @@ class leaf_maker
     {
         pscale_ = float(options.spacing / 2);
         attributes_.push_back({"pscale", CONSTANT, &pscale_});
-        if (!r.v)
-            attributes_.push_back({"v", CONSTANT, nullptr});
+        attributes_.push_back({"v", r.v ? VECTOR : CONSTANT, r.v});
         if (layer_ && options.color && options.n_colors)
             attributes_.push_back({"Cd", COLOR, nullptr});
         for (int f = 0; f < ROCK_FIELDS; f++) {
             const rock_field_info &info = rock_field_table[f];
-            if (f != ROCK_P && *info.vdb && r.field[f])
+            if (f != ROCK_P && f != ROCK_v && *info.vdb && r.field[f])
                 attributes_.push_back({info.vdb,
                                        info.components == 4 ? VECTOR
                                        : info.is_float      ? FLOAT

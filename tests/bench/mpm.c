@@ -1,6 +1,6 @@
 /* One step of a million material points on 128^3 cells, particles to grid, grid, grid to particles: the device
- * against plain C with OpenMP in the same run. Two blocks' worth of rock that breaks and slides, both ways.
- * With Taichi installed, tests/bench/taichi_mpm.py times its example of the same size. */
+ * against plain C with OpenMP in the same run. Rock that breaks and slides, both ways.
+ * With Taichi installed, tests/bench/taichi_mpm.py times its own example at the same size. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -169,7 +169,7 @@ void mpm_ref_step(const struct mpm_ref_rock *r, struct mpm_ref_particle *p, size
         for (int j = 0; j < size[1]; j++)                                                                    \
             for (int i = 0; i < size[0]; i++) {                                                              \
                 double d[3] = {i - 1 - (q)->x[0] / r->dx, j - 1 - (q)->x[1] / r->dx,                         \
-                               k - 1.75 - (q)->x[2] / r->dx};                                                 \
+                               k - 1.75 - (q)->x[2] / r->dx};                                                \
                 double w = weight(d[0]) * weight(d[1]) * weight(d[2]);                                       \
                 double *node =                                                                               \
                     grid[((size_t)k * (size_t)size[1] + (size_t)j) * (size_t)size[0] + (size_t)i];           \
