@@ -146,6 +146,25 @@ static status check_strata(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+static status check_farm_cameras(const struct yaml *root, const struct job *job)
+{
+    const struct yaml *farm = yaml_get(root, "farm"), *list = farm ? yaml_get(farm, "cameras") : NULL;
+    for (size_t i = 0; i < job->farm.n_cameras; i++) {
+        bool found = false;
+        for (size_t k = 0; k < job->n_cameras; k++)
+            found |= strcmp(job->farm.cameras[i], job->cameras[k].name) == 0;
+        if (!found)
+            return yaml_fail(yaml_item(list, i), NULL, "no camera '%s' in cameras", job->farm.cameras[i]);
+        /* With one AOV camera its pictures carry no camera's name, so the names cannot clash. */
+        for (size_t k = 0; k < job->output.aov.n_cameras && job->output.aov.n_cameras > 1; k++)
+            if (strcmp(job->farm.cameras[i], job->output.aov.cameras[k]) == 0)
+                return yaml_fail(yaml_item(list, i), NULL,
+                                 "camera '%s' is one of output.aov.cameras: the run makes its pictures",
+                                 job->farm.cameras[i]);
+    }
+    return OK;
+}
+
 static status check_aov_layers(const struct yaml *root, const struct job *job)
 {
     const struct job_aov *aov = &job->output.aov;
@@ -253,6 +272,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_edits(root, job));
     TRY(check_wedge(root, &job->wedge));
     TRY(check_aov_layers(root, job));
+    TRY(check_farm_cameras(root, job));
 done:
     return st;
 }
