@@ -291,7 +291,7 @@ static void erodibility_jumps_where_grains_interlock(void **state)
         struct gpu_buffer *layers = buffer_of(bed.gpu, layer, 2, 16);
         GPU_RUN(bed.gpu, erosion_interlock, bed.p.n, k, layers, bed.p.field[ROCK_layer],
                 bed.p.field[ROCK_rate_factor], bed.p.field[ROCK_interlock_factor], bed.p.field[ROCK_stress],
-                bed.p.field[ROCK_erodibility]);
+                bed.p.field[ROCK_phase], bed.p.field[ROCK_erodibility]);
         assert_ok(gpu_download(bed.gpu, bed.p.field[ROCK_erodibility], 0, got, bed.p.n));
         for (size_t i = 0; i < bed.p.n; i++) {
             const float *l = layer[bed.rock.layer[i]];
