@@ -1,0 +1,23 @@
+/* Where a function of height is positive on one stack's axis, and the stacks around paths. */
+#ifndef HOODOO_ALONG_H
+#define HOODOO_ALONG_H
+
+#include "stacks/surface.h"
+
+/* Intervals lo[k]..hi[k] in m, ascending. */
+struct intervals {
+    size_t n, capacity;
+    struct interval {
+        double lo, hi;
+    } * at;
+};
+
+typedef double (*along)(void *user, double z);
+
+/* Where f > 0 between lo and hi, found by samples at most `step` apart, the breaks of `line` among them (NULL:
+ * none), and bisection between them. `pinned`: where the line is 1 or -1 from break to break, f has its sign
+ * there and is not asked for in between. */
+MUST_USE status intervals_find(double lo, double hi, double step, const struct profile *line, bool pinned,
+                               along f, void *user, struct intervals *out);
+
+#endif
