@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 /* What a number is for, so that two uses never share one. Never renumber: frames would change. */
-enum random_purpose { RANDOM_JITTER = 1, RANDOM_NOISE = 2, RANDOM_ESTIMATE = 3 };
+enum random_purpose { RANDOM_JITTER = 1, RANDOM_NOISE = 2, RANDOM_ESTIMATE = 3, RANDOM_PILES = 0x70696c65 };
 
 /* 32 random bits; every argument moves all of them. Nest calls for more than four arguments. */
 static inline uint32_t random_hash(uint32_t a, uint32_t b, uint32_t c, uint32_t d)

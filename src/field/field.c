@@ -50,9 +50,9 @@ void field_destroy(struct gpu *gpu, struct field *f)
     gpu_buffer_destroy(gpu, &f->other);
 }
 
-void field_build(struct gpu *gpu, struct field *f, struct particles *p)
+static struct field_params params_of(const struct field *f, const struct particles *p)
 {
-    struct field_params k = {
+    return (struct field_params){
         .n = (uint)sample_count(f),
         .nx = (uint)p->voxels[0],
         .ny = (uint)p->voxels[1],
@@ -63,8 +63,12 @@ void field_build(struct gpu *gpu, struct field *f, struct particles *p)
         .fz = (uint)f->n[2],
         .margin = FIELD_MARGIN,
     };
-    particles_fill(gpu, p);
-    GPU_RUN(gpu, field_share, k.n, k, p->fill, f->share);
+}
+
+/* Means and distance, from the share. */
+static void finish(struct gpu *gpu, struct field *f, struct particles *p)
+{
+    struct field_params k = params_of(f, p);
     GPU_RUN(gpu, field_means, k.n, k, p->start, p->field[ROCK_stress], p->field[ROCK_von_mises],
             p->field[ROCK_viability], f->share, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->share, f->distance);
@@ -73,6 +77,22 @@ void field_build(struct gpu *gpu, struct field *f, struct particles *p)
         GPU_RUN(gpu, field_distance, k.n, k, f->distance, f->other);
         GPU_RUN(gpu, field_distance, k.n, k, f->other, f->distance);
     }
+}
+
+void field_build(struct gpu *gpu, struct field *f, struct particles *p)
+{
+    struct field_params k = params_of(f, p);
+    particles_fill(gpu, p);
+    GPU_RUN(gpu, field_share, k.n, k, p->fill, f->share);
+    finish(gpu, f, p);
+}
+
+status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, const float *share)
+{
+    status st = gpu_upload(gpu, f->share, 0, share, sample_count(f));
+    if (st == OK)
+        finish(gpu, f, p);
+    return st;
 }
 
 status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out)

@@ -31,6 +31,10 @@ void field_destroy(struct gpu *gpu, struct field *f);
 /* From the particles, whose stress must be current. Records only. */
 void field_build(struct gpu *gpu, struct field *f, struct particles *p);
 
+/* The same from a rock's share that is known at every sample (host memory, 0..1; 1/2 on the surface); the
+ * particles only say what lies near it. Waits. */
+MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, const float *share);
+
 /* The grids of DESIGN 2 that exist so far: surface, density, stress, von_mises, viability. Freed with
  * field_grids_free(). Waits. */
 MUST_USE status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out);

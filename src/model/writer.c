@@ -48,7 +48,7 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
     status st = OK;
     char path[4096];
     struct vdb_bytes file = {0};
-    size_t n_layers = job->n_strata;
+    size_t n_layers = palette_size(job);
     float(*color)[3] = NULL;
     struct vdb_options options = {
         .up = job->output.up,

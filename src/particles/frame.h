@@ -24,7 +24,7 @@ struct frame_grids {
     int n[3];
     double voxel, origin[3]; /* m */
     size_t n_grids;
-    struct frame_grid grid[8];
+    struct frame_grid grid[16];
 };
 /* In scalar grids, voxels where `density` is 0 are inactive, except in level sets, whose active voxels are
  * those with |value| < 3 voxels (the background). In vector grids (the wind is outside the rock) those with a

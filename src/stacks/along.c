@@ -9,7 +9,7 @@ struct finder {
     void *user;
     struct intervals *out;
     bool in;
-    double z; /* the last sample */
+    double z, value; /* the last sample */
 };
 
 static status open_at(struct finder *s, double z)
@@ -20,23 +20,44 @@ static status open_at(struct finder *s, double z)
     return st;
 }
 
-static double root(const struct finder *s, double a, double b)
+/* The root between a and b, where f is fa and fb: regula falsi, halving the value of an end that stays
+ * (Illinois), and bisection where that crawls. */
+static double root(const struct finder *s, double a, double fa, double b, double fb)
 {
-    for (int i = 0; i < 30; i++) {
-        double middle = 0.5 * (a + b);
-        if ((s->f(s->user, middle) > 0) == s->in)
-            a = middle;
-        else
-            b = middle;
+    enum { MOST = 60, PATIENCE = 12 };
+    double skip, small = 1e-9 * (1 + fabs(a) + fabs(b));
+    int side = 0;
+    for (int i = 0; i < MOST && b - a > small; i++) {
+        double z = i < PATIENCE ? b - fb * (b - a) / (fb - fa) : 0.5 * (a + b);
+        if (!(z > a && z < b))
+            z = 0.5 * (a + b);
+        double f = s->f(s->user, z, &skip);
+        if (fabs(f) < 1e-9)
+            return z;
+        if ((f > 0) == s->in) {
+            a = z;
+            fa = f;
+            fb *= side == 1 ? 0.5 : 1;
+            side = 1;
+        } else {
+            b = z;
+            fb = f;
+            fa *= side == 2 ? 0.5 : 1;
+            side = 2;
+        }
     }
     return 0.5 * (a + b);
 }
 
-static status sample(struct finder *s, double z, bool in)
+/* Looks at z; *skip as f gives it. */
+static status sample(struct finder *s, double z, double *skip)
 {
     status st = OK;
+    *skip = 0;
+    double f = s->f(s->user, z, skip);
+    bool in = f > 0;
     if (in != s->in) {
-        double at = root(s, s->z, z);
+        double at = root(s, s->z, s->value, z, f);
         if (in)
             st = open_at(s, at);
         else
@@ -44,6 +65,7 @@ static status sample(struct finder *s, double z, bool in)
         s->in = in;
     }
     s->z = z;
+    s->value = f;
     return st;
 }
 
@@ -58,24 +80,23 @@ status intervals_find(double lo, double hi, double step, const struct profile *l
                       void *user, struct intervals *out)
 {
     status st = OK;
-    struct finder s = {f, user, out, false, lo};
+    struct finder s = {f, user, out, false, lo, 0};
+    double skip = 0;
     out->n = 0;
     if (!(hi > lo))
         return OK;
-    s.in = f(user, lo) > 0;
+    /* What is below lo counts as outside: an interval that holds lo begins there. */
+    s.value = f(user, lo, &skip);
+    s.in = s.value > 0;
     if (s.in)
         TRY(open_at(&s, lo));
     for (size_t k = 0; s.z < hi; k++) {
         /* To the line's next break, or the end. */
         double to = line && k < line->n ? fmin(line->z[k], hi) : hi;
-        if (to <= s.z)
-            continue;
         bool flat = pinned && line && is_pinned(line, k);
-        double from = s.z;
-        int n = flat ? 1 : (int)fmin(ceil((to - from) / step), 1e7);
-        for (int i = 1; i <= n; i++) {
-            double z = i < n ? from + (to - from) * i / n : to;
-            TRY(sample(&s, z, f(user, z) > 0));
+        while (s.z < to) {
+            double next = s.z + fmax(step, skip);
+            TRY(sample(&s, flat || next > to - 0.1 * step ? to : next, &skip));
         }
     }
     if (s.in)

@@ -12,9 +12,11 @@ struct intervals {
     } * at;
 };
 
-typedef double (*along)(void *user, double z);
+/* A function of height. *skip, 0 before: how much higher one may go without its sign changing, m, as far as
+ * it knows. */
+typedef double (*along)(void *user, double z, double *skip);
 
-/* Where f > 0 between lo and hi, found by samples at most `step` apart, the breaks of `line` among them (NULL:
+/* Where f > 0 between lo and hi, found by samples at most `step`, or what f lets skip, apart, the breaks of `line` among them (NULL:
  * none), and bisection between them. `pinned`: where the line is 1 or -1 from break to break, f has its sign
  * there and is not asked for in between. */
 MUST_USE status intervals_find(double lo, double hi, double step, const struct profile *line, bool pinned,

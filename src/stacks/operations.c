@@ -59,8 +59,9 @@ struct field_edit {
     const struct profile *line;
 };
 
-static double changed_field(void *user, double z)
+static double changed_field(void *user, double z, double *skip)
 {
+    (void)skip;
     const struct field_edit *e = user;
     const double x[3] = {e->at[0], e->at[1], z};
     double g = e->strength, f = profile_at(e->line, z);
@@ -123,7 +124,7 @@ static status edit_field(void *user, int i, int j, struct column *c)
         hi = fmin(hi, e.center[2] + sqrt(square));
     } else if (e.path) {
         double from, to;
-        if (!path_heights(e.path, i, j, &from, &to))
+        if (!path_heights(e.path, i, j, e.at, &from, &to))
             return OK;
         lo = fmax(lo, from);
         hi = fmin(hi, to);
@@ -202,13 +203,16 @@ struct volume_edit {
 };
 
 /* Above 0 inside. */
-static double inside(void *user, double z)
+static double inside(void *user, double z, double *skip)
 {
     const struct volume_edit *e = user;
     const struct job_operation *op = e->w->op;
     const double x[3] = {e->at[0], e->at[1], z};
     double radius = 1, d = path_distance(e->path, e->i, e->j, x, &radius);
     /* Noise of 2.5 standard deviations: farther out than that, it need not be asked. */
+    /* Along a line a distance changes no faster than by 1, or a little more where the path bends. */
+    if (d > 0 || !e->line)
+        *skip = 0.8 * fmax(fabs(d) - 2.5 * op->roughness * radius, 0);
     if (op->roughness > 0 && fabs(d) < 2.5 * op->roughness * radius)
         d += op->roughness * radius *
              fmin(fmax(e->w->tools->noise(e->w->tools->user, op->scale_m, x), -2.5), 2.5);
@@ -255,19 +259,20 @@ static status edit_volume(void *user, int i, int j, struct column *c)
     struct profile line = {0};
     struct intervals in = {0};
     double lo, hi;
-    if (!path_heights(e.path, i, j, &lo, &hi))
-        return OK;
-    lo = fmax(lo, 0);
-    hi = fmin(hi, STACK_TOP * w->stacks->quantum);
     e.i = i;
     e.j = j;
     e.at[0] = (i + 0.5) * w->stacks->cell;
     e.at[1] = (j + 0.5) * w->stacks->cell;
+    if (!path_heights(e.path, i, j, e.at, &lo, &hi))
+        return OK;
+    lo = fmax(lo, 0);
+    hi = fmin(hi, STACK_TOP * w->stacks->quantum);
     if (op->tool == TOOL_ERODE && op->depth == DEPTH_SURFACE) {
         TRY(surface_profile(&w->surface, e.at[0], e.at[1], &line));
         e.line = &line;
     }
-    TRY(intervals_find(lo, hi, w->stacks->cell / 3, e.line, false, inside, &e, &in));
+    /* Deep rock is none to wear away, if the tool does not reach as deep. */
+    TRY(intervals_find(lo, hi, w->stacks->cell / 3, e.line, op->strength < 1, inside, &e, &in));
     for (size_t k = 0; k < in.n; k++) {
         uint32_t a = stacks_quanta(w->stacks, in.at[k].lo), b = stacks_quanta(w->stacks, in.at[k].hi);
         if (op->tool == TOOL_ERODE)
@@ -312,14 +317,15 @@ static status edit_drop(void *user, int i, int j, struct column *c)
 {
     const struct drop *d = user;
     const struct stacks *s = d->w->stacks;
+    const double at[2] = {(i + 0.5) * s->cell, (j + 0.5) * s->cell};
     double lo, hi, radius = 1, best = 0, from = 0;
-    if (!path_heights(d->path, i, j, &lo, &hi))
+    if (!path_heights(d->path, i, j, at, &lo, &hi))
         return OK;
     /* Seen from above: the path's point nearest to the stack. */
     for (size_t k = 0; k < d->path->n; k++) {
         const struct path_end *a = &d->path->piece[k].end[0], *b = &d->path->piece[k].end[1];
         double bx = b->at[0] - a->at[0], by = b->at[1] - a->at[1];
-        double x = (i + 0.5) * s->cell - a->at[0], y = (j + 0.5) * s->cell - a->at[1];
+        double x = at[0] - a->at[0], y = at[1] - a->at[1];
         double square = bx * bx + by * by, t = square > 0 ? fmin(fmax((x * bx + y * by) / square, 0), 1) : 0;
         radius = a->radius + t * (b->radius - a->radius);
         double r = 1 - ((x - t * bx) * (x - t * bx) + (y - t * by) * (y - t * by)) / (radius * radius);

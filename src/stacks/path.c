@@ -58,35 +58,47 @@ static void make_profiles(struct path *p, const struct job_operation *op)
 {
     double ends[2][PROFILE_POINTS][2];
     p->round = op->n_profile == 0;
-    p->outreach = p->round;
+    for (int a = 0; a < 2; a++) {
+        p->lo[a] = -p->round;
+        p->hi[a] = p->round;
+    }
     if (p->round)
         return;
     curve_of((const double(*)[2])op->profile, op->n_profile, ends[0]);
     curve_of((const double(*)[2])(op->n_end_profile ? op->end_profile : op->profile), op->n_profile, ends[1]);
-    for (int s = 0; s < PROFILE_STEPS; s++)
+    for (int s = 0; s < PROFILE_STEPS; s++) {
+        double at[PROFILE_POINTS][2], share = (double)s / (PROFILE_STEPS - 1);
+        for (int k = 0; k < PROFILE_POINTS; k++)
+            for (int a = 0; a < 2; a++) {
+                at[k][a] = ends[0][k][a] + share * (ends[1][k][a] - ends[0][k][a]);
+                p->lo[a] = fmin(p->lo[a], at[k][a]);
+                p->hi[a] = fmax(p->hi[a], at[k][a]);
+            }
         for (int k = 0; k < PROFILE_POINTS; k++) {
-            double share = (double)s / (PROFILE_STEPS - 1), *at = p->profile[s][k];
-            for (int a = 0; a < 2; a++)
-                at[a] = ends[0][k][a] + share * (ends[1][k][a] - ends[0][k][a]);
-            p->outreach = fmax(p->outreach, hypot(at[0], at[1]));
+            const double *from = at[k], *to = at[(k + 1) % PROFILE_POINTS];
+            struct profile_edge e = {from[0], from[1], to[0] - from[0], to[1] - from[1], 0, 0};
+            double square = e.ex * e.ex + e.ey * e.ey;
+            e.inverse = square > 0 ? 1 / square : 0;
+            e.slope = e.ey != 0 ? e.ex / e.ey : 0;
+            p->profile[s][k] = e;
         }
+    }
 }
 
 /* Signed distance to a closed polygon, negative inside, whatever its shape (even-odd). */
-static double polygon_distance(const double (*v)[2], double x, double y)
+static double polygon_distance(const struct profile_edge *edge, double x, double y)
 {
     double nearest = HUGE_VAL;
-    bool inside = false;
-    for (int i = 0, j = PROFILE_POINTS - 1; i < PROFILE_POINTS; j = i++) {
-        double ex = v[j][0] - v[i][0], ey = v[j][1] - v[i][1], wx = x - v[i][0], wy = y - v[i][1];
-        double square = ex * ex + ey * ey;
-        double t = square > 0 ? fmin(fmax((wx * ex + wy * ey) / square, 0), 1) : 0;
-        double dx = wx - t * ex, dy = wy - t * ey;
-        nearest = fmin(nearest, dx * dx + dy * dy);
-        if ((v[i][1] > y) != (v[j][1] > y) && x < ex * (y - v[i][1]) / ey + v[i][0])
-            inside = !inside;
+    int crossed = 0;
+    for (int i = 0; i < PROFILE_POINTS; i++) {
+        const struct profile_edge e = edge[i];
+        double wx = x - e.x, wy = y - e.y, t = (wx * e.ex + wy * e.ey) * e.inverse;
+        t = t < 0 ? 0 : t > 1 ? 1 : t;
+        double dx = wx - t * e.ex, dy = wy - t * e.ey, away = dx * dx + dy * dy;
+        nearest = away < nearest ? away : nearest;
+        crossed ^= ((wy < 0) != (wy < e.ey)) & (wx < e.slope * wy);
     }
-    return inside ? -sqrt(nearest) : sqrt(nearest);
+    return crossed ? -sqrt(nearest) : sqrt(nearest);
 }
 
 /* ---- the graph */
@@ -273,8 +285,6 @@ static status add_arc(struct maker *m, size_t arc)
         piece.end[0] = piece.end[1];
         piece.end[1] = e;
         double share = 0.5 * (piece.end[0].share + e.share);
-        piece.first = k == 1 && !g->into[end[0]];
-        piece.last = k == n && !g->from[end[1]];
         if (k > 0 && share >= m->from && (share < m->to || m->to >= 1))
             TRY(add_piece(m->path, &piece));
     }
@@ -288,25 +298,40 @@ static status add_point(struct maker *m, size_t point)
     struct path_end e = {.at = {at[0], at[1], at[2]}, .radius = at[3], .along = {1, 0, 0}};
     status st = place(m, &e);
     if (st == OK && (m->from <= 0))
-        st = add_piece(m->path, &(struct path_piece){{e, e}, true, true});
+        st = add_piece(m->path, &(struct path_piece){.end = {e, e}});
     return st;
 }
 
 /* ---- which pieces reach which stacks */
 
-static void piece_box(const struct path *p, const struct stacks *s, double reach,
-                      const struct path_piece *piece, int lo[2], int hi[2])
+static void find_box(const struct path *p, double reach, struct path_piece *piece)
 {
-    double r = (p->outreach + reach) * fmax(piece->end[0].radius, piece->end[1].radius) + s->cell;
-    for (int a = 0; a < 2; a++) {
-        double from = fmin(piece->end[0].at[a], piece->end[1].at[a]) - r;
-        double to = fmax(piece->end[0].at[a], piece->end[1].at[a]) + r;
-        lo[a] = (int)fmin(fmax(floor(from / s->cell), 0), s->n[a]);
-        hi[a] = (int)fmin(fmax(floor(to / s->cell), -1), s->n[a] - 1);
+    for (int a = 0; a < 3; a++) {
+        piece->lo[a] = HUGE_VAL;
+        piece->hi[a] = -HUGE_VAL;
+    }
+    for (int corner = 0; corner < 8; corner++) {
+        const struct path_end *e = &piece->end[corner & 1];
+        double x = corner & 2 ? p->hi[0] + reach : p->lo[0] - reach;
+        double y = corner & 4 ? p->hi[1] + reach : p->lo[1] - reach;
+        for (int a = 0; a < 3; a++) {
+            double at = e->at[a] + e->radius * (p->round ? 0 : x * e->side[a] + y * e->up[a]);
+            double round = p->round ? (1 + reach) * e->radius : reach * e->radius;
+            piece->lo[a] = fmin(piece->lo[a], at - round);
+            piece->hi[a] = fmax(piece->hi[a], at + round);
+        }
     }
 }
 
-static status sort_into_blocks(struct path *p, const struct stacks *s, double reach)
+static void piece_stacks(const struct stacks *s, const struct path_piece *piece, int lo[2], int hi[2])
+{
+    for (int a = 0; a < 2; a++) {
+        lo[a] = (int)fmin(fmax(floor(piece->lo[a] / s->cell), 0), s->n[a]);
+        hi[a] = (int)fmin(fmax(floor(piece->hi[a] / s->cell), -1), s->n[a] - 1);
+    }
+}
+
+static status sort_into_blocks(struct path *p, const struct stacks *s)
 {
     status st = OK;
     for (int a = 0; a < 2; a++)
@@ -317,7 +342,7 @@ static status sort_into_blocks(struct path *p, const struct stacks *s, double re
     for (int pass = 0; pass < 2; pass++) {
         for (size_t k = 0; k < p->n; k++) {
             int lo[2], hi[2];
-            piece_box(p, s, reach, &p->piece[k], lo, hi);
+            piece_stacks(s, &p->piece[k], lo, hi);
             listed += lo[0] <= hi[0] && lo[1] <= hi[1] ? (size_t)((hi[0] - lo[0]) / PATH_BLOCK + 2) *
                                                              (size_t)((hi[1] - lo[1]) / PATH_BLOCK + 2)
                                                        : 0;
@@ -360,7 +385,9 @@ status path_create(const struct job_operation *op, const struct surface *surface
     for (size_t p = 0; p < op->n_points_m; p++)
         if (!graph.joined[p])
             TRY(add_point(&maker, p));
-    TRY(sort_into_blocks(out, s, reach));
+    for (size_t k = 0; k < out->n; k++)
+        find_box(out, reach, &out->piece[k]);
+    TRY(sort_into_blocks(out, s));
 done:
     graph_free(&graph);
     if (st != OK)
@@ -401,41 +428,70 @@ static const uint32_t *pieces_at(const struct path *p, int i, int j, size_t *n)
     return p->list + p->first[b];
 }
 
-bool path_heights(const struct path *p, int i, int j, double *lo, double *hi)
+static bool covers(const struct path_piece *piece, const double x[2])
+{
+    return x[0] >= piece->lo[0] && x[0] <= piece->hi[0] && x[1] >= piece->lo[1] && x[1] <= piece->hi[1];
+}
+
+bool path_heights(const struct path *p, int i, int j, const double x[2], double *lo, double *hi)
 {
     size_t n;
     const uint32_t *list = pieces_at(p, i, j, &n);
     *lo = HUGE_VAL;
     *hi = -HUGE_VAL;
-    for (size_t k = 0; k < n; k++)
-        for (int e = 0; e < 2; e++) {
-            const struct path_end *end = &p->piece[list[k]].end[e];
-            double r = 2 * fmax(p->outreach, 1) * end->radius;
-            *lo = fmin(*lo, end->at[2] - r);
-            *hi = fmax(*hi, end->at[2] + r);
-        }
-    return n > 0;
+    for (size_t k = 0; k < n; k++) {
+        const struct path_piece *piece = &p->piece[list[k]];
+        if (!covers(piece, x))
+            continue;
+        *lo = fmin(*lo, piece->lo[2]);
+        *hi = fmax(*hi, piece->hi[2]);
+    }
+    return *hi > *lo;
 }
 
 /* ---- distances */
+
+/* The library's do more than compare, and are asked for here more than anything else. */
+static inline double smaller(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
 
 static double mix(double a, double b, double t)
 {
     return a + t * (b - a);
 }
 
-/* In the cross-section through the piece's point nearest to x. */
-static double in_section(const struct path *p, const struct path_piece *piece, double t, const double d[3],
-                         double radius)
+static double in_capsule(const struct path_piece *piece, const double ax[3], const double bx[3],
+                         double *radius)
+{
+    const double ab[3] = {ax[0] - bx[0], ax[1] - bx[1], ax[2] - bx[2]};
+    double square = dot(ab, ab), t = square > 0 ? smaller(larger(dot(ax, ab) / square, 0), 1) : 0;
+    const double d[3] = {ax[0] - t * ab[0], ax[1] - t * ab[1], ax[2] - t * ab[2]};
+    *radius = mix(piece->end[0].radius, piece->end[1].radius, t);
+    return sqrt(dot(d, d)) - *radius;
+}
+
+/* A piece is a prism cut by the planes across its ends: neighbours share theirs, so that they neither overlap
+ * nor gape. Not asked for more closely than `nearest`. */
+static double in_prism(const struct path *p, const struct path_piece *piece, const double ax[3],
+                       const double bx[3], double nearest, double *radius)
 {
     const struct path_end *a = &piece->end[0], *b = &piece->end[1];
-    double x = mix(dot(d, a->side), dot(d, b->side), t), y = mix(dot(d, a->up), dot(d, b->up), t);
-    double past = fabs(mix(dot(d, a->along), dot(d, b->along), t));
+    double before = -dot(ax, a->along), past = dot(bx, b->along), length = -before - past;
+    if (larger(before, past) >= nearest)
+        return nearest;
+    double t = length > 0 ? smaller(larger(-before / length, 0), 1) : 0.5;
+    double x = mix(dot(ax, a->side), dot(bx, b->side), t), y = mix(dot(ax, a->up), dot(bx, b->up), t);
     int step = (int)lrint(mix(a->share, b->share, t) * (PROFILE_STEPS - 1));
-    double section = radius * polygon_distance((const double(*)[2])p->profile[step], x / radius, y / radius);
-    /* Pieces overlap a little where the path bends; where it ends it is cut straight. */
-    bool end = (piece->first && t <= 0) || (piece->last && t >= 1);
-    return fmax(section, past - (end ? 0 : 0.35 * radius));
+    *radius = mix(a->radius, b->radius, t);
+    double section = *radius * polygon_distance(p->profile[step], x / *radius, y / *radius);
+    return larger(section, larger(before, past));
 }
 
 double path_distance(const struct path *p, int i, int j, const double x[3], double *radius)
@@ -445,15 +501,17 @@ double path_distance(const struct path *p, int i, int j, const double x[3], doub
     double nearest = HUGE_VAL;
     for (size_t k = 0; k < n; k++) {
         const struct path_piece *piece = &p->piece[list[k]];
-        const double *a = piece->end[0].at, *b = piece->end[1].at;
-        const double ab[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-        const double ax[3] = {x[0] - a[0], x[1] - a[1], x[2] - a[2]};
-        double square = dot(ab, ab), t = square > 0 ? fmin(fmax(dot(ax, ab) / square, 0), 1) : 0;
-        const double d[3] = {ax[0] - t * ab[0], ax[1] - t * ab[1], ax[2] - t * ab[2]};
-        double r = mix(piece->end[0].radius, piece->end[1].radius, t), away = sqrt(dot(d, d));
-        if (away - p->outreach * r >= nearest)
+        if (!covers(piece, x))
             continue;
-        double own = p->round ? away - r : in_section(p, piece, t, d, r);
+        double r = piece->end[0].radius, own = larger(piece->lo[2] - x[2], x[2] - piece->hi[2]);
+        if (own >= nearest)
+            continue;
+        if (own <= 0) {
+            const double *a = piece->end[0].at, *b = piece->end[1].at;
+            const double ax[3] = {x[0] - a[0], x[1] - a[1], x[2] - a[2]};
+            const double bx[3] = {x[0] - b[0], x[1] - b[1], x[2] - b[2]};
+            own = p->round ? in_capsule(piece, ax, bx, &r) : in_prism(p, piece, ax, bx, nearest, &r);
+        }
         if (own < nearest) {
             nearest = own;
             *radius = r;

@@ -14,7 +14,7 @@ struct path_end {
 
 struct path_piece {
     struct path_end end[2];
-    bool first, last; /* the path begins, ends here */
+    double lo[3], hi[3]; /* what it may reach lies in this box */
 };
 
 enum { PROFILE_POINTS = 64, PROFILE_STEPS = 17 };
@@ -22,9 +22,11 @@ enum { PROFILE_POINTS = 64, PROFILE_STEPS = 17 };
 struct path {
     size_t n, capacity;
     struct path_piece *piece;
-    bool round;      /* no profile: a circle */
-    double outreach; /* of the profiles, in radii */
-    double profile[PROFILE_STEPS][PROFILE_POINTS][2];
+    bool round;          /* no profile: a circle */
+    double lo[2], hi[2]; /* the profiles' rectangle, in radii */
+    struct profile_edge {
+        double x, y, ex, ey, inverse, slope; /* from (x, y) by (ex, ey); 1 / its length squared; ex / ey */
+    } profile[PROFILE_STEPS][PROFILE_POINTS];
     /* Pieces by blocks of 8 x 8 stacks that they reach. */
     int blocks[2];
     uint32_t *first, *list;
@@ -39,12 +41,13 @@ MUST_USE status path_create(const struct job_operation *op, const struct surface
                             const struct stacks *s, double from, double to, double reach, struct path *out);
 void path_destroy(struct path *p);
 
-/* Distance to the swept volume, about, m: negative inside. Of the pieces that reach stack (i, j); HUGE_VAL if
- * there are none. *radius: the path's there. */
+/* Distance to the swept volume, m: negative inside; outside, up or down the line through x, the swept volume
+ * is no nearer. Of the pieces that reach stack (i, j), in which x lies; HUGE_VAL if there are none. *radius:
+ * the path's there. */
 double path_distance(const struct path *p, int i, int j, const double x[3], double *radius);
 
-/* Heights between which pieces may reach stack (i, j); false: nowhere. */
-bool path_heights(const struct path *p, int i, int j, double *lo, double *hi);
+/* Heights between which pieces may reach x, in stack (i, j); false: nowhere. */
+bool path_heights(const struct path *p, int i, int j, const double x[2], double *lo, double *hi);
 
 /* The stacks that pieces may reach: hi < lo if none. */
 void path_bounds(const struct path *p, int lo[2], int hi[2]);
