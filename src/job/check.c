@@ -66,7 +66,8 @@ static status check_material(const struct yaml *map, const struct job_material *
 static status check_operation(const struct yaml *map, const struct job_operation *op)
 {
     if (op->n_points_m == 0 && op->tool != TOOL_NOISE)
-        return yaml_fail(place(map, "points_m"), NULL, "this tool needs at least one point [x, y, z, radius]");
+        return yaml_fail(place(map, "points_m"), NULL,
+                         "this tool needs at least one point [x, y, z, radius]");
     for (size_t i = 0; i < op->n_points_m; i++)
         if (!(op->points_m[i][3] > 0))
             return yaml_fail(yaml_item(yaml_get(map, "points_m"), i), NULL, "a radius of %g m (above 0)",

@@ -34,7 +34,8 @@ enum job_shape {
     SHAPE_PLANE,
     SHAPE_MESH,
     SHAPE_HEIGHTFIELD,
-    SHAPE_JOINTMAP
+    SHAPE_JOINTMAP,
+    SHAPE_STACKS
 };
 
 /* The top section is the job itself: struct job, not struct job_job. */
@@ -82,6 +83,7 @@ struct job_node {
         struct job_mesh mesh;
         struct job_heightfield heightfield;
         struct job_jointmap jointmap;
+        struct job_stacks stacks;
         struct job_group group; /* operators */
     } u;
 };
@@ -91,6 +93,7 @@ enum { TOOL_SCULPT, TOOL_SWEEP, TOOL_DEPOSIT, TOOL_ERODE, TOOL_FILL, TOOL_NOISE 
 enum { MODE_CARVE, MODE_ADD };
 enum { DEPTH_SURFACE, DEPTH_DEEP };
 enum { EDGES_CLOSED, EDGES_OPEN };
+enum { STACKS_LAST, STACKS_ALL, STACKS_NONE };
 enum { FLOW_SPH, FLOW_UNIFORM };
 enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };

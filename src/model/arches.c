@@ -23,6 +23,7 @@
 #include "particles/particles.h"
 #include "scene/noise.h"
 #include "scene/scene.h"
+#include "stacks/file.h"
 #include "stacks/operations.h"
 #include "stacks/stabilise.h"
 
@@ -172,6 +173,29 @@ done:
     return st;
 }
 
+static status add_rocks(struct model *m, struct frame *out)
+{
+    status st = OK;
+    struct pile_place *place = NULL;
+    size_t n;
+    struct rock *rock = &out->rocks.at;
+    TRY(terrain_rocks(m->job, &m->stacks, &m->tile, &place, &n));
+    out->rocks.wanted = m->tile.n > 0;
+    rock->n = n;
+    TRY(memory_alloc(4 * n, sizeof *rock->P, "rocks", &rock->P));
+    TRY(memory_alloc(n, sizeof *rock->id, "rocks", &rock->id));
+    TRY(memory_alloc(n, sizeof *rock->layer, "rocks", &rock->layer));
+    for (size_t i = 0; i < n; i++) {
+        for (size_t a = 0; a < 3; a++)
+            rock->P[4 * i + a] = (float)place[i].at[a];
+        rock->id[i] = (uint32_t)i;
+        rock->layer[i] = place[i].rock;
+    }
+done:
+    free(place);
+    return st;
+}
+
 /* Quanta in cubic metres. */
 static double volume_of(const struct model *m, uint64_t quanta)
 {
@@ -196,6 +220,11 @@ static status output(struct model *m, struct frame *out)
                           .start_volume_m3 = volume_of(m, m->ledger.start)};
     gpu_stage(m->gpu, "surface");
     TRY(terrain_look(&v));
+    TRY(add_rocks(m, out));
+    if (m->job->arches.stacks == STACKS_ALL ||
+        (m->job->arches.stacks == STACKS_LAST && m->frame == m->job->frames.last))
+        TRY(stacks_encode(&m->stacks, spaces_kinds(m->table, m->n_materials).solid, &out->stacks.bytes,
+                          &out->stacks.size));
     TRY(particles_create(m->gpu, m->work, &v.rock, voxels, m->job->domain.spacing_m, &p));
     TRY(show(m, &v, &p, out));
 done:

@@ -133,10 +133,23 @@ static status add_contact(struct pile_rock *r, const struct pile_contact *contac
     return st;
 }
 
-/* A random point of the face, clear of the rounded edges; false: the face is too small for one. */
-static bool point_on_face(const struct cell *c, size_t face, double radius, uint32_t seed, uint32_t what,
-                          double out[3])
+/* The face of the cell beyond that is the face `f` of rock i's. */
+static size_t same_face(const struct cell *beyond, size_t i, const struct plane *f)
 {
+    for (size_t k = 0; k < beyond->n; k++) {
+        const struct plane *p = &beyond->plane[k];
+        const double d[3] = {p->shift[0] + f->shift[0], p->shift[1] + f->shift[1], p->shift[2] + f->shift[2]};
+        if (p->other == i && dot(d, d) < 1e-12 * dot(f->shift, f->shift))
+            return k;
+    }
+    return SIZE_MAX;
+}
+
+/* A random point of the face, clear of the rounded edges; false: the face is too small for one. */
+static bool point_on_face(const struct cell *cell, size_t i, size_t face, double radius, uint32_t seed,
+                          uint32_t what, double out[3])
+{
+    const struct cell *c = &cell[i], *beyond = &cell[c->plane[face].other];
     const struct plane *f = &c->plane[face];
     double size = 1.2 * radius;
     for (uint32_t trial = 0; trial < CONTACT_TRIALS; trial++, size *= 0.9) {
@@ -145,16 +158,20 @@ static bool point_on_face(const struct cell *c, size_t face, double radius, uint
         double length = size * sqrt(chance(seed, what, trial, 4)), out_of = dot(away, f->n);
         for (int k = 0; k < 3; k++)
             out[k] = f->d * f->n[k] + length * (away[k] - out_of * f->n[k]);
-        if (depth_at(c, out, face) > ROUNDING * radius * 1.01)
+        const double there[3] = {out[0] - f->shift[0], out[1] - f->shift[1], out[2] - f->shift[2]};
+        double clear = ROUNDING * radius * 1.01;
+        if (depth_at(c, out, face) > clear && depth_at(beyond, there, same_face(beyond, i, f)) > clear)
             return true;
     }
     return false;
 }
 
 /* Every face is looked at from the rock with the lower number, or if it is its own neighbour from one side. */
-static status find_contacts(struct pile_tile *t, const struct pile_options *o, size_t i, const struct cell *c)
+static status find_contacts(struct pile_tile *t, const struct pile_options *o, size_t i,
+                            const struct cell *cell)
 {
     status st = OK;
+    const struct cell *c = &cell[i];
     for (size_t face = 0; face < c->n; face++) {
         const struct plane *f = &c->plane[face];
         bool own_side =
@@ -163,7 +180,7 @@ static status find_contacts(struct pile_tile *t, const struct pile_options *o, s
         for (size_t k = 0; k < o->contacts && own_side; k++) {
             struct pile_contact here = {.other = f->other}, there = {.other = i};
             uint32_t what = (uint32_t)((i * PLANES + face) * 8 + k);
-            if (!point_on_face(c, face, o->radius, o->seed, what, here.at))
+            if (!point_on_face(cell, i, face, o->radius, o->seed, what, here.at))
                 break;
             for (int a = 0; a < 3; a++) {
                 here.shift[a] = f->shift[a];
@@ -198,8 +215,17 @@ static double smooth_min(double a, double b, double width)
 static double inside(const struct worn *w, const double p[3])
 {
     double width = ROUNDING * w->radius, depth = 4 * w->radius, resistance = 0;
-    for (size_t k = 0; k < w->cell->n; k++)
-        depth = smooth_min(depth, w->cell->plane[k].d - dot(w->cell->plane[k].n, p), width);
+    double own[PLANES], rounded = 0;
+    for (size_t k = 0; k < w->cell->n; k++) {
+        own[k] = w->cell->plane[k].d - dot(w->cell->plane[k].n, p);
+        depth = fmin(depth, own[k]);
+    }
+    /* Each face that is nearly as near rounds the edge it makes; the nearest itself counts as one, too much. */
+    for (size_t k = 0; k < w->cell->n; k++) {
+        double h = 1 - (own[k] - depth) / width;
+        rounded += h > 0 ? h * h : 0;
+    }
+    depth -= 0.25 * width * (rounded - 1);
     for (size_t k = 0; k < w->rock->n_contacts; k++) {
         const double *c = w->rock->contact[k].at, d[3] = {p[0] - c[0], p[1] - c[1], p[2] - c[2]};
         resistance = fmax(resistance, exp(-dot(d, d) / (w->radius * w->radius)));
@@ -268,14 +294,15 @@ static void trim(struct cell *c, const double (*u)[3], size_t n, double radius)
 }
 
 /* The directions nearest to the contacts become theirs, so that the mesh goes through them. */
-static void aim(const struct pile_rock *r, double (*u)[3], size_t n)
+static void aim(const struct pile_rock *r, const double (*sphere)[3], double (*u)[3], size_t n)
 {
     for (size_t c = 0; c < r->n_contacts; c++) {
         const double *at = r->contact[c].at;
         double length = sqrt(dot(at, at)), best = -HUGE_VAL;
         size_t nearest = 0;
         for (size_t v = 0; v < n; v++)
-            if (dot(u[v], at) > best) {
+            /* One that has been turned serves its own contact. */
+            if (dot(u[v], at) > best && memcmp(u[v], sphere[v], sizeof u[v]) == 0) {
                 best = dot(u[v], at);
                 nearest = v;
             }
@@ -294,7 +321,7 @@ static status make_mesh(struct pile_tile *t, const struct pile_options *o, size_
     TRY(memory_alloc(n, sizeof *u, "rocks", &u));
     memcpy(u, sphere, n * sizeof *u);
     trim(cell, sphere, n, o->radius);
-    aim(r, u, n);
+    aim(r, sphere, u, n);
     chip(&w, o->seed, (uint32_t)i);
     TRY(memory_alloc(3 * n, sizeof *r->vertex, "rocks", &r->vertex));
     TRY(memory_alloc(3 * n, sizeof *r->normal, "rocks", &r->normal));
@@ -409,7 +436,7 @@ status pile_tile_create(const struct pile_options *o, struct pile_tile *out)
     for (size_t i = 0; i < t.n; i++)
         TRY(find_cell(&t, i, &cell[i]));
     for (size_t i = 0; i < t.n; i++)
-        TRY(find_contacts(&t, o, i, &cell[i]));
+        TRY(find_contacts(&t, o, i, cell));
     TRY(make_sphere(o->detail, &sphere, &n, &t.triangle, &t.n_triangles));
     for (size_t i = 0; i < t.n; i++) {
         TRY(make_mesh(&t, o, i, &cell[i], (const double(*)[3])sphere, n));

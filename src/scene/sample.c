@@ -74,6 +74,7 @@ static void fill_particle(const struct sampler *s, const int voxel[3], unsigned 
     const double x[3] = {(double)rock->P[4 * p], (double)rock->P[4 * p + 1], (double)rock->P[4 * p + 2]};
     struct paint_values paint = paint_at(s->paint, x);
     rock->id[p] = (uint32_t)p;
+    rock->phase[p] = solid_at(s->solid, x).loose ? 1 : 0;
     rock->viability[p] = (float)(paint.viability * share / COVERAGE_FULL);
     rock->layer[p] = (uint32_t)job_layer_at(s->job, x[2]);
     rock->rate_factor[p] = (float)rate_factor(s, x, &paint);

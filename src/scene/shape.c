@@ -73,10 +73,22 @@ double shape_distance(const struct shape *shape, const double x[3])
     case SHAPE_JOINTMAP:
         d = jointmap_distance(shape->u.jointmap, p);
         break;
+    case SHAPE_STACKS:
+        d = terrain_shape_distance(shape->u.terrain, p);
+        break;
     case SHAPE_MESH:
         break;
     }
     return d * shape->place.shrink;
+}
+
+bool shape_loose(const struct shape *shape, const double x[3])
+{
+    double p[3];
+    if (shape->kind != SHAPE_STACKS)
+        return false;
+    placement_apply(shape->place.local_from_world, x, p);
+    return terrain_shape_loose(shape->u.terrain, p);
 }
 
 /* ---- shapes from the job */
@@ -194,6 +206,14 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         placement_box(place, j->min_m, j->max_m, s->min, s->max);
         break;
     }
+    case SHAPE_STACKS: {
+        const double origin[3] = {0, 0, 0};
+        double size[3];
+        TRY(terrain_shape_create(&node->u.stacks, reach / place->shrink, &s->u.terrain));
+        terrain_shape_size(s->u.terrain, size);
+        placement_box(place, origin, size, s->min, s->max);
+        break;
+    }
     }
 done:
     return st;
@@ -207,4 +227,6 @@ void shape_deinit(struct shape *shape)
         heightfield_destroy(&shape->u.heightfield);
     if (shape->kind == SHAPE_JOINTMAP)
         jointmap_destroy(&shape->u.jointmap);
+    if (shape->kind == SHAPE_STACKS)
+        terrain_shape_destroy(&shape->u.terrain);
 }

@@ -6,6 +6,7 @@
 #include "scene/jointmap.h"
 #include "scene/mesh_shim.h"
 #include "scene/placement.h"
+#include "scene/terrain.h"
 
 struct shape {
     enum job_shape kind;
@@ -23,6 +24,7 @@ struct shape {
         struct vdb_sdf *mesh; /* already in the world: its vertices were placed */
         struct heightfield *heightfield;
         struct jointmap *jointmap;
+        struct terrain_shape *terrain;
     } u;
 };
 
@@ -33,5 +35,8 @@ void shape_deinit(struct shape *shape);
 
 /* m, negative inside; the sign is exact, the size exact or less. */
 double shape_distance(const struct shape *shape, const double x[3]);
+
+/* Is the shape loose material at x? */
+bool shape_loose(const struct shape *shape, const double x[3]);
 
 #endif

@@ -383,12 +383,13 @@ static void test_memory(void **state)
         int nx, ny;
         double height, megabytes;
         uint32_t tunnels;
-    } scenes[] = {{"cave", 1000, 750, 8000, 21, 40},
-                  {"canyon", 1000, 500, 5000, 14, 24},
+    } scenes[] = {{"cave", 1000, 750, 8000, 21, 30},
+                  {"canyon", 1000, 500, 5000, 14, 20},
                   {"cliff", 2000, 500, 4000, 26, 40}};
     for (uint32_t k = 0; k < 3; k++) {
-        struct stacks s = block(scenes[k].nx, scenes[k].ny, scenes[k].height, 0.6 * scenes[k].height);
-        double size = 0.12 * scenes[k].ny, t0 = now(), h = scenes[k].height;
+        /* A voxel of an eighth of a stack's width; stacks are finer still. */
+        struct stacks s = block(scenes[k].nx, scenes[k].ny, scenes[k].height / 8, 0.6 * scenes[k].height / 8);
+        double size = 0.12 * scenes[k].ny, t0 = now(), h = scenes[k].height / 8;
         int lo[2], hi[2];
         struct job_operation rough = tool(TOOL_NOISE, NULL, 0);
         apply(&s, &rough, 1, lo, hi);
@@ -399,7 +400,7 @@ static void test_memory(void **state)
             ravine[p][2] = 0.5 * h;
             ravine[p][3] = 0.4 * size;
         }
-        double deep[6][2] = {{-1, 6}, {1, 6}, {0.7, 1}, {0.5, -2}, {-0.6, -2}, {-0.8, 1}};
+        double deep[6][2] = {{-1, 4}, {1, 4}, {0.7, 1}, {0.5, -2}, {-0.6, -2}, {-0.8, 1}};
         struct job_operation op = tool(TOOL_SWEEP, ravine, 6);
         op.profile = deep;
         op.n_profile = 6;
