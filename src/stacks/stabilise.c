@@ -219,6 +219,81 @@ static bool spent(const struct slide *s)
     return s->options->sweeps && s->out->sweeps >= s->options->sweeps;
 }
 
+/* Does this space have anywhere to go to? Reads only; where a tile has not been opened, it may. */
+static bool may_move(const struct slide *s, int i, int j, int k)
+{
+    const struct stacks *g = s->spaces.stacks;
+    struct target target[TARGETS];
+    int n;
+    const struct space *from = spaces_at(&s->spaces, i, j, &n) + k;
+    double h = surface_of(from, s->slot);
+    if (from->amount[s->slot] == 0)
+        return false;
+    for (int d = 0; d < 9; d++) {
+        int a = i + d % 3 - 1, b = j + d / 3 - 1;
+        double rise = s->run[d % 3 != 1 && d / 3 != 1];
+        if (d == 4)
+            continue;
+        if (a < 0 || b < 0 || a >= g->n[0] || b >= g->n[1]) {
+            if (s->options->open_edges)
+                return true;
+            continue;
+        }
+        if (!s->spaces.tile[(size_t)(b / STACK_TILE) * (size_t)g->tiles[0] + (size_t)(a / STACK_TILE)].open ||
+            targets_in(s, from, h, a, b, rise, target, 0) > 0)
+            return true;
+    }
+    return false;
+}
+
+/* Marks in row j of lo..hi the stacks that may move. */
+static void mark_row(const struct slide *s, int j, int lo, int hi, uint8_t *mark)
+{
+    const struct stacks *g = s->spaces.stacks;
+    for (int i = lo; i <= hi; i++) {
+        const struct space_tile *tile =
+            &s->spaces.tile[(size_t)(j / STACK_TILE) * (size_t)g->tiles[0] + (size_t)(i / STACK_TILE)];
+        int n;
+        mark[i] = 0;
+        if (!tile->open)
+            continue;
+        spaces_at(&s->spaces, i, j, &n);
+        for (int k = 0; k < n && !mark[i]; k++)
+            mark[i] = may_move(s, i, j, k);
+    }
+}
+
+/* What moves first: of lo..hi and a stack around, or of all that is open. */
+static status find_unstable(struct slide *s, const int lo[2], const int hi[2], bool everywhere)
+{
+    status st = OK;
+    const struct stacks *g = s->spaces.stacks;
+    uint8_t *mark = NULL;
+    int from[2], to[2];
+    for (int a = 0; a < 2; a++) {
+        from[a] = everywhere || lo[a] < 1 ? 0 : lo[a] - 1;
+        to[a] = everywhere || hi[a] + 2 > g->n[a] ? g->n[a] - 1 : hi[a] + 1;
+    }
+    TRY(memory_alloc((size_t)g->n[0] * (size_t)g->n[1], 1, "a slide", &mark));
+#pragma omp parallel for schedule(dynamic, 8)
+    for (int j = from[1]; j <= to[1]; j++)
+        mark_row(s, j, from[0], to[0], mark + (size_t)j * (size_t)g->n[0]);
+    for (int j = from[1]; j <= to[1]; j++)
+        for (int i = from[0]; i <= to[0]; i++) {
+            struct space_tile *tile;
+            int n;
+            if (!mark[(size_t)j * (size_t)g->n[0] + (size_t)i])
+                continue;
+            TRY(spaces_tile(&s->spaces, i, j, &tile));
+            spaces_at(&s->spaces, i, j, &n);
+            for (int k = 0; k < n; k++)
+                TRY(push(s, tile, i, j, k));
+        }
+done:
+    free(mark);
+    return st;
+}
+
 /* One material until it rests; *moved: did it at all? */
 static status settle(struct slide *s, const int lo[2], const int hi[2], bool everywhere, bool *moved)
 {
@@ -231,19 +306,7 @@ static status settle(struct slide *s, const int lo[2], const int hi[2], bool eve
     s->run[1] = s->run[0] * sqrt(2);
     s->spare = fmax(across * tan(most) - s->run[0], 2);
     s->next.n = 0;
-    /* Tiles that slides have opened lie outside lo..hi; what they hold may have been freed to move. */
-    for (int j = 0; j < g->n[1]; j++)
-        for (int i = 0; i < g->n[0]; i++) {
-            struct space_tile *tile =
-                &s->spaces.tile[(size_t)(j / STACK_TILE) * (size_t)g->tiles[0] + (size_t)(i / STACK_TILE)];
-            int n;
-            if (!tile->open ||
-                (!everywhere && (i < lo[0] - 1 || i > hi[0] + 1 || j < lo[1] - 1 || j > hi[1] + 1)))
-                continue;
-            spaces_at(&s->spaces, i, j, &n);
-            for (int k = 0; k < n; k++)
-                TRY(push(s, tile, i, j, k));
-        }
+    TRY(find_unstable(s, lo, hi, everywhere));
     while (s->next.n && !spent(s)) {
         struct list list = s->now;
         s->now = s->next;
