@@ -285,6 +285,8 @@ static status add_arc(struct maker *m, size_t arc)
         piece.end[0] = piece.end[1];
         piece.end[1] = e;
         double share = 0.5 * (piece.end[0].share + e.share);
+        piece.first = k == 1 && !g->into[end[0]];
+        piece.last = k == n && !g->from[end[1]];
         if (k > 0 && share >= m->from && (share < m->to || m->to >= 1))
             TRY(add_piece(m->path, &piece));
     }
@@ -491,7 +493,10 @@ static double in_prism(const struct path *p, const struct path_piece *piece, con
     int step = (int)lrint(mix(a->share, b->share, t) * (PROFILE_STEPS - 1));
     *radius = mix(a->radius, b->radius, t);
     double section = *radius * polygon_distance(p->profile[step], x / *radius, y / *radius);
-    return larger(section, larger(before, past));
+    /* A plane between neighbours is no wall. */
+    if (piece->first || before > 0)
+        section = larger(section, before);
+    return piece->last || past > 0 ? larger(section, past) : section;
 }
 
 double path_distance(const struct path *p, int i, int j, const double x[3], double *radius)

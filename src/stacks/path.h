@@ -14,6 +14,7 @@ struct path_end {
 
 struct path_piece {
     struct path_end end[2];
+    bool first, last;    /* the path begins, ends here: it is cut straight */
     double lo[3], hi[3]; /* what it may reach lies in this box */
 };
 
