@@ -239,6 +239,21 @@ static void test_profiles(void **state)
         assert_true(fabs(taken - exact) < 0.02 * exact);
         stacks_destroy(&s);
     }
+    /* A rough wall, and nothing but air within: noise moves the wall only. */
+    struct stacks rough = block(128, 96, 128, 100);
+    double bent[3][4] = {{14, 40, 50, 14}, {60, 56, 50, 14}, {114, 44, 50, 14}};
+    struct job_operation wall = tool(TOOL_SWEEP, bent, 3);
+    int from[2], to[2];
+    wall.profile = square;
+    wall.n_profile = 8;
+    wall.roughness = 0.1;
+    apply(&rough, &wall, 1, from, to);
+    size_t n_layers;
+    const uint32_t *hollow = stacks_column(&rough, 60, 56, &n_layers);
+    assert_int_equal(n_layers, 3);
+    assert_true(fabs(layer_top(hollow[0]) * rough.quantum - 43) < 2.5 * 1.4 + 0.5);
+    assert_true(fabs(layer_top(hollow[1]) * rough.quantum - 57) < 2.5 * 1.4 + 0.5);
+    stacks_destroy(&rough);
     /* A crack follows the ground: on a slope it is as deep everywhere. */
     struct stacks s = block(96, 48, 128, 10);
     for (int i = 0; i < 96; i++)
@@ -383,9 +398,9 @@ static void test_memory(void **state)
         int nx, ny;
         double height, megabytes;
         uint32_t tunnels;
-    } scenes[] = {{"cave", 1000, 750, 8000, 21, 30},
-                  {"canyon", 1000, 500, 5000, 14, 20},
-                  {"cliff", 2000, 500, 4000, 26, 40}};
+    } scenes[] = {{"cave", 1000, 750, 8000, 21, 12},
+                  {"canyon", 1000, 500, 5000, 14, 12},
+                  {"cliff", 2000, 500, 4000, 26, 24}};
     for (uint32_t k = 0; k < 3; k++) {
         /* A voxel of an eighth of a stack's width; stacks are finer still. */
         struct stacks s = block(scenes[k].nx, scenes[k].ny, scenes[k].height / 8, 0.6 * scenes[k].height / 8);
@@ -442,7 +457,7 @@ static void test_memory(void **state)
             scenes[k].name, s.n[0], s.n[1], scenes[k].height, megabytes, scenes[k].megabytes,
             stacks_layers(&s), most, overhangs, s.n[0] * s.n[1], now() - t0);
         assert_true(megabytes <= scenes[k].megabytes);
-        assert_true(overhangs > (size_t)(s.n[0] * s.n[1]) / 8);
+        assert_true(overhangs > (size_t)(s.n[0] * s.n[1]) / 16);
         stacks_destroy(&s);
     }
 }
