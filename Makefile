@@ -3,8 +3,9 @@
 PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers \
 	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
 	libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
-TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-numpy python3-scipy
-PEER_PACKAGES = blender
+TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy
+PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
+PEER_WHEELS = usd-core==26.11 numpy==2.2.6
 DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
 
 MAKEFLAGS += --jobs=$(shell nproc)
@@ -50,6 +51,10 @@ deps-peers: $(BUILD)/.deps-peers
 $(BUILD)/.deps-peers: Makefile $(BUILD)/.deps-test
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(PEER_PACKAGES) && touch $@
 
+# Pixar's USD is no Debian package; the tests alone need it.
+$(BUILD)/venv-usd/.done: Makefile $(BUILD)/.deps-peers
+	$(Q)/usr/bin/python3 -m venv $(@D) && $(@D)/bin/pip install --quiet $(PEER_WHEELS) && touch $@
+
 $(BUILD)/hoodoo: $(BUILD)/src/main.o $(BUILD)/libhoodoo.a
 	@echo "link $@"
 	$(Q)$(CC) $(CFLAGS) -o $@ $^ $(LDLIBS)
@@ -90,12 +95,12 @@ $(BUILD)/gen/gpu/kernels.o: $(BUILD)/gen/gpu/kernels.c $(BUILD)/gen/gpu/kernels.
 	@echo "cc $<"
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-# ---- scenes: POV-Ray text, embedded as lines
+# ---- scenes and the report's page: POV-Ray text, CSS and JavaScript, embedded as lines
 
-SCENE = $(sort $(wildcard render/*.inc))
+SCENE = $(sort $(wildcard render/*.inc render/*.css render/*.js))
 $(BUILD)/gen/render/scene_parts.c: $(SCENE) render/embed.sh
 	$(Q)mkdir -p $(@D) && sh render/embed.sh $(SCENE) > $@.tmp && mv $@.tmp $@
-$(BUILD)/gen/render/scene_parts.o: $(BUILD)/gen/render/scene_parts.c render/scene_parts.h
+$(BUILD)/gen/render/scene_parts.o: $(BUILD)/gen/render/scene_parts.c render/scene_parts.h render/page_parts.h
 	@echo "cc $<"
 	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
@@ -114,8 +119,8 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/libhoodoo.a $(TEST_HELP) | $(BUILD)/.deps-t
 test: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) unit gpu physics restart cli
 
-## test-peers: read what we write with Blender and other programs (large packages)
-test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers
+## test-peers: read what we write with Blender, USD, Chromium and other programs (large packages)
+test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers $(BUILD)/venv-usd/.done
 	$(Q)sh tests/run.sh $(BUILD) peers
 
 ## test-long: the slow proofs: every interruption, resolution, sweeps

@@ -69,12 +69,12 @@ static const struct job_camera *chosen_camera(const struct preview *p)
 }
 
 /* The job's camera, with the picture's own shape: its film keeps its width. */
-static struct camera shaped(const struct job_camera *camera, int width, int height)
+static struct camera shaped(const struct job_camera *camera, int frame, int width, int height)
 {
     struct job_camera own = *camera;
     own.resolution[0] = width;
     own.resolution[1] = height;
-    return camera_of(&own);
+    return camera_of(&own, frame);
 }
 
 /* Writes the frame's scene, with one camera (views = 0) or an orbit of them, to `path` under root. */
@@ -86,7 +86,6 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     struct vdb_mesh mesh = {0};
     struct camera *camera = NULL;
     struct text text = {0};
-    static const char *const ratios[] = {"bedrock", "sand"};
     bool terrain = p->job->model == MODEL_ARCHES;
     struct pile_tile tile = {0};
     struct rock rocks = {0};
@@ -94,7 +93,7 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     const struct job_camera *own = chosen_camera(p);
     volumes_path(p, frame, volumes);
     snprintf(full, sizeof full, "%s/%s", p->root, volumes);
-    TRY(vdb_mesh_read(full, terrain ? 0 : ADAPTIVITY, ratios, terrain ? 2 : 0, &mesh));
+    TRY(vdb_mesh_read(full, terrain ? 0 : ADAPTIVITY, scene_values, SCENE_VALUES, SCENE_VALUES, &mesh));
     if (terrain && p->job->arches.piles.rock_m > 0) {
         TRY(terrain_tile(p->job, &tile));
         TRY(folder_path(full, p->root, p->job->name, FILE_ROCKS, frame, NULL));
@@ -105,8 +104,8 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     TRY(memory_alloc((size_t)(views ? views : 1), sizeof *camera, "cameras", &camera));
     size_of(p, own, views > 0, width, height);
     if (!views)
-        camera[0] = own ? shaped(own, *width, *height) : scene_orbit(&scene, -55, *width, *height);
-    double start = own ? own->orbit.azimuth_deg : -55;
+        camera[0] = own ? shaped(own, frame, *width, *height) : scene_orbit(&scene, -55, *width, *height);
+    double start = own ? curve_at(&own->orbit.azimuth_deg, frame) : -55;
     for (int view = 0; view < views; view++)
         camera[view] = scene_orbit(&scene, start + 360.0 * view / views, *width, *height);
     scene.camera = camera;

@@ -15,6 +15,11 @@
 #include "job/palette.h"
 #include "render/scene_parts.h"
 
+const char *const scene_values[SCENE_VALUES] = {[SCENE_VEGETATION] = "vegetation",
+                                                [SCENE_DEPOSIT] = "deposit",
+                                                [SCENE_BEDROCK] = "bedrock",
+                                                [SCENE_SAND] = "sand"};
+
 status scene_bounds(struct scene *s)
 {
     if (s->mesh->n_triangles == 0)
@@ -55,22 +60,22 @@ static bool holds(const struct scene *s, const struct camera *c, double share)
 
 struct camera scene_orbit(const struct scene *s, double azimuth_deg, int width, int height)
 {
-    struct job_camera orbit = {.focal_mm = 35, .aperture_mm = 36, .resolution = {width, height}};
-    orbit.orbit.elevation_deg = 12;
-    double size = 0;
+    const double elevation_deg = 12, film = 18.0 / 35;
+    double target[3], size = 0;
     for (int k = 0; k < 3; k++) {
-        orbit.orbit.target_m[k] = 0.5 * (s->low[k] + s->high[k]);
+        target[k] = 0.5 * (s->low[k] + s->high[k]);
         size = fmax(size, s->high[k] - s->low[k]);
     }
-    orbit.orbit.distance_m = fmax(0.5 * size, 1e-3);
     /* One distance for the whole orbit, or the rock would breathe. */
-    for (int azimuth = 0; azimuth < 360; azimuth += 5) {
-        orbit.orbit.azimuth_deg = azimuth;
-        for (struct camera c = camera_of(&orbit); !holds(s, &c, 0.86); c = camera_of(&orbit))
-            orbit.orbit.distance_m *= 1.01;
-    }
-    orbit.orbit.azimuth_deg = azimuth_deg;
-    return camera_of(&orbit);
+    double distance = fmax(0.5 * size, 1e-3);
+    for (int azimuth = 0; azimuth < 360; azimuth += 5)
+        for (;;) {
+            struct camera c = camera_orbit(target, distance, azimuth, elevation_deg, film, width, height);
+            if (holds(s, &c, 0.86))
+                break;
+            distance *= 1.01;
+        }
+    return camera_orbit(target, distance, azimuth_deg, elevation_deg, film, width, height);
 }
 
 static void add_vectors(struct text *out, const char *name, const struct scene *s, size_t offset)
@@ -118,8 +123,8 @@ static void add_textures(struct text *out)
 static int texture_of(const struct vdb_mesh *m, uint32_t vertex)
 {
     const float *n = m->normal + 3 * (size_t)vertex;
-    double power[3], sum = 1e-30, bedrock = (double)m->value[vertex];
-    double sand = (double)m->value[m->n_vertices + vertex];
+    double power[3], sum = 1e-30, bedrock = (double)m->value[SCENE_BEDROCK * m->n_vertices + vertex];
+    double sand = (double)m->value[SCENE_SAND * m->n_vertices + vertex];
     for (int a = 0; a < 3; a++) {
         power[a] = pow(fabs((double)n[a]), 8);
         sum += power[a];
@@ -131,6 +136,15 @@ static int texture_of(const struct vdb_mesh *m, uint32_t vertex)
         before += QUARTERS + 1 - k;
     int share = (int)lrint(QUARTERS * (sand > 0 ? sand / (sand + bedrock) : 0));
     return (share > QUARTERS ? QUARTERS : share) * AXIS_SHARES + before + y;
+}
+
+/* Which texture of the list a vertex has: rock, scree, or plants by their cover. */
+static int ground_of(const struct vdb_mesh *m, size_t vertex)
+{
+    float plants = m->value[SCENE_VEGETATION * m->n_vertices + vertex];
+    if (plants > 0.15F)
+        return plants < 0.4F ? 2 : plants < 0.7F ? 3 : 4;
+    return m->value[SCENE_DEPOSIT * m->n_vertices + vertex] > 0.5F ? 1 : 0;
 }
 
 /* Few digits: reading the mesh takes most of a small picture's time. */
@@ -150,16 +164,25 @@ static void add_mesh(struct text *out, const struct scene *s)
         const float *v = m->normal + 3 * i;
         text_add(out, ",\n<%.3f,%.3f,%.3f>", (double)v[0], (double)v[1], (double)v[2]);
     }
+    bool bare = !is_terrain(s);
+    for (size_t i = 0; i < m->n_vertices && bare; i++)
+        bare = ground_of(m, i) == 0;
     if (is_terrain(s))
         add_textures(out);
+    else if (!bare)
+        text_add(out, "}\n"
+                      "texture_list { 5, texture { Sandstone }, texture { Talus }, texture { Plants[0] }, "
+                      "texture { Plants[1] }, texture { Plants[2] }");
     text_add(out, "}\nface_indices { %zu", m->n_triangles);
     for (size_t i = 0; i < m->n_triangles; i++) {
         const uint32_t *t = m->triangle + 3 * i;
         text_add(out, ",\n<%u,%u,%u>", t[0], t[1], t[2]);
         if (is_terrain(s))
             text_add(out, ",%d,%d,%d", texture_of(m, t[0]), texture_of(m, t[1]), texture_of(m, t[2]));
+        else if (!bare)
+            text_add(out, ",%d,%d,%d", ground_of(m, t[0]), ground_of(m, t[1]), ground_of(m, t[2]));
     }
-    text_add(out, "}\n}\n\n");
+    text_add(out, "}\n%s}\n\n", bare ? "texture { Sandstone }\n" : "");
 }
 
 /* Every shape of rock that is used, once; then where they lie. */
@@ -233,9 +256,8 @@ status scene_write(const struct scene *s, struct text *out)
     text_add(out, "#declare High = <%.9g, %.9g, %.9g>;\n", s->high[0], s->high[1], s->high[2]);
     text_add(out, "#declare Center = (Low + High) / 2;\n#declare Size = %.9g;\n", size);
     add_strata(out, s);
-    add_part(out, scene_light);
-    add_part(out, scene_sky);
     add_part(out, scene_sandstone);
+    add_part(out, scene_scree);
     if (is_terrain(s)) {
         add_color(out, "Sand_Color", s->job, s->job->n_strata);
         add_color(out, "Rock_Color", s->job, s->job->n_strata + 1);
@@ -243,7 +265,9 @@ status scene_write(const struct scene *s, struct text *out)
         add_part(out, scene_terrain);
     }
     add_mesh(out, s);
-    text_add(out, is_terrain(s) ? "object { Rock }\n" : "object { Rock texture { Sandstone } }\n");
+    add_part(out, scene_light);
+    add_part(out, scene_sky);
+    text_add(out, "object { Rock }\n");
     status st = s->rocks.tile ? add_rocks(out, s) : OK;
     return st == OK ? text_status(out) : st;
 }

@@ -15,6 +15,10 @@ struct scene_rocks {
     const struct rock *at; /* P, and in `layer` which of the tile */
 };
 
+/* The values the mesh comes with, 0 where a job has none. */
+enum { SCENE_VEGETATION, SCENE_DEPOSIT, SCENE_BEDROCK, SCENE_SAND, SCENE_VALUES };
+extern const char *const scene_values[SCENE_VALUES];
+
 struct scene {
     const struct job *job;
     int frame;

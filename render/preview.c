@@ -1,4 +1,6 @@
 /* hoodoo preview OUT: POV-Ray stills of frames, and the turntable of one. */
+#include <sched.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,47 +8,22 @@
 
 #include "base/atomic_file.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "cli/cli.h"
+#include "cli/progress.h"
 #include "cli/signals.h"
 #include "output/folder.h"
 #include "render/picture.h"
 #include "render/turntable.h"
 
+enum { ONLY_ALL, ONLY_STILLS, ONLY_SHEET, ONLY_WEDGES };
+
 struct wanted {
     struct common common;
     bool turntable, keep_scenes;
-    int views, preset;
+    int views, preset, only, jobs, wedge;
     const char *camera, *resolution;
 };
-
-/* The frames of --frames (or all) whose volumes were written, ascending. */
-static status choose_frames(const struct preview *p, const struct frame_range *range, int **out, size_t *n)
-{
-    status st = OK;
-    int *frames = NULL;
-    size_t n_all;
-    char path[4096];
-    *n = 0;
-    TRY(folder_frames(p->root, p->job->name, &frames, &n_all));
-    for (size_t i = 0; i < n_all; i++) {
-        if (range->step && !range_holds(*range, frames[i]))
-            continue;
-        TRY(folder_path(path, p->root, p->job->name, FILE_VOLUMES, frames[i], NULL));
-        if (access(path, R_OK) == 0)
-            frames[(*n)++] = frames[i];
-    }
-    if (*n == 0) {
-        char asked[48];
-        st = fail(E_INPUT, "%s holds no volumes of %s; run the job first", p->root,
-                  range->step ? range_text(*range, asked) : "any frame");
-        goto done;
-    }
-    *out = frames;
-    frames = NULL;
-done:
-    free(frames);
-    return st;
-}
 
 static status check(const struct wanted *w, struct preview *p)
 {
@@ -68,13 +45,37 @@ static status check(const struct wanted *w, struct preview *p)
     return OK;
 }
 
-static status stills(struct preview *p, const int *frames, size_t n)
+/* The frames whose stills are there, in place. */
+static size_t with_stills(const struct preview *p, int *frames, size_t n)
+{
+    char still[512], path[4700];
+    size_t k = 0;
+    for (size_t i = 0; i < n; i++) {
+        picture_still_path(p, frames[i], still);
+        snprintf(path, sizeof path, "%s/%s", p->root, still);
+        if (access(path, R_OK) == 0)
+            frames[k++] = frames[i];
+    }
+    return k;
+}
+
+static status stills(struct preview *p, int *frames, size_t n, int only, struct progress *progress)
 {
     status st = OK;
-    for (size_t i = 0; i < n; i++)
+    char line[64];
+    for (size_t i = 0; i < n && only != ONLY_SHEET; i++) {
         TRY(picture_still(p, frames[i]));
+        snprintf(line, sizeof line, "still of frame %d", frames[i]);
+        progress_note(progress, i, n, line); /* it is under way */
+    }
     TRY(children_wait(&p->children));
-    TRY(turntable_contact(p, frames, n, 0));
+    if (only == ONLY_STILLS)
+        goto done;
+    n = with_stills(p, frames, n);
+    if (n == 0)
+        st = fail(E_INPUT, "%s holds no stills of these frames; make those first", p->root);
+    else
+        TRY(turntable_contact(p, frames, n, 0));
 done:
     return st;
 }
@@ -103,22 +104,58 @@ static status make_folder(const char *root, const char *name)
     return st;
 }
 
+/* Those a scheduler left us, not the machine's. */
 static int cores(void)
 {
-    long n = sysconf(_SC_NPROCESSORS_ONLN);
-    return n > 0 ? (int)n : 1;
+    cpu_set_t set;
+    int n = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
+    return n > 0 ? n : 1;
+}
+
+/* The sheet across the wedges of a farm's folder. */
+static status wedges(struct preview *p)
+{
+    status st = OK;
+    char path[4700];
+    struct job *base = NULL;
+    const struct job **all = NULL;
+    struct job *one = NULL;
+    size_t n = 0;
+    snprintf(path, sizeof path, "%.4000s/farm/job.yaml", p->root);
+    TRY(job_load(path, NULL, 0, &base));
+    size_t n_wedges = job_wedges(base);
+    TRY(memory_alloc(n_wedges, sizeof *all, "the wedges", &all));
+    for (; n < n_wedges; n++) {
+        TRY(job_load_wedge(path, NULL, 0, base, (int)n + 1, &one));
+        all[n] = one;
+    }
+    p->job = base;
+    signals_install();
+    TRY(make_folder(p->root, "log"));
+    children_begin(&p->children, p->root, "log/preview.log", 1);
+    TRY(turntable_wedges(p, all, n));
+done:
+    children_end(&p->children);
+    while (n > 0) {
+        one = (struct job *)(uintptr_t)all[--n];
+        job_destroy(&one);
+    }
+    free(all);
+    job_destroy(&base);
+    return st;
 }
 
 status cli_preview(int argc, char **argv)
 {
     status st = OK;
-    struct wanted w = {.views = 36, .preset = PRESET_PREVIEW};
+    struct wanted w = {.views = 36, .preset = PRESET_PREVIEW, .jobs = cores()};
     struct words operands = {0};
     struct job *job = NULL;
     struct preview p = {0};
+    struct progress progress = {0};
     int *frames = NULL;
     size_t n;
-    char name[256], path[4700];
+    char root[4096], name[256], path[4700];
     bool help = false;
     const struct option options[] = {
         OPTION_FRAMES(&w.common),
@@ -129,25 +166,43 @@ status cli_preview(int argc, char **argv)
         {"preset", "draft|preview|final", OPTION_CHOICE, &w.preset,
          "how much care is taken (default preview)"},
         {"resolution", "WxH", OPTION_TEXT, &w.resolution, "of the pictures (default: the preset's)"},
+        {"only", "all|stills|sheet|wedges", OPTION_CHOICE, &w.only,
+         "a part of it: stills without a sheet, the sheet of the stills there are, or the sheet across the "
+         "wedges of a farm's folder"},
+        OPTION_WEDGE(&w.wedge),
+        OPTION_PROGRESS(&w.common),
+        {"jobs", "N", OPTION_INT, &w.jobs, "pictures made side by side (default: the cores there are)"},
         {"keep-scenes", NULL, OPTION_FLAG, &w.keep_scenes, "leave the POV-Ray scenes beside the pictures"},
     };
     TRY(options_parse(&usage_preview, options, sizeof options / sizeof *options, argc, argv, &operands,
                       &help));
     if (help)
         goto done;
-    p.root = operands.word[0];
+    TRY(wedge_folder(operands.word[0], w.wedge, root));
+    p.root = root;
+    if (w.jobs < 1) {
+        st = fail(E_USAGE, "--jobs %d: 1 or more", w.jobs);
+        goto done;
+    }
+    if (w.only == ONLY_WEDGES) {
+        st = wedges(&p);
+        goto done;
+    }
     TRY(folder_open(p.root, name));
     snprintf(path, sizeof path, "%.4096s/job.yaml", p.root);
     TRY(job_load(path, NULL, 0, &job));
     p.job = job;
     TRY(check(&w, &p));
-    TRY(choose_frames(&p, &w.common.frames, &frames, &n));
+    TRY(volume_frames(p.root, p.job->name, w.common.frames, &frames, &n));
     TRY(make_folder(p.root, "log"));
     TRY(make_folder(p.root, w.turntable ? "turntable" : "preview"));
     signals_install();
-    children_begin(&p.children, p.root, "log/preview.log", cores());
-    TRY(w.turntable ? turntable(&p, frames, n, w.views) : stills(&p, frames, n));
+    progress_begin_notes(&progress, (enum progress_style)w.common.progress);
+    children_begin(&p.children, p.root, "log/preview.log", w.jobs);
+    TRY(w.turntable ? turntable(&p, frames, n, w.views) : stills(&p, frames, n, w.only, &progress));
+    progress_note(&progress, 1, 1, w.turntable ? "turntable made" : "pictures made");
 done:
+    progress_end(&progress);
     children_end(&p.children);
     free(frames);
     job_destroy(&job);

@@ -84,42 +84,30 @@ done:
     return st;
 }
 
-/* oiiotool takes its pictures and what is done to each in order: IN --text ... IN --text ... --mosaic. */
-status turntable_contact(struct preview *p, const int *frames, size_t n, int views)
+/* Pictures side by side, a line of text on each. oiiotool takes its pictures and what is done to each in
+ * order: IN --text ... IN --text ... --mosaic. */
+static status mosaic(struct preview *p, const char *path, char (*word)[600], size_t n)
 {
     enum { EACH = 4 };
     status st = OK;
     struct sheet sheet = {.preview = p};
     const char **argv = NULL;
-    char(*word)[600] = NULL;
-    char mosaic[64], shape[32], text_option[256];
-    size_t n_pictures = views ? ((size_t)views + 2) / 3 : n, k = 0, w = 0;
-    if (n_pictures == 0)
-        return OK;
-    size_t columns = (size_t)ceil(sqrt((double)n_pictures));
-    TRY(memory_alloc(EACH * n_pictures + 8, sizeof *argv, "the contact sheet", &argv));
-    TRY(memory_alloc(2 * n_pictures, sizeof *word, "the contact sheet", &word));
-    snprintf(sheet.path, sizeof sheet.path, "%.200s.contact.png", p->job->name);
+    char shape[48], text_option[256];
+    size_t k = 0, columns = (size_t)ceil(sqrt((double)n));
+    TRY(memory_alloc(EACH * n + 8, sizeof *argv, "the contact sheet", &argv));
+    snprintf(sheet.path, sizeof sheet.path, "%s", path);
     TRY(atomic_file_temporary(sheet.path, sheet.temporary, sizeof sheet.temporary - 4));
     strcat(sheet.temporary, ".png");
     snprintf(text_option, sizeof text_option, "--text:x=10:y=26:size=18:color=1,1,1,1:shadow=2:font=%s",
              FONT);
     argv[k++] = "oiiotool";
-    for (size_t i = 0; i < n_pictures; i++) {
-        char *path = word[w++], *text = word[w++];
-        int frame = views ? frames[n - 1] : frames[i];
-        if (views)
-            picture_view_path(p, frame, (int)(3 * i), path);
-        else
-            picture_still_path(p, frame, path);
-        label(p, frame, text);
-        argv[k++] = path;
+    for (size_t i = 0; i < n; i++) {
+        argv[k++] = word[2 * i];
         argv[k++] = text_option;
-        argv[k++] = text;
+        argv[k++] = word[2 * i + 1];
     }
-    snprintf(mosaic, sizeof mosaic, "--mosaic:pad=4");
-    snprintf(shape, sizeof shape, "%zux%zu", columns, (n_pictures + columns - 1) / columns);
-    argv[k++] = mosaic;
+    snprintf(shape, sizeof shape, "%zux%zu", columns, (n + columns - 1) / columns);
+    argv[k++] = "--mosaic:pad=4";
     argv[k++] = shape;
     argv[k++] = "-o";
     argv[k++] = sheet.temporary;
@@ -127,6 +115,67 @@ status turntable_contact(struct preview *p, const int *frames, size_t n, int vie
     TRY(children_wait(&p->children));
 done:
     free(argv);
+    return st;
+}
+
+status turntable_contact(struct preview *p, const int *frames, size_t n, int views)
+{
+    status st = OK;
+    char(*word)[600] = NULL, path[512];
+    size_t n_pictures = views ? ((size_t)views + 2) / 3 : n;
+    if (n_pictures == 0)
+        return OK;
+    TRY(memory_alloc(2 * n_pictures, sizeof *word, "the contact sheet", &word));
+    for (size_t i = 0; i < n_pictures; i++) {
+        int frame = views ? frames[n - 1] : frames[i];
+        if (views)
+            picture_view_path(p, frame, (int)(3 * i), word[2 * i]);
+        else
+            picture_still_path(p, frame, word[2 * i]);
+        label(p, frame, word[2 * i + 1]);
+    }
+    snprintf(path, sizeof path, "%.200s.contact.png", p->job->name);
+    TRY(mosaic(p, path, word, n_pictures));
+done:
+    free(word);
+    return st;
+}
+
+/* oiiotool evaluates what is in braces, and drawn text knows backslashes; a label is cut where a character
+ * ends. */
+static void plain_label(const struct job *job, char out[96])
+{
+    int n = snprintf(out, 96, "w%04d  ", (int)job->wedge.index);
+    for (const char *s = job->wedge.label; *s; s++) {
+        if (n > 70 && (*s & 0xc0) != 0x80)
+            break;
+        if (n == 95)
+            break;
+        out[n++] = *s == '{' ? '(' : *s == '}' ? ')' : *s == '\\' ? '/' : (unsigned char)*s < 0x20 ? ' ' : *s;
+    }
+    out[n] = '\0';
+}
+
+status turntable_wedges(struct preview *p, const struct job *const *wedge, size_t n)
+{
+    status st = OK;
+    char(*word)[600] = NULL, path[512], full[4700];
+    size_t k = 0;
+    TRY(memory_alloc(2 * n, sizeof *word, "the contact sheet", &word));
+    for (size_t i = 0; i < n; i++) {
+        snprintf(word[2 * k], sizeof word[0], "w%04d/preview/%.200s.%04d.png", (int)wedge[i]->wedge.index,
+                 wedge[i]->name, wedge[i]->frames.last);
+        plain_label(wedge[i], word[2 * k + 1]);
+        snprintf(full, sizeof full, "%s/%s", p->root, word[2 * k]);
+        k += access(full, R_OK) == 0;
+    }
+    if (k == 0) {
+        st = fail(E_INPUT, "%s holds no still of any wedge's last frame; make those first", p->root);
+        goto done;
+    }
+    snprintf(path, sizeof path, "%.200s.wedges.png", p->job->name);
+    TRY(mosaic(p, path, word, k));
+done:
     free(word);
     return st;
 }

@@ -12,4 +12,8 @@ MUST_USE status turntable_video(struct preview *p, int frame, int views);
  * an orbit. */
 MUST_USE status turntable_contact(struct preview *p, const int *frames, size_t n, int views);
 
+/* NAME.wedges.png under the farm's folder p->root: the still of each wedge's last frame, with its values.
+ * Wedges without one are left out; E_INPUT if none has. */
+MUST_USE status turntable_wedges(struct preview *p, const struct job *const *wedge, size_t n);
+
 #endif

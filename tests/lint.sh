@@ -32,7 +32,7 @@ rank() {
     case $1 in
     base) echo 0 ;; gpu | job) echo 1 ;; particles | stacks) echo 2 ;;
     scene | stress | erosion | blocks | voxels | field | output | checkpoint | wind | water | deposit | plants | piles) echo 3 ;;
-    model) echo 4 ;; render | farm) echo 6 ;; cli) echo 5 ;; *) echo 9 ;;
+    model) echo 4 ;; farm) echo 5 ;; cli) echo 6 ;; render) echo 7 ;; *) echo 9 ;;
     esac
 }
 for f in $(git ls-files 'src/*/*.c' 'src/*/*.h'); do

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Erodibility of every particle under its stress (Arenite eq. 2).
+// Erodibility of every particle under its stress (Arenite eq. 2). Deposits (phase 1) have no cement: they are
+// loose whatever the stress.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "erosion/rate.glsl"
@@ -10,13 +11,18 @@ READ_U(1, layer)
 READ_F(2, rate_factor)
 READ_F(3, interlock_factor)
 READ_F(4, stress)
-WRITE_F(5, erodibility)
+READ_U(5, phase)
+WRITE_F(6, erodibility)
 PARAMS(interlock_params)
 
 void main()
 {
     uint i = THREAD;
-    if (i < k.n)
-        AT(erodibility, i) = retreat(LOAD_V(layers, LOAD_U(layer, i)), LOAD_F(rate_factor, i),
-                                     LOAD_F(interlock_factor, i), LOAD_F(stress, i), k.band);
+    if (i >= k.n)
+        return;
+    vec4 rates = LOAD_V(layers, LOAD_U(layer, i));
+    float factor = LOAD_F(rate_factor, i);
+    AT(erodibility, i) = LOAD_U(phase, i) == 1u
+                             ? factor * rates.x
+                             : retreat(rates, factor, LOAD_F(interlock_factor, i), LOAD_F(stress, i), k.band);
 }

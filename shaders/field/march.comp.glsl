@@ -1,9 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One ray a pixel into the distance field: where it meets the rock, the normal there, and whether the sun
-// does. hit = (P, camera-plane depth or -1); facing = (N, sunlit 0 or 1).
+// One ray a pixel into the distance field: where it meets the rock, the normal there, and what light does.
+// hit = (P, camera-plane depth or -1); facing = (N, LIT_SUN + LIT_SKY). With several samples a pixel each takes
+// its own point of the sun's disc and its own direction of the sky.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
+#include "shared/random.glsl"
 
 READ_F(0, distance_field)
 WRITE_V(1, hit)
@@ -11,12 +13,52 @@ WRITE_V(2, facing)
 PARAMS(march_params)
 #include "field/trilinear.glsl"
 
+// A softer sun than the real one, whose shadows have edges of half a degree: haze.
+const float SUN_RADIUS = 0.02;
+
+// Two numbers for a sample, even over the samples of a pixel and between pixels (a Kronecker sequence, moved by
+// a hash).
+vec2 even(uint pixel, uint purpose)
+{
+    vec2 start = vec2(random_float(random_hash(pixel, purpose, 0u, 0u)), random_float(random_hash(pixel, purpose, 1u, 0u)));
+    return fract(start + float(k.ray) * vec2(0.7548776662, 0.5698402910));
+}
+
+// Directions across n.
+void across(vec3 n, out vec3 a, out vec3 b)
+{
+    a = normalize(abs(n.z) < 0.9 ? cross(n, vec3(0.0, 0.0, 1.0)) : cross(n, vec3(1.0, 0.0, 0.0)));
+    b = cross(n, a);
+}
+
+float lit(uint i, vec3 x, vec3 n)
+{
+    vec3 sun = vec3(k.sun_x, k.sun_y, k.sun_z), lifted = x + 1.5 * k.voxel * n, a, b;
+    float sum = 0.0;
+    if (k.rays > 1u) {
+        vec2 u = even(i, 1u);
+        float r = SUN_RADIUS * sqrt(u.x), turn = 6.28318530718 * u.y;
+        across(sun, a, b);
+        sun = normalize(sun + r * cos(turn) * a + r * sin(turn) * b);
+    }
+    if (dot(n, sun) > 0.0 && march(lifted, sun, box_span(lifted, sun)) < 0.0)
+        sum += LIT_SUN;
+    if (k.rays == 1u)
+        return sum + LIT_SKY;
+    // As much of the sky as lies over the surface: directions by the cosine.
+    vec2 u = even(i, 2u);
+    float r = sqrt(u.x), turn = 6.28318530718 * u.y;
+    across(n, a, b);
+    vec3 up = normalize(r * cos(turn) * a + r * sin(turn) * b + sqrt(1.0 - u.x) * n);
+    return march(lifted, up, box_span(lifted, up)) < 0.0 ? sum + LIT_SKY : sum;
+}
+
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    vec2 film = (vec2(i % k.width, i / k.width) + 0.5) / vec2(k.width, k.height) * 2.0 - 1.0;
+    vec2 film = (vec2(i % k.width, i / k.width) + vec2(k.film_x, k.film_y)) / vec2(k.width, k.height) * 2.0 - 1.0;
     vec3 eye = vec3(k.eye_x, k.eye_y, k.eye_z), ahead = vec3(k.ahead_x, k.ahead_y, k.ahead_z);
     vec3 along = normalize(ahead + film.x * vec3(k.right_x, k.right_y, k.right_z) +
                            film.y * vec3(k.down_x, k.down_y, k.down_z));
@@ -26,12 +68,8 @@ void main()
     if (t >= 0.0) {
         vec3 x = eye + t * along, g = gradient_at(x);
         vec3 n = dot(g, g) > 0.0 ? normalize(g) : -along;
-        vec3 sun = vec3(k.sun_x, k.sun_y, k.sun_z), lifted = x + 1.5 * k.voxel * n;
-        float lit = 0.0;
-        if (dot(n, sun) > 0.0)
-            lit = march(lifted, sun, box_span(lifted, sun)) < 0.0 ? 1.0 : 0.0;
         where = vec4(x, t * dot(along, ahead));
-        normal = vec4(n, lit);
+        normal = vec4(n, lit(i, x, n));
     }
     AT(hit, i) = where;
     AT(facing, i) = normal;

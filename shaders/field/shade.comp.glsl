@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What lies under each pixel: the fields there, and the stone's colour under sun and sky.
-// fields = (stress, von Mises, viability, erodibility); color = linear RGB and alpha; ids = layer, phase of
-// the nearest particle.
+// What lies under each pixel: the fields there, and the stone's colour under sun and sky. Of several samples,
+// the last of which comes first, the colour is the mean; all else is sample 0's.
+// fields = (stress, von Mises, viability, erodibility); color = linear RGB and alpha; ids = layer, phase and
+// number of the nearest particle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -14,13 +15,17 @@ READ_U(4, start)
 READ_U(5, layer)
 READ_U(6, phase)
 READ_F(7, erodibility)
-READ_V(8, palette)
-WRITE_V(9, color)
-WRITE_V(10, fields)
-WRITE_U(11, ids)
+READ_F(8, vegetation)
+READ_V(9, palette)
+WRITE_V(10, color)
+WRITE_V(11, fields)
+WRITE_U(12, ids)
 PARAMS(shade_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
+
+const vec3 SAND = vec3(0.52, 0.36, 0.22);
+const vec3 GREEN = vec3(0.085, 0.115, 0.045); // dry shrubs
 
 void main()
 {
@@ -28,11 +33,12 @@ void main()
     if (i >= k.n)
         return;
     vec4 where = LOAD_V(hit, i);
-    if (where.w < 0.0) {
+    if (k.ray + 1u == k.rays) // the first to come
         AT(color, i) = vec4(0.0);
+    if (where.w < 0.0) {
         AT(fields, i) = vec4(0.0);
-        AT(ids, 2u * i) = 0u;
-        AT(ids, 2u * i + 1u) = 0u;
+        for (uint b = 0u; b < 3u; b++)
+            AT(ids, 3u * i + b) = 0u;
         return;
     }
     vec3 x = where.xyz;
@@ -68,12 +74,19 @@ void main()
     if (weights > 0.0)
         sum /= weights;
     vec4 normal = LOAD_V(facing, i);
-    float sun = normal.w * max(dot(normal.xyz, vec3(k.sun_x, k.sun_y, k.sun_z)), 0.0);
+    bool sun_seen = mod(normal.w, 2.0) >= LIT_SUN, sky_seen = normal.w >= LIT_SKY;
+    float sun = sun_seen ? max(dot(normal.xyz, vec3(k.sun_x, k.sun_y, k.sun_z)), 0.0) : 0.0;
     float sky = 0.5 + 0.5 * normal.z;
-    vec3 light = sun * vec3(2.6, 2.3, 1.9) + mix(vec3(0.22, 0.17, 0.13), vec3(0.32, 0.40, 0.55), sky);
+    vec3 light = sun * vec3(2.6, 2.3, 1.9) + mix(vec3(0.22, 0.17, 0.13), vec3(0.32, 0.40, 0.55), sky) *
+                                                 (k.rays == 1u ? 1.0 : sky_seen ? 1.25 : 0.15);
     uint strata = LOAD_U(layer, found);
-    AT(color, i) = vec4(LOAD_V(palette, strata).rgb * light, 1.0);
+    vec3 stone = LOAD_V(palette, strata).rgb;
+    if (LOAD_U(phase, found) == PHASE_DEPOSIT)
+        stone = mix(stone, SAND, 0.6);
+    stone = mix(stone, GREEN, LOAD_F(vegetation, found));
+    AT(color, i) += vec4(stone * light, 1.0) / float(k.rays);
     AT(fields, i) = vec4(sum.xyz, LOAD_F(erodibility, found));
-    AT(ids, 2u * i) = strata;
-    AT(ids, 2u * i + 1u) = LOAD_U(phase, found);
+    AT(ids, 3u * i) = strata;
+    AT(ids, 3u * i + 1u) = LOAD_U(phase, found);
+    AT(ids, 3u * i + 2u) = found;
 }

@@ -56,6 +56,10 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
+#define PHASE_ROCK 0u
+#define PHASE_DEPOSIT 1u
+#define PHASE_FALLING 2u
+
 /* The share of space that is rock around a voxel's middle, from its own fill, its 6 face and its 12 edge
  * neighbours': the surface is where this is 1/2. The weights are those of (1 - r^2 / 4 h^2)^3, rounded so
  * that they add up to 1; on a plane face the surface lies exactly where the fill puts it. */
@@ -109,10 +113,11 @@ struct erosion_params {
 };
 SHARED_SIZE(erosion_params, 24)
 
-/* Words the erosion counts into. */
+/* Words the erosion counts into; COUNT_FASTEST is a float. */
 #define COUNT_ERODED 0u
 #define COUNT_FALLEN 1u
 #define COUNT_CHANGED 2u
+#define COUNT_FASTEST 3u
 
 /* ---- wind */
 
@@ -124,15 +129,134 @@ struct wind_params {
     float cohesion, friction, strength; /* mu_c (Pa), mu_f, alpha (Pa) */
     float abrasion;                     /* k_a (|v| / v_ref)^2 */
     float wind_x, wind_y, wind_z;       /* unit vector, where it blows to */
-    float shelter;                      /* m */
+    float shelter;                      /* m; with a flow, its spacing */
+    uint bx, by, bz;                    /* cells of the averaged flow, */
+    float origin_x, origin_y;           /* m: and where they begin */
 };
-SHARED_SIZE(wind_params, 56)
+SHARED_SIZE(wind_params, 76)
 
-/* ---- water */
+/* The flow's units are the spacing of its particles and the wind's speed; its origin is the low corner of the
+ * box of air, on the ground. */
+#define FLOW_SUPPORT 2.0f        /* radius of the kernel */
+#define FLOW_NEIGHBOURS 80u      /* most that one particle sees */
+#define FLOW_FIXED 256.0f        /* steps of a spacing, or a unit normal, in integer sums */
+#define FLOW_ROCK_ID 0xc0000000u /* identities of boundary particles begin here, */
+#define FLOW_GROUND_ID 0x80000000u
 
-/* ---- deposits */
+/* What a particle is, in its velocity's w. */
+#define FLOW_AIR 0.0f
+#define FLOW_SKIN 1.0f /* air near the sides or the top: it moves with the wind */
+#define FLOW_ROCK 2.0f
+#define FLOW_GROUND 3.0f
+
+struct flow_params {
+    uint n;
+    uint slots;           /* of the particle arrays */
+    uint first;           /* slot, or identity, to begin at */
+    uint bx, by, bz;      /* the box */
+    uint gx, gy, gz;      /* cells of the neighbour search, each a support wide */
+    float wind_x, wind_y; /* unit vector */
+    float dt;
+    float viscosity;
+    float warm;               /* share of the last step's pressure to begin with */
+    float full;               /* particles as dense as this may pull on each other */
+    float keep, gain;         /* of the average: what stays, what is added */
+    float column_x, column_y; /* emission: the first column of the lattice that is inside */
+    uint enter_x, enter_y;    /* and which plane of it has just come in; box size: none */
+    uint nx, ny, nz;          /* the rock's voxels */
+    float h;                  /* m */
+    float origin_x, origin_y; /* m: of the box in the rock's domain */
+    float spacing;            /* m */
+};
+SHARED_SIZE(flow_params, 112)
+
+/* ---- water: see water/water.h. Cells are 2 x 2 x 2 voxels; voxel v lies in cell (v + shift) / 2. A column's
+ * cells are bits, `words` words of 32 levels each; its spans are nodes, numbered upwards, column by column. */
+
+#define WATER_EMPTY 0u
+#define WATER_SURF 1u
+#define WATER_WALL 2u
+#define WATER_SOLID 3u
+#define WATER_KIND 3u
+#define WATER_OUT 4u
+#define WATER_DEAD 8u
+#define WATER_SWEPT 16u
+
+/* Spacings that water takes in a step at most. */
+#define WATER_DEPTH 2.0f
+
+/* What a hash is for (with water_params.random). */
+#define RANDOM_ROUGHNESS 1u
+#define RANDOM_RECEIVER 2u
+#define RANDOM_SHIFT 3u
+
+struct water_params {
+    uint n;
+    uint vx, vy, vz; /* voxels of the domain */
+    uint sx, sy, sz; /* shift */
+    uint cx, cy, cz; /* cells */
+    uint words;      /* of a column */
+    uint nodes;      /* that many; also the number that stands for outside */
+    uint basins;     /* likewise */
+    uint leak;
+    uint random;             /* hash of seed, frame and step */
+    float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
+};
+SHARED_SIZE(water_params, 68)
+
+struct water_surface_params {
+    uint n;
+    uint sx, sy, sz;
+    uint cx, cy, cz;
+    uint words;
+    float cell;                   /* m */
+    float rain_unit, spring_unit; /* m3/yr */
+    float rate, shear, threshold; /* k_t (1/Pa), k_f (Pa), tau_c (Pa) */
+    float steepest;
+    float most; /* m/kyr */
+};
+SHARED_SIZE(water_surface_params, 64)
+
+/* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
+
+#define DEPOSIT_ROOM 4u          /* how many land in a cell in a round, at most */
+#define DEPOSIT_WAITS 0u         /* a crumb's place: nowhere yet, */
+#define DEPOSIT_LEFT 0xffffffffu /* out of the domain, or the voxel it lies in, plus one */
+
+struct deposit_params {
+    uint n;
+    uint nx, ny, nz; /* voxels */
+    float h;         /* m */
+    uint words;      /* of a column */
+    uint cx, cy, cz; /* routing cells */
+    int sx, sy, sz;  /* a voxel v is in cell (v + shift) / 2 */
+    float repose;    /* tangent of the angle */
+    uint seed;       /* hash of the job's seed, the frame and the step in it */
+    uint round;
+    uint last;     /* 1: the round after which nothing waits */
+    float quicker; /* how many times faster than rock it was deposits erode */
+};
+SHARED_SIZE(deposit_params, 68)
+
+/* Words the deposition counts into. */
+#define COUNT_LANDED 0u
+#define COUNT_GONE 1u
+#define COUNT_SLID 2u
+#define COUNT_WAITING 3u
 
 /* ---- plants */
+
+struct plants_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;             /* m */
+    float steepest;      /* least upward part of a normal on which plants stand */
+    float growth, death; /* in this step: e^(rate dt), e^(-rate dt) */
+    float binding, shelter;
+    uint seed;
+    uint spread; /* which voxel's step of this frame */
+};
+SHARED_SIZE(plants_params, 48)
 
 /* ---- field: the surface field and what lies on it */
 
@@ -156,8 +280,13 @@ struct march_params {
     float down_x, down_y, down_z;    /* half its height */
     float ahead_x, ahead_y, ahead_z;
     float sun_x, sun_y, sun_z; /* unit vector towards the sun */
+    uint ray, rays;            /* of the pixel; a single one has a sun without extent and an open sky */
+    float film_x, film_y;      /* px: where in the pixel */
 };
-SHARED_SIZE(march_params, 100)
+SHARED_SIZE(march_params, 116)
+
+#define LIT_SUN 1.0f
+#define LIT_SKY 2.0f
 
 struct shade_params {
     uint n;
@@ -167,8 +296,18 @@ struct shade_params {
     float voxel;
     float origin_x, origin_y, origin_z;
     float sun_x, sun_y, sun_z;
+    uint ray, rays;
 };
-SHARED_SIZE(shade_params, 60)
+SHARED_SIZE(shade_params, 68)
+
+/* The lattice of the wind; one sample of it, alone, is the same everywhere. */
+struct pixel_weather_params {
+    uint n;
+    uint ax, ay, az;
+    float cell;
+    float origin_x, origin_y, origin_z; /* m: sample 0 */
+};
+SHARED_SIZE(pixel_weather_params, 32)
 
 /* ---- voxels: a bit a voxel, in words of 32 along x, with a margin of M rows and slabs around the domain and
  * one word of air between rows. A voxel's number is its bit's. See voxels/voxels.h. */

@@ -14,12 +14,7 @@ WRITE_F(5, intensity)
 PARAMS(wind_params)
 #include "particles/voxel.glsl"
 #include "particles/empty.glsl"
-
-float deflation(float t)
-{
-    float pull = max(0.0, k.cohesion + k.friction * t);
-    return k.deflation * exp(-(pull * pull - k.cohesion * k.cohesion) / (2.0 * k.strength * k.strength));
-}
+#include "wind/deflation.glsl"
 
 // 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
 // particle's own bump.

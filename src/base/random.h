@@ -1,8 +1,8 @@
 /* Randomness without a generator: a hash of what the number is for.
  *
  * Equal arguments give equal bits on every machine and in every thread order; there is no state to save.
- * Kernels can have the same numbers: the lines below are GLSL too if uint32_t reads uint (integers wrap in
- * both languages). Source   pcg4d, Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020.
+ * Kernels have the same numbers (shaders/shared/random.glsl; integers wrap in both languages).
+ * Source   pcg4d, Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020.
  */
 #ifndef HOODOO_RANDOM_H
 #define HOODOO_RANDOM_H
@@ -10,7 +10,15 @@
 #include <stdint.h>
 
 /* What a number is for, so that two uses never share one. Never renumber: frames would change. */
-enum random_purpose { RANDOM_JITTER = 1, RANDOM_NOISE = 2, RANDOM_ESTIMATE = 3, RANDOM_PILES = 0x70696c65 };
+enum random_purpose {
+    RANDOM_JITTER = 1,
+    RANDOM_NOISE = 2,
+    RANDOM_ESTIMATE = 3,
+    RANDOM_WATER = 4,
+    RANDOM_DEPOSIT = 5,
+    RANDOM_PLANTS = 6,
+    RANDOM_PILES = 7
+};
 
 /* 32 random bits; every argument moves all of them. Nest calls for more than four arguments. */
 static inline uint32_t random_hash(uint32_t a, uint32_t b, uint32_t c, uint32_t d)

@@ -43,6 +43,7 @@ status range_parse(const char *text, struct frame_range *out)
                     text);
     if (r.last < r.first)
         return fail(E_USAGE, "the frame range '%.40s' ends before it begins", text);
+    r.last -= (r.last - r.first) % r.step;
     *out = r;
     return OK;
 }

@@ -8,7 +8,7 @@
 #include "base/status.h"
 
 struct frame_range {
-    int first, last; /* inclusive; first <= last */
+    int first, last; /* inclusive; first <= last, and last is one of the range's own frames */
     int step;        /* >= 1 */
 };
 

@@ -63,8 +63,8 @@ status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
     GPU_RUN(gpu, blocks_solid, n, k, p->fill, b->solid);
     TRY(blocks_join(gpu, work, b, p->voxels));
     k.n = (uint)p->n;
-    GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->field[ROCK_viability],
-            counts);
+    GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->start, p->field[ROCK_phase],
+            p->field[ROCK_viability], counts);
     TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_fallen, 1));
 done:
     return st;

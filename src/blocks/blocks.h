@@ -2,7 +2,7 @@
  *
  * Rock holds where it can be seen: a path goes through voxels whose middle lies inside the surface field.
  * Particles that no such voxel on the ground's side touches fall, threads and crumbs below the resolution
- * among them.
+ * among them; but deposits stay while the rock they lie on does.
  */
 #ifndef HOODOO_BLOCKS_H
 #define HOODOO_BLOCKS_H

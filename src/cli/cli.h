@@ -13,11 +13,15 @@
 /*    verb     operands  what it does */
 #define VERBS(X)                                                                                             \
     X(run, "JOB", "simulate; resumes by itself when the output folder already holds part of this job")       \
-    X(plan, "JOB", "what it would do: frames, particles, memory, disk, time (nothing is written)")           \
+    X(plan, "JOB",                                                                                           \
+      "what it would do: frames, particles, memory, disk, time, farm tasks (nothing is written)")            \
     X(status, "OUT", "frames done, missing and damaged, checkpoints, rate, time left")                       \
     X(verify, "OUT", "re-read every file against its manifest; names each damaged or missing one")           \
+    X(aov, "OUT", "render AOVs again from the frames' VDBs: other cameras, resolution, layers")              \
     X(mesh, "OUT", "a surface mesh per frame (PLY and OBJ)")                                                 \
+    X(submit, "JOB [ARG...]", "hand it to this machine's devices, to Slurm, or write an OpenJD template")    \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
+    X(report, "OUT", "one static HTML page: pictures, curves, provenance, timing")                           \
     X(inspect, "FILE", "what a checkpoint, VDB, EXR or manifest holds, in words or --json")                  \
     X(devices, "", "the Vulkan devices, by index, name, UUID, PCI address, memory")
 
@@ -26,6 +30,14 @@
     extern const struct usage usage_##verb;
 VERBS(VERB_DECLARE)
 #undef VERB_DECLARE
+
+/* OUT, or with `wedge` > 0 that wedge's folder in it, in `out`. E_USAGE: there can be no such wedge. */
+MUST_USE status wedge_folder(const char *root, int wedge, char out[4096]);
+
+/* The frames whose volumes a verb can read, of those in `range` (step 0: all), ascending; *frames freed with
+ * free(). E_INPUT if there are none. */
+MUST_USE status volume_frames(const char *root, const char *name, struct frame_range range, int **frames,
+                              size_t *n);
 
 /* The frames of the job in the output folder `root`, from its own copy of the job. */
 MUST_USE status job_frames(const char *root, struct frame_range *out);

@@ -2,18 +2,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "cli/cli.h"
+#include "cli/progress.h"
 #include "job/job.h"
 #include "output/folder.h"
 #include "output/vdb.h"
 
-static const char *const values[] = {"stress", "von_mises", "viability"};
-enum { VALUES = sizeof values / sizeof *values };
+/* A job without water, plants or deposits has no such grids: 0. */
+static const char *const values[] = {"stress",    "von_mises",  "viability",
+                                     "discharge", "vegetation", "deposit"};
+enum { VALUES = sizeof values / sizeof *values, OPTIONAL = 3 };
 
 /* To the files' up axis. */
 static void turn(const float from[3], int up, float to[3])
@@ -72,7 +76,7 @@ static status write_frame(const char *root, const struct job *job, int frame, do
     struct vdb_mesh mesh = {0};
     struct text text = {0};
     TRY(folder_path(path, root, job->name, FILE_VOLUMES, frame, NULL));
-    TRY(vdb_mesh_read(path, adaptivity, values, VALUES, &mesh));
+    TRY(vdb_mesh_read(path, adaptivity, values, VALUES, OPTIONAL, &mesh));
     TRY(folder_path(path, root, job->name, FILE_MESH, frame, NULL));
     add_ply(&text, &mesh, job, frame);
     TRY(text_status(&text));
@@ -88,6 +92,19 @@ done:
     return st;
 }
 
+/* Are the frame's meshes there, no older than its volumes? */
+static bool current(const char *root, const char *name, int frame)
+{
+    char path[4096];
+    struct stat from, ply, obj;
+    if (folder_path(path, root, name, FILE_VOLUMES, frame, NULL) != OK || stat(path, &from) != 0 ||
+        folder_path(path, root, name, FILE_MESH, frame, NULL) != OK || stat(path, &ply) != 0)
+        return false;
+    strcpy(path + strlen(path) - 3, "obj");
+    return stat(path, &obj) == 0 && ply.st_mtim.tv_sec >= from.st_mtim.tv_sec &&
+           obj.st_mtim.tv_sec >= from.st_mtim.tv_sec;
+}
+
 status cli_mesh(int argc, char **argv)
 {
     status st = OK;
@@ -95,19 +112,27 @@ status cli_mesh(int argc, char **argv)
     struct words operands = {0};
     struct job *job = NULL;
     int *frames = NULL;
-    size_t n, n_written = 0;
+    size_t n, n_found = 0;
     double adaptivity = 0;
     char name[256], path[4300];
-    bool help = false;
+    struct progress progress = {0};
+    char root[4096];
+    int wedge = 0;
+    bool help = false, missing = false, allow_none = false;
     const struct option options[] = {
         OPTION_FRAMES(&c),
         {"adaptivity", "SHARE", OPTION_NUMBER, &adaptivity,
          "0 to 1: larger merges flat parts into fewer triangles (default 0)"},
+        {"missing", NULL, OPTION_FLAG, &missing,
+         "only meshes that are not there, or older than their volumes"},
+        {"allow-none", NULL, OPTION_FLAG, &allow_none, "frames without volumes are no error"},
+        OPTION_WEDGE(&wedge),
+        OPTION_PROGRESS(&c),
     };
     TRY(options_parse(&usage_mesh, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    const char *root = operands.word[0];
+    TRY(wedge_folder(operands.word[0], wedge, root));
     if (!(adaptivity >= 0 && adaptivity <= 1)) {
         st = fail(E_USAGE, "--adaptivity %g: 0 to 1", adaptivity);
         goto done;
@@ -118,18 +143,25 @@ status cli_mesh(int argc, char **argv)
     snprintf(path, sizeof path, "%.4096s/mesh", root);
     TRY(folder_make(path));
     TRY(folder_frames(root, job->name, &frames, &n));
+    progress_begin_notes(&progress, (enum progress_style)c.progress);
     for (size_t i = 0; i < n; i++) {
+        char line[64];
         if (c.frames.step && !range_holds(c.frames, frames[i]))
             continue;
         TRY(folder_path(path, root, job->name, FILE_VOLUMES, frames[i], NULL));
         if (access(path, R_OK) != 0)
             continue;
+        n_found++;
+        if (missing && current(root, job->name, frames[i]))
+            continue;
         TRY(write_frame(root, job, frames[i], adaptivity));
-        n_written++;
+        snprintf(line, sizeof line, "mesh of frame %d", frames[i]);
+        progress_note(&progress, i + 1, n, line);
     }
-    if (n_written == 0)
+    if (n_found == 0 && !allow_none)
         st = fail(E_INPUT, "%s holds no volumes of the frames asked for; run the job first", root);
 done:
+    progress_end(&progress);
     free(frames);
     job_destroy(&job);
     words_free(&operands);

@@ -90,7 +90,7 @@ void common_free(struct common *c);
 #define OPTION_DEVICE(c)                                                                                     \
     {                                                                                                        \
         "device", "WHICH", OPTION_TEXT, &(c)->device,                                                        \
-            "auto, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default auto)"                                  \
+            "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default auto)"                             \
     }
 #define OPTION_SET(c)                                                                                        \
     {                                                                                                        \
@@ -112,6 +112,10 @@ void common_free(struct common *c);
     {                                                                                                        \
         "from", "OUT@FRAME", OPTION_TEXT, &(c)->from,                                                        \
             "start from another run's checkpoint; the job may differ"                                        \
+    }
+#define OPTION_WEDGE(number)                                                                                 \
+    {                                                                                                        \
+        "wedge", "N", OPTION_INT, number, "one of the job's wedges, from 1"                                  \
     }
 #define OPTION_JSON(c)                                                                                       \
     {                                                                                                        \

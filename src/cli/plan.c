@@ -6,9 +6,8 @@
 #include "base/text.h"
 #include "cli/cli.h"
 #include "cli/words.h"
+#include "farm/describe.h"
 #include "gpu/primitives.h"
-#include "job/job.h"
-#include "model/model.h"
 
 /* Device time of one particle in one step, in units of one word read and written, measured on lavapipe with
  * jobs/demo.yaml: what a plan's time rests on. Off by a factor of two is to be expected. */
@@ -38,20 +37,39 @@ done:
     return st;
 }
 
-static status answer(const struct job *job, struct gpu *gpu, struct text *t)
+/* Seconds of a frame: as the folder's frames came, or by what a word takes here. */
+static void time_frames(struct farm *f, double word, bool *measured)
+{
+    char root[FARM_PATH + 16];
+    for (size_t i = 0; i < f->n_wedges; i++) {
+        struct farm_wedge *w = &f->wedge[i];
+        double n = (double)range_count(w->job->frames);
+        farm_root(f, (int)w->job->wedge.index, root);
+        w->frame_seconds = farm_frame_seconds(root, w->job->name);
+        *measured |= w->frame_seconds > 0;
+        if (w->frame_seconds == 0)
+            w->frame_seconds = word * WORDS_PER_PARTICLE_STEP * (double)w->estimate.n_particles *
+                               (w->estimate.steps + n) / n;
+    }
+}
+
+static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t)
 {
     status st = OK;
-    struct model_estimate e;
+    const struct job *job = f->wedge[0].job;
+    const struct model_estimate e = f->wedge[0].estimate;
     const struct gpu_info *info = gpu_info(gpu);
-    double seconds;
+    double word;
+    bool measured = false;
     char frames[48];
     size_t n_frames = range_count(job->frames);
-    TRY(model_of(job)->estimate(job, &e));
-    TRY(word_seconds(gpu, &seconds));
+    TRY(word_seconds(gpu, &word));
+    time_frames(f, word, &measured);
+    TRY(farm_graph(f));
     size_t n_checkpoints =
         (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));
     json_object(t, NULL);
-    json_text(t, "name", job->name);
+    json_text(t, "name", f->base->name);
     json_text(t, "model", model_of(job)->name);
     json_text(t, "frames", range_text(job->frames, frames));
     json_integer(t, "frame_count", (int64_t)n_frames);
@@ -70,12 +88,12 @@ static status answer(const struct job *job, struct gpu *gpu, struct text *t)
     json_integer(t, "host_free_bytes", (int64_t)memory_available());
     json_integer(t, "frame_disk_bytes", (int64_t)e.frame_bytes);
     json_integer(t, "disk_bytes", (int64_t)(e.frame_bytes * n_frames + e.checkpoint_bytes * n_checkpoints));
-    json_number(
-        t, "estimated_seconds",
-        round(seconds * WORDS_PER_PARTICLE_STEP * (double)e.n_particles * (e.steps + (double)n_frames)));
+    json_number(t, "estimated_seconds", round(f->wedge[0].frame_seconds * (double)n_frames));
+    json_text(t, "estimated_from", measured ? "the frames there are" : "the device's speed");
     bool fits = e.device_bytes + (info->is_cpu ? e.host_bytes : 0) <= gpu_memory_free(gpu) &&
                 e.host_bytes <= memory_available();
     json_bool(t, "fits_in_memory", fits);
+    farm_describe(f, words, t);
     json_end_object(t);
     TRY(text_status(t));
 done:
@@ -87,22 +105,24 @@ status cli_plan(int argc, char **argv)
     status st = OK;
     struct common c = {0};
     struct words operands = {0};
-    struct job *job = NULL;
+    struct farm farm = {0};
     struct gpu *gpu = NULL;
     struct text t = {0};
     bool help = false;
-    const struct option options[] = {OPTION_DEVICE(&c), OPTION_SET(&c), OPTION_JSON(&c)};
+    int wedge = 0;
+    const struct option options[] = {OPTION_OUT(&c), OPTION_DEVICE(&c), OPTION_SET(&c), OPTION_WEDGE(&wedge),
+                                     OPTION_JSON(&c)};
     TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
+    TRY(farm_load(operands.word[0], c.sets.word, c.sets.n, wedge, c.out, &farm));
     TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
-    TRY(answer(job, gpu, &t));
+    TRY(answer(&farm, gpu, !c.json, &t));
     TRY(words_print(&t, c.json));
 done:
     text_free(&t);
     gpu_destroy(&gpu);
-    job_destroy(&job);
+    farm_free(&farm);
     words_free(&operands);
     common_free(&c);
     return st;

@@ -85,8 +85,9 @@ static void compose(struct progress *p, const char *note)
 {
     char left[32];
     size_t size = sizeof p->line;
-    int n = snprintf(p->line, size, "frame %d, %zu/%zu, %.1f%% of the rock left", p->frame, p->done, p->total,
-                     100 * p->share);
+    int n = snprintf(p->line, size, "frame %d, %zu/%zu", p->frame, p->done, p->total);
+    if (p->share >= 0)
+        n += snprintf(p->line + n, size - (size_t)n, ", %.1f%% of the rock left", 100 * p->share);
     if (p->seconds_per_frame > 0 && n > 0 && (size_t)n < size) {
         double rate = 1 / p->seconds_per_frame;
         n += snprintf(p->line + n, size - (size_t)n, ", %.*f frames/s, %s to go", rate < 0.1 ? 4 : 2, rate,
@@ -121,25 +122,38 @@ static void show(struct progress *p)
     }
 }
 
-void progress_begin(struct progress *p, enum progress_style style, struct frame_range frames, size_t done)
+/* Settles the style, and takes the terminal's last line if it is a bar. */
+static void attach(struct progress *p, enum progress_style style)
 {
     const char *terminal = getenv("TERM");
-    *p = (struct progress){.style = style, .frames = frames, .total = range_count(frames), .share = 1};
-    p->done = done < p->total ? done : p->total;
+    p->style = style;
     p->last_s = seconds_now();
     if (style == PROGRESS_AUTO) {
         bool capable = isatty(STDERR_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
         p->style = capable ? PROGRESS_BAR : PROGRESS_PLAIN;
     }
-    char range[48];
-    snprintf(p->line, sizeof p->line, "frames %s, %zu/%zu", range_text(frames, range), p->done, p->total);
     if (p->style == PROGRESS_BAR) {
         pthread_mutex_lock(&lock);
         shown = p;
         pthread_mutex_unlock(&lock);
         log_set_guard(step_aside);
     }
+}
+
+void progress_begin(struct progress *p, enum progress_style style, struct frame_range frames, size_t done)
+{
+    char range[48];
+    *p = (struct progress){.frames = frames, .total = range_count(frames), .share = 1};
+    p->done = done < p->total ? done : p->total;
+    snprintf(p->line, sizeof p->line, "frames %s, %zu/%zu", range_text(frames, range), p->done, p->total);
+    attach(p, style);
     show(p);
+}
+
+void progress_begin_notes(struct progress *p, enum progress_style style)
+{
+    *p = (struct progress){.share = 1};
+    attach(p, style);
 }
 
 void progress_stage(struct progress *p, int frame, const char *stage)
@@ -168,6 +182,17 @@ void progress_frame(struct progress *p, int frame, double volume_share, const ch
     compose(p, note);
     pthread_mutex_unlock(&lock);
     show(p);
+}
+
+void progress_note(struct progress *p, size_t done, size_t total, const char *line)
+{
+    pthread_mutex_lock(&lock);
+    p->done = done;
+    p->total = total;
+    snprintf(p->line, sizeof p->line, "%s", line);
+    pthread_mutex_unlock(&lock);
+    if (p->style != PROGRESS_PLAIN)
+        show(p);
 }
 
 void progress_end(struct progress *p)

@@ -37,8 +37,14 @@ void progress_begin(struct progress *p, enum progress_style style, struct frame_
 /* What is being done now, for the bar alone: "1013 wind". */
 void progress_stage(struct progress *p, int frame, const char *stage);
 
-/* `frame` is done. `note` adds to the line ("stress 14 iterations"), or is NULL. */
+/* `frame` is done. `note` adds to the line ("stress 14 iterations"), or is NULL; a
+ * negative share says nothing. */
 void progress_frame(struct progress *p, int frame, double volume_share, const char *note);
+
+/* A farm's progress, in the caller's own words: `done` of `total`. Plain says nothing: the caller logs what
+ * happens. */
+void progress_begin_notes(struct progress *p, enum progress_style style);
+void progress_note(struct progress *p, size_t done, size_t total, const char *line);
 
 /* Leaves the terminal as it should be found. Harmless on {0} and twice. */
 void progress_end(struct progress *p);

@@ -28,6 +28,15 @@ static void show_frame(void *user, int frame, double volume_share, int iteration
     progress_frame(&s->progress, frame, volume_share, note);
 }
 
+/* The job becomes one of its wedges. */
+static status take_wedge(const char *path, const struct common *c, int wedge, struct job **job)
+{
+    struct job *base = *job;
+    status st = job_load_wedge(path, c->sets.word, c->sets.n, base, wedge, job);
+    job_destroy(&base);
+    return st;
+}
+
 status cli_run(int argc, char **argv)
 {
     status st = OK;
@@ -35,16 +44,41 @@ status cli_run(int argc, char **argv)
     struct words operands = {0};
     struct job *job = NULL;
     struct shown shown = {0};
-    char root[4096], path[4200];
-    bool help = false;
-    const struct option options[] = {OPTION_OUT(&c), OPTION_FRAMES(&c),   OPTION_DEVICE(&c),
-                                     OPTION_SET(&c), OPTION_PROGRESS(&c), OPTION_RESUME(&c)};
+    char root[4096], path[4200], folder[96], below[16] = "";
+    const char *farm = NULL, *path_map = NULL;
+    bool help = false, repair = false;
+    int wedge = 0;
+    const struct option options[] = {
+        OPTION_OUT(&c),
+        OPTION_FRAMES(&c),
+        OPTION_DEVICE(&c),
+        OPTION_SET(&c),
+        OPTION_PROGRESS(&c),
+        OPTION_RESUME(&c),
+        OPTION_WEDGE(&wedge),
+        {"farm", "DIR", OPTION_TEXT, &farm, "the output folder, or with --wedge the wedge's folder in it"},
+        {"path-map", "FILE", OPTION_TEXT, &path_map,
+         "where the job's input files are here: an OpenJD session's rules"},
+        {"repair", NULL, OPTION_FLAG, &repair,
+         "read every file there is, and make again what is damaged or missing"}};
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
     TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
-    int length =
-        c.out ? snprintf(root, sizeof root, "%s", c.out) : snprintf(root, sizeof root, "out/%s", job->name);
+    snprintf(folder, sizeof folder, "out/%s", job->name);
+    if (wedge) {
+        TRY(take_wedge(operands.word[0], &c, wedge, &job));
+        snprintf(below, sizeof below, "/w%04d", wedge);
+    } else if (job_wedges(job)) {
+        log_info(
+            "this job has %zu wedges; this run is the job itself (--wedge N is one of them, hoodoo submit "
+            "runs all)",
+            job_wedges(job));
+    }
+    if (path_map)
+        TRY(job_map_paths(job, path_map));
+    int length = c.out ? snprintf(root, sizeof root, "%s", c.out)
+                       : snprintf(root, sizeof root, "%s%s", farm ? farm : folder, below);
     if (length < 0 || (size_t)length >= sizeof root - 200) {
         st = fail(E_USAGE, "--out: the path is too long");
         goto done;
@@ -58,6 +92,7 @@ status cli_run(int argc, char **argv)
                                            .device = c.device,
                                            .frames = c.frames,
                                            .resume = (enum run_resume)c.resume,
+                                           .repair = repair,
                                            .begin = show_begin,
                                            .frame = show_frame,
                                            .stop = stop_requested,

@@ -4,11 +4,13 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
 #include "cli/cli.h"
 #include "cli/words.h"
+#include "farm/status.h"
 #include "output/folder.h"
 
 enum { STATE_MISSING, STATE_DONE, STATE_DAMAGED, N_STATES };
@@ -170,8 +172,27 @@ static status answer_status(struct survey *s, struct text *out)
     add_rate(s, out);
     if (s->n[STATE_DAMAGED])
         add_damaged(s, out);
+    if (farm_is(s->root))
+        TRY(farm_status(s->root, out));
     json_end_object(out);
 done:
+    return st;
+}
+
+/* Has any run been there? */
+static bool begun(const char *root)
+{
+    char path[4096];
+    return snprintf(path, sizeof path, "%s/run.json", root) < (int)sizeof path && access(path, F_OK) == 0;
+}
+
+/* A farm's folder that holds no frames, or holds them in folders of its wedges. */
+static status answer_farm(const char *root, struct text *out)
+{
+    json_object(out, NULL);
+    json_text(out, "folder", root);
+    status st = farm_status(root, out);
+    json_end_object(out);
     return st;
 }
 
@@ -182,13 +203,19 @@ status cli_status(int argc, char **argv)
     struct words operands = {0};
     struct survey s = {0};
     struct text answer = {0};
-    bool help;
+    bool help, wedges;
     const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c)};
     TRY(options_parse(&usage_status, options, sizeof options / sizeof *options, argc, argv, &operands,
                       &help));
     if (help)
         goto done;
     s.root = operands.word[0];
+    TRY(farm_has_wedges(s.root, &wedges));
+    if (wedges || (farm_is(s.root) && !begun(s.root))) {
+        TRY(answer_farm(s.root, &answer));
+        TRY(words_print(&answer, c.json));
+        goto done;
+    }
     TRY(folder_open(s.root, s.name));
     s.frames = c.frames;
     if (s.frames.step == 0)

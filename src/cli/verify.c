@@ -40,7 +40,13 @@ static void found(struct search *s, bool missing, const char *path, const char *
         json_end_object(&s->answer);
         return;
     }
-    printf("%s %s%s%s\n", kind, path, *what ? ": " : "", what);
+    /* Paths are texts of a file that may be anyone's, and farm managers obey lines of stdout. */
+    char line[1400];
+    snprintf(line, sizeof line, "%s %s%s%s", kind, path, *what ? ": " : "", what);
+    for (char *c = line; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = ' ';
+    puts(line);
     fflush(stdout);
 }
 

@@ -67,7 +67,23 @@ status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *j
     status st = OK;
     TRY(upload_layers(gpu, e, job, frame));
     GPU_RUN(gpu, erosion_interlock, p->n, k, e->layers, p->field[ROCK_layer], p->field[ROCK_rate_factor],
-            p->field[ROCK_interlock_factor], p->field[ROCK_stress], p->field[ROCK_erodibility]);
+            p->field[ROCK_interlock_factor], p->field[ROCK_stress], p->field[ROCK_phase],
+            p->field[ROCK_erodibility]);
+done:
+    return st;
+}
+
+status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
+                    double *m_per_kyr)
+{
+    status st = OK;
+    float fastest = 0;
+    struct count_params k = {(uint)p->n_surface};
+    struct gpu_buffer *words = gpu_work_words(work);
+    GPU_RUN(gpu, erosion_pace, k.n, k, p->surface, e->intensity, p->field[ROCK_erodibility], e->unspent);
+    gpu_max(gpu, work, e->unspent, p->n_surface, words, COUNT_FASTEST);
+    TRY(gpu_download(gpu, words, COUNT_FASTEST, &fastest, 1));
+    *m_per_kyr = (double)fastest;
 done:
     return st;
 }

@@ -29,6 +29,10 @@ int erosion_steps(const struct job *job, int frame, double intensity);
 MUST_USE status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame,
                                   struct particles *p);
 
+/* The retreat of the fastest spot of the surface under e->intensity, m/kyr. Waits. */
+MUST_USE status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
+                             double *m_per_kyr);
+
 /* One step: the surface's viability falls by e->intensity times erodibility; those with none left are
  * counted, not yet removed. Needs surface and erodibility of the current shape. Waits. */
 MUST_USE status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "field/channels.h"
 #include "job/palette.h"
 
 /* Towards the sun: late morning, from the left behind the usual camera. */
@@ -18,12 +19,26 @@ static const struct job_camera *camera_named(const struct job *job, const char *
     return NULL;
 }
 
+static void overscan_of(const struct job_camera *c, int margin[2])
+{
+    for (int a = 0; a < 2; a++)
+        margin[a] = (int)ceil(c->overscan * c->resolution[a]);
+}
+
+size_t aov_camera_pixels(const struct job_camera *c)
+{
+    int margin[2];
+    overscan_of(c, margin);
+    return ((size_t)c->resolution[0] + 2 * (size_t)margin[0]) *
+           ((size_t)c->resolution[1] + 2 * (size_t)margin[1]);
+}
+
 size_t aov_pixels(const struct job *job)
 {
     size_t most = 0;
     for (size_t i = 0; i < job->output.aov.n_cameras; i++) {
         const struct job_camera *c = camera_named(job, job->output.aov.cameras[i]);
-        size_t n = c ? (size_t)c->resolution[0] * (size_t)c->resolution[1] : 0;
+        size_t n = c ? aov_camera_pixels(c) : 0;
         most = n > most ? n : most;
     }
     return most;
@@ -31,7 +46,13 @@ size_t aov_pixels(const struct job *job)
 
 uint64_t aov_bytes(size_t n_pixels)
 {
-    return (uint64_t)n_pixels * (4 * 16 + 8);
+    return (uint64_t)n_pixels * (5 * 16 + 12);
+}
+
+uint64_t aov_picture_bytes(const struct job *job)
+{
+    return (uint64_t)aov_pixels(job) * 4 *
+           (20 + (job->output.aov.cryptomatte ? (uint64_t)MATTE_CHANNELS : 0));
 }
 
 status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struct aov *a)
@@ -43,7 +64,9 @@ status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struc
     TRY(gpu_buffer_create(gpu, "ray normals", n_pixels, 16, &a->facing));
     TRY(gpu_buffer_create(gpu, "picture", n_pixels, 16, &a->color));
     TRY(gpu_buffer_create(gpu, "picture fields", n_pixels, 16, &a->fields));
-    TRY(gpu_buffer_create(gpu, "picture ids", 2 * n_pixels, 4, &a->ids));
+    TRY(gpu_buffer_create(gpu, "picture weather", n_pixels, 16, &a->weather));
+    TRY(gpu_buffer_create(gpu, "picture ids", 3 * n_pixels, 4, &a->ids));
+    TRY(gpu_buffer_create(gpu, "still air", 1, 16, &a->still));
     TRY(gpu_buffer_create(gpu, "palette", palette_size(job), 16, &a->palette));
     TRY(memory_alloc(palette_size(job), sizeof *palette, "the palette", &palette));
     for (size_t i = 0; i < palette_size(job); i++)
@@ -62,14 +85,25 @@ void aov_destroy(struct gpu *gpu, struct aov *a)
     gpu_buffer_destroy(gpu, &a->facing);
     gpu_buffer_destroy(gpu, &a->color);
     gpu_buffer_destroy(gpu, &a->fields);
+    gpu_buffer_destroy(gpu, &a->weather);
     gpu_buffer_destroy(gpu, &a->ids);
+    gpu_buffer_destroy(gpu, &a->still);
     gpu_buffer_destroy(gpu, &a->palette);
 }
 
-static void record(struct gpu *gpu, struct aov *a, const struct camera *c, const struct field *f,
-                   const struct particles *p)
+static void put3(float *x, float *y, float *z, const double v[3])
+{
+    *x = (float)v[0];
+    *y = (float)v[1];
+    *z = (float)v[2];
+}
+
+/* One sample of every pixel. Sample 0 is the pixel's middle, the others are spread evenly. */
+static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c, const struct field *f,
+                          const struct particles *p, int sample, int samples)
 {
     double length = sqrt(SUN[0] * SUN[0] + SUN[1] * SUN[1] + SUN[2] * SUN[2]);
+    const double sun[3] = {SUN[0] / length, SUN[1] / length, SUN[2] / length};
     struct march_params march = {
         .n = (uint)(c->width * c->height),
         .width = (uint)c->width,
@@ -78,25 +112,17 @@ static void record(struct gpu *gpu, struct aov *a, const struct camera *c, const
         .fy = (uint)f->n[1],
         .fz = (uint)f->n[2],
         .voxel = (float)f->voxel,
-        .origin_x = (float)f->origin[0],
-        .origin_y = (float)f->origin[1],
-        .origin_z = (float)f->origin[2],
-        .eye_x = (float)c->eye[0],
-        .eye_y = (float)c->eye[1],
-        .eye_z = (float)c->eye[2],
-        .right_x = (float)c->right[0],
-        .right_y = (float)c->right[1],
-        .right_z = (float)c->right[2],
-        .down_x = (float)c->down[0],
-        .down_y = (float)c->down[1],
-        .down_z = (float)c->down[2],
-        .ahead_x = (float)c->ahead[0],
-        .ahead_y = (float)c->ahead[1],
-        .ahead_z = (float)c->ahead[2],
-        .sun_x = (float)(SUN[0] / length),
-        .sun_y = (float)(SUN[1] / length),
-        .sun_z = (float)(SUN[2] / length),
+        .ray = (uint)sample,
+        .rays = (uint)samples,
+        .film_x = (float)fmod(0.5 + sample * 0.7548776662, 1),
+        .film_y = (float)fmod(0.5 + sample * 0.5698402910, 1),
     };
+    put3(&march.origin_x, &march.origin_y, &march.origin_z, f->origin);
+    put3(&march.eye_x, &march.eye_y, &march.eye_z, c->eye);
+    put3(&march.right_x, &march.right_y, &march.right_z, c->right);
+    put3(&march.down_x, &march.down_y, &march.down_z, c->down);
+    put3(&march.ahead_x, &march.ahead_y, &march.ahead_z, c->ahead);
+    put3(&march.sun_x, &march.sun_y, &march.sun_z, sun);
     struct shade_params shade = {
         .n = march.n,
         .nx = (uint)p->voxels[0],
@@ -113,106 +139,101 @@ static void record(struct gpu *gpu, struct aov *a, const struct camera *c, const
         .sun_x = march.sun_x,
         .sun_y = march.sun_y,
         .sun_z = march.sun_z,
+        .ray = march.ray,
+        .rays = march.rays,
     };
     GPU_RUN(gpu, field_march, march.n, march, f->distance, a->hit, a->facing);
     GPU_RUN(gpu, field_shade, shade.n, shade, a->hit, a->facing, f->means, p->field[ROCK_P], p->start,
-            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility], a->palette, a->color,
-            a->fields, a->ids);
+            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility], p->field[ROCK_vegetation],
+            a->palette, a->color, a->fields, a->ids);
 }
 
-/* From which of the downloaded vectors, and which component, each channel comes; `vector` rows are turned to
- * the files' up axis. */
-enum { FROM_HIT, FROM_FACING, FROM_COLOR, FROM_FIELDS, FROM_IDS };
-static const struct {
-    const char *part, *name;
-    int from, component, vector, half;
-} channels[] = {
-    {"rgba", "R", FROM_COLOR, 0, 0, 1},
-    {"rgba", "G", FROM_COLOR, 1, 0, 1},
-    {"rgba", "B", FROM_COLOR, 2, 0, 1},
-    {"rgba", "A", FROM_COLOR, 3, 0, 1},
-    {"depth", "Z", FROM_HIT, 3, 0, 0},
-    {"N", "N.X", FROM_FACING, 0, 1, 0},
-    {"N", "N.Y", FROM_FACING, 1, 1, 0},
-    {"N", "N.Z", FROM_FACING, 2, 1, 0},
-    {"P", "P.X", FROM_HIT, 0, 1, 0},
-    {"P", "P.Y", FROM_HIT, 1, 1, 0},
-    {"P", "P.Z", FROM_HIT, 2, 1, 0},
-    {"stress", "stress.trace", FROM_FIELDS, 0, 0, 0},
-    {"stress", "stress.von_mises", FROM_FIELDS, 1, 0, 0},
-    {"viability", "viability.Y", FROM_FIELDS, 2, 0, 0},
-    {"erodibility", "erodibility.Y", FROM_FIELDS, 3, 0, 0},
-    {"layer", "layer.id", FROM_IDS, 0, 0, 0},
-    {"phase", "phase.id", FROM_IDS, 1, 0, 0},
-};
-enum { CHANNELS = sizeof channels / sizeof *channels };
-
-/* Depth of pixels without rock: farther than anything. */
-static const float NOTHING = 1e10f;
-
-static void split(struct aov_image *image, size_t n, float *const source[4], const uint32_t *ids, int up)
+/* What wind, water and plants do where sample 0 met the rock. */
+static void record_weather(struct gpu *gpu, struct aov *a, size_t n, const struct particles *p,
+                           const struct aov_air *air)
 {
-    float *plane = image->memory;
-    for (size_t c = 0; c < CHANNELS; c++, plane += n) {
-        struct aov_channel *out = &image->channel[c];
-        *out = (struct aov_channel){
-            .part = channels[c].part, .name = channels[c].name, .half = channels[c].half};
-        if (channels[c].from == FROM_IDS) {
-            uint32_t *id = (uint32_t *)plane;
-            for (size_t i = 0; i < n; i++)
-                id[i] = ids[2 * i + (size_t)channels[c].component];
-            out->id = id;
+    const struct grid_lattice still = {{1, 1, 1}, 1, {0}}, *l = air ? &air->lattice : &still;
+    struct pixel_weather_params weather = {
+        .n = (uint)n,
+        .ax = (uint)l->n[0],
+        .ay = (uint)l->n[1],
+        .az = (uint)l->n[2],
+        .cell = (float)l->voxel,
+    };
+    put3(&weather.origin_x, &weather.origin_y, &weather.origin_z, l->origin);
+    GPU_RUN(gpu, field_weather, weather.n, weather, a->hit, a->facing, a->ids, p->field[ROCK_discharge],
+            p->field[ROCK_vegetation], air ? air->velocity : a->still, a->weather);
+}
+
+/* The samples, the pixel's middle last; each is counted into the mattes. */
+static status sample(struct gpu *gpu, struct aov *a, const struct job *job, const struct camera *c,
+                     const struct field *f, const struct particles *p, struct mattes *mattes, uint32_t *ids)
+{
+    status st = OK;
+    size_t n = (size_t)c->width * (size_t)c->height;
+    int samples = (int)job->output.aov.samples;
+    float *hit = NULL;
+    if (mattes)
+        TRY(memory_alloc(n, 4 * sizeof *hit, "a picture", &hit));
+    for (int s = samples - 1; s >= 0; s--) {
+        record_sample(gpu, a, c, f, p, s, samples);
+        if (!mattes)
             continue;
-        }
-        const float *from = source[channels[c].from];
-        size_t component = (size_t)channels[c].component;
-        float sign = 1;
-        if (channels[c].vector && up == OUTPUT_UP_Y && component > 0) { /* (x, z, -y) */
-            sign = component == 2 ? -1.0f : 1.0f;
-            component = 3 - component;
-        }
-        for (size_t i = 0; i < n; i++) {
-            bool nothing = source[FROM_HIT][4 * i + 3] < 0;
-            plane[i] = !nothing ? sign * from[4 * i + component] : channels[c].name[0] == 'Z' ? NOTHING : 0;
-        }
-        out->value = plane;
+        TRY(gpu_download(gpu, a->ids, 0, ids, 3 * n));
+        TRY(gpu_download(gpu, a->hit, 0, hit, n));
+        mattes_add(mattes, ids, hit);
     }
+done:
+    free(hit);
+    return st;
 }
 
 status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const struct job_camera *camera,
-                  const struct field *f, const struct particles *p, struct aov_image *out)
+                  int frame, const struct field *f, const struct particles *p, const struct aov_air *air,
+                  struct aov_image *out)
 {
     status st = OK;
-    struct camera c = camera_of(camera);
+    const struct camera view = camera_of(camera, frame);
+    int margin[2];
+    overscan_of(camera, margin);
+    const struct camera c = camera_overscan(view, margin);
     size_t n = (size_t)c.width * (size_t)c.height;
-    float *source[4] = {NULL};
+    float *source[AOV_SOURCES] = {NULL};
     uint32_t *ids = NULL;
-    struct gpu_buffer *from[4] = {a->hit, a->facing, a->color, a->fields};
+    struct mattes *mattes = NULL;
+    struct gpu_buffer *from[AOV_SOURCES] = {a->hit, a->facing, a->color, a->fields, a->weather};
     *out = (struct aov_image){
-        .camera = camera->name, .width = c.width, .height = c.height, .n_channels = CHANNELS};
-    TRY(memory_alloc(CHANNELS, sizeof *out->channel, "channels", &out->channel));
-    TRY(memory_alloc(n * CHANNELS, sizeof(float), "a picture", &out->memory));
-    record(gpu, a, &c, f, p);
-    for (int s = 0; s < 4; s++) {
+        .camera = camera->name, .width = c.width, .height = c.height, .margin = {margin[0], margin[1]}};
+    TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &ids));
+    if (job->output.aov.cryptomatte)
+        TRY(mattes_create(job, n, &mattes));
+    TRY(sample(gpu, a, job, &c, f, p, mattes, ids));
+    record_weather(gpu, a, n, p, air);
+    for (int s = 0; s < AOV_SOURCES; s++) {
         TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &source[s]));
         TRY(gpu_download(gpu, from[s], 0, source[s], n));
     }
-    TRY(memory_alloc(n, 2 * sizeof(uint32_t), "a picture", &ids));
-    TRY(gpu_download(gpu, a->ids, 0, ids, 2 * n));
-    split(out, n, source, ids, job->output.up);
-    camera_matrices(&c, job->output.up, out->world_to_camera, out->world_to_ndc);
+    TRY(gpu_download(gpu, a->ids, 0, ids, 3 * n));
+    TRY(aov_channels(job, source, ids, mattes, out));
+    camera_matrices(&view, job->output.up, out->world_to_camera, out->world_to_ndc);
 done:
-    for (int s = 0; s < 4; s++)
+    for (int s = 0; s < AOV_SOURCES; s++)
         free(source[s]);
     free(ids);
+    mattes_destroy(&mattes);
     if (st != OK)
         aov_image_free(out);
     return st;
 }
 
-void aov_image_free(struct aov_image *image)
+status aov_render_all(struct gpu *gpu, struct aov *a, const struct job *job, const struct field *f,
+                      const struct particles *p, const struct aov_air *air, struct frame *out)
 {
-    free(image->channel);
-    free(image->memory);
-    memset(image, 0, sizeof *image);
+    status st = OK;
+    TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
+    for (size_t i = 0; i < job->output.aov.n_cameras; i++)
+        TRY(aov_render(gpu, a, job, camera_named(job, job->output.aov.cameras[i]), out->number, f, p, air,
+                       &out->image[out->n_images++]));
+done:
+    return st;
 }

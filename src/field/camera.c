@@ -22,33 +22,62 @@ static void normalize(double v[3])
         v[i] /= length > 0 ? length : 1;
 }
 
-struct camera camera_of(const struct job_camera *camera)
+static struct camera look(const double eye[3], const double target[3], double film, int width, int height)
 {
     static const double up[3] = {0, 0, 1}, north[3] = {0, 1, 0};
-    const double degree = 3.14159265358979323846 / 180;
-    const struct job_orbit *o = &camera->orbit;
-    struct camera c = {.width = (int)camera->resolution[0], .height = (int)camera->resolution[1]};
-    const double *target = o->distance_m > 0 ? o->target_m : camera->target_m;
-    if (o->distance_m > 0) {
-        double level = cos(o->elevation_deg * degree);
-        c.eye[0] = target[0] + o->distance_m * level * cos(o->azimuth_deg * degree);
-        c.eye[1] = target[1] + o->distance_m * level * sin(o->azimuth_deg * degree);
-        c.eye[2] = target[2] + o->distance_m * sin(o->elevation_deg * degree);
-    } else {
-        memcpy(c.eye, camera->position_m, sizeof c.eye);
+    struct camera c = {.width = width, .height = height};
+    for (int i = 0; i < 3; i++) {
+        c.eye[i] = eye[i];
+        c.ahead[i] = target[i] - eye[i];
     }
-    for (int i = 0; i < 3; i++)
-        c.ahead[i] = target[i] - c.eye[i];
     normalize(c.ahead);
     /* Straight up or down, the picture's top is north. */
     cross(c.ahead, fabs(c.ahead[2]) > 1 - 1e-9 ? north : up, c.right);
     normalize(c.right);
     cross(c.ahead, c.right, c.down);
-    double half = 0.5 * camera->aperture_mm / camera->focal_mm;
     for (int i = 0; i < 3; i++) {
-        c.right[i] *= half;
-        c.down[i] *= half * c.height / c.width;
+        c.right[i] *= film;
+        c.down[i] *= film * height / width;
     }
+    return c;
+}
+
+struct camera camera_orbit(const double target[3], double distance, double azimuth_deg, double elevation_deg,
+                           double film, int width, int height)
+{
+    const double degree = 3.14159265358979323846 / 180, level = cos(elevation_deg * degree);
+    const double eye[3] = {
+        target[0] + distance * level * cos(azimuth_deg * degree),
+        target[1] + distance * level * sin(azimuth_deg * degree),
+        target[2] + distance * sin(elevation_deg * degree),
+    };
+    return look(eye, target, film, width, height);
+}
+
+struct camera camera_of(const struct job_camera *camera, double frame)
+{
+    const struct job_orbit *o = &camera->orbit;
+    double film = 0.5 * camera->aperture_mm / curve_at(&camera->focal_mm, frame), eye[3], target[3];
+    int width = (int)camera->resolution[0], height = (int)camera->resolution[1];
+    double distance = curve_at(&o->distance_m, frame);
+    if (distance > 0) {
+        track_at(&o->target_m, frame, target);
+        return camera_orbit(target, distance, curve_at(&o->azimuth_deg, frame),
+                            curve_at(&o->elevation_deg, frame), film, width, height);
+    }
+    track_at(&camera->position_m, frame, eye);
+    track_at(&camera->target_m, frame, target);
+    return look(eye, target, film, width, height);
+}
+
+struct camera camera_overscan(struct camera c, const int margin[2])
+{
+    for (int i = 0; i < 3; i++) {
+        c.right[i] *= 1 + 2.0 * margin[0] / c.width;
+        c.down[i] *= 1 + 2.0 * margin[1] / c.height;
+    }
+    c.width += 2 * margin[0];
+    c.height += 2 * margin[1];
     return c;
 }
 

@@ -11,7 +11,15 @@ struct camera {
     int width, height;        /* px */
 };
 
-struct camera camera_of(const struct job_camera *camera);
+/* As it is in a frame, without overscan. */
+struct camera camera_of(const struct job_camera *camera, double frame);
+
+/* Around a target, as job cameras have it; `film` is half the film's width over the focal length. */
+struct camera camera_orbit(const double target[3], double distance, double azimuth_deg, double elevation_deg,
+                           double film, int width, int height);
+
+/* The same with a margin of pixels on every side. */
+struct camera camera_overscan(struct camera c, const int margin[2]);
 
 /* EXR's matrices, row vectors times matrix, from file axes (up y or z): to camera space (x right, y up, z
  * ahead: left-handed) and to normalised device coordinates (0, 0 upper left to 1, 1 lower right, after

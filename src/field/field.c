@@ -70,7 +70,7 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
 {
     struct field_params k = params_of(f, p);
     GPU_RUN(gpu, field_means, k.n, k, p->start, p->field[ROCK_stress], p->field[ROCK_von_mises],
-            p->field[ROCK_viability], f->share, f->means);
+            p->field[ROCK_viability], p->field[ROCK_phase], f->share, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->share, f->distance);
     /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
@@ -95,7 +95,23 @@ status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, 
     return st;
 }
 
-status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out)
+/* `other` is free once the distances are there. */
+static status download_skin(struct gpu *gpu, struct field *f, struct particles *p, enum rock_field which,
+                            struct frame_grid *out)
+{
+    const struct field_params k = params_of(f, p);
+    status st = OK;
+    *out = (struct frame_grid){
+        .name = rock_field_table[which].name, .unit = rock_field_table[which].unit, .kind = GRID_PLAIN};
+    TRY(memory_alloc(k.n, sizeof(float), out->name, &out->value));
+    GPU_RUN(gpu, field_skin, k.n, k, p->start, p->field[ROCK_N], p->field[which], f->share, f->other);
+    TRY(gpu_download(gpu, f->other, 0, out->value, k.n));
+done:
+    return st;
+}
+
+status field_download(struct gpu *gpu, struct field *f, struct particles *p, const enum rock_field *skin,
+                      size_t n_skin, struct frame_grids *out)
 {
     static const struct frame_grid kinds[] = {
         {.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET},
@@ -128,10 +144,55 @@ status field_download(struct gpu *gpu, const struct field *f, struct frame_grids
         mises[i] = means[4 * i + 1];
         viability[i] = means[4 * i + 2];
     }
+    for (size_t s = 0; s < n_skin; s++) {
+        struct frame_grid *grid = &out->grid[out->n_grids++];
+        if (skin[s] != ROCK_phase) {
+            TRY(download_skin(gpu, f, p, skin[s], grid));
+            continue;
+        }
+        *grid = (struct frame_grid){.name = "deposit", .unit = "", .kind = GRID_PLAIN};
+        TRY(memory_alloc(n, sizeof(float), grid->name, &grid->value));
+        for (size_t i = 0; i < n; i++)
+            grid->value[i] = means[4 * i + 3];
+    }
 done:
     free(means);
     if (st != OK)
         field_grids_free(out);
+    return st;
+}
+
+static const float *grid_named(const struct frame_grids *grids, const char *name)
+{
+    for (size_t g = 0; g < grids->n_grids; g++)
+        if (strcmp(grids->grid[g].name, name) == 0 && grids->grid[g].own.n[0] == 0)
+            return grids->grid[g].value;
+    return NULL;
+}
+
+status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids)
+{
+    static const char *const names[4] = {"stress", "von_mises", "viability", "deposit"};
+    const float *surface = grid_named(grids, "surface");
+    size_t n = sample_count(f);
+    float *means = NULL;
+    status st = OK;
+    if (!surface)
+        return fail(E_INPUT, "it has no grid 'surface'");
+    for (int a = 0; a < 3; a++)
+        if (grids->n[a] != f->n[a] || fabs(grids->origin[a] - f->origin[a]) > 1e-3 * f->voxel)
+            return fail(E_INPUT, "its grids have %d x %d x %d voxels, and the job's %d x %d x %d",
+                        grids->n[0], grids->n[1], grids->n[2], f->n[0], f->n[1], f->n[2]);
+    TRY(memory_alloc(4 * n, sizeof *means, "field means", &means));
+    for (size_t c = 0; c < 4; c++) {
+        const float *from = grid_named(grids, names[c]);
+        for (size_t i = 0; from && i < n; i++)
+            means[4 * i + c] = from[i];
+    }
+    TRY(gpu_upload(gpu, f->means, 0, means, n));
+    TRY(gpu_upload(gpu, f->distance, 0, surface, n));
+done:
+    free(means);
     return st;
 }
 

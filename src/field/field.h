@@ -18,7 +18,8 @@ struct field {
     double voxel, origin[3];  /* m: the particle spacing; sample 0 */
     struct gpu_buffer *share; /* float [samples]: of rock, 0..1 */
     struct gpu_buffer
-        *means; /* vec4 [samples]: stress (Pa), von Mises (Pa), viability, 0; 0 where no particle is near */
+        *means; /* vec4 [samples]: stress (Pa), von Mises (Pa), viability, share of deposits; 0 where no
+                   * particle is near */
     struct gpu_buffer *distance, *other; /* float [samples]: m, negative inside, at most 3 voxels */
 };
 
@@ -35,9 +36,14 @@ void field_build(struct gpu *gpu, struct field *f, struct particles *p);
  * particles only say what lies near it. Waits. */
 MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, const float *share);
 
-/* The grids of DESIGN 2 that exist so far: surface, density, stress, von_mises, viability. Freed with
- * field_grids_free(). Waits. */
-MUST_USE status field_download(struct gpu *gpu, const struct field *f, struct frame_grids *out);
+/* The field of a frame that was written: surface, stress, von_mises, viability and deposit from its grids, what
+ * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
+MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);
+
+/* The grids surface, density, stress, von_mises and viability, and one for each field of `skin`: means of what
+ * only the surface's particles have, such as discharge; for ROCK_phase the share of deposits, as `deposit`. Freed with field_grids_free(). Waits. */
+MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p,
+                               const enum rock_field *skin, size_t n_skin, struct frame_grids *out);
 void field_grids_free(struct frame_grids *grids);
 
 #endif

@@ -1,14 +1,13 @@
 /* Devices: listing them, choosing one, opening and closing it. */
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/version.h"
+#include "gpu/choose.h"
 #include "gpu/internal.h"
 
 const char *vk_result_text(VkResult result)
@@ -178,90 +177,6 @@ done:
     return st;
 }
 
-static int preference(const struct gpu_info *info)
-{
-    static const char *const order[] = {"discrete", "integrated", "virtual", "other", "cpu"};
-    int rank = 0;
-    while (rank < 4 && strcmp(info->type, order[rank]) != 0)
-        rank++;
-    return info->usable ? rank : 99;
-}
-
-/* Slurm numbers its GPUs by PCI address; Vulkan does not. */
-static int slurm_device(const struct gpu_info *info, uint32_t n, const char **why)
-{
-    const char *ids = getenv("SLURM_STEP_GPUS");
-    int gpus[64], n_gpus = 0;
-    if (!ids)
-        ids = getenv("SLURM_JOB_GPUS");
-    for (uint32_t i = 0; i < n && n_gpus < 64; i++)
-        if (info[i].usable && !info[i].is_cpu)
-            gpus[n_gpus++] = (int)i;
-    if (n_gpus == 1)
-        return gpus[0];
-    *why = n_gpus == 0 ? "no GPU is visible, and Slurm jobs never fall back to a CPU device"
-           : !ids      ? "neither SLURM_STEP_GPUS nor SLURM_JOB_GPUS is set"
-                       : "the GPUs' PCI addresses are unknown, so Slurm's numbers cannot be matched";
-    if (n_gpus == 0 || !ids)
-        return -1;
-    for (int i = 1; i < n_gpus; i++)
-        for (int j = i; j > 0 && strcmp(info[gpus[j]].pci, info[gpus[j - 1]].pci) < 0; j--) {
-            int swap = gpus[j];
-            gpus[j] = gpus[j - 1];
-            gpus[j - 1] = swap;
-        }
-    if (info[gpus[0]].pci[0] == '\0')
-        return -1;
-    *why = "Slurm's number is not one of the GPUs seen here";
-    int wanted = atoi(ids);
-    return isdigit((unsigned char)*ids) && wanted < n_gpus ? gpus[wanted] : -1;
-}
-
-static status choose(const char *wanted, const struct gpu_info *info, uint32_t n, uint32_t *chosen)
-{
-    int found = -1;
-    const char *why = "there is no such device";
-    if (!wanted || strcmp(wanted, "auto") == 0) {
-        why = "none of them has Vulkan 1.2 with buffer addresses and scalar layout";
-        for (uint32_t i = 0; i < n; i++)
-            if (info[i].usable && (found < 0 || preference(&info[i]) < preference(&info[found])))
-                found = (int)i;
-    } else if (strcmp(wanted, "slurm") == 0) {
-        found = slurm_device(info, n, &why);
-    } else if (strncmp(wanted, "uuid:", 5) == 0 || strncmp(wanted, "pci:", 4) == 0) {
-        bool uuid = wanted[0] == 'u';
-        char hex[64] = "";
-        size_t length = 0;
-        for (const char *c = wanted + (uuid ? 5 : 4); *c && length < sizeof hex - 1; c++)
-            if (!uuid || *c != '-')
-                hex[length++] = *c;
-        for (uint32_t i = 0; i < n && found < 0; i++)
-            if (length && strcasecmp(uuid ? info[i].uuid : info[i].pci, hex) == 0)
-                found = (int)i;
-    } else {
-        char *end;
-        long index = strtol(wanted, &end, 10);
-        if (*wanted == '\0' || *end || index < 0)
-            return fail(E_USAGE, "--device %.60s: write auto, INDEX, uuid:HEX, pci:DDDD:BB:DD.F or slurm",
-                        wanted);
-        found = index < (long)n ? (int)index : -1;
-    }
-    if (found >= 0 && !info[found].usable) {
-        why = "it lacks Vulkan 1.2 with buffer addresses and scalar layout";
-        found = -1;
-    }
-    if (found < 0) {
-        char list[512] = "";
-        size_t used = 0;
-        for (uint32_t i = 0; i < n && used < sizeof list - 1; i++)
-            used +=
-                (size_t)snprintf(list + used, sizeof list - used, "%s%u: %s", i ? ", " : "", i, info[i].name);
-        return fail(E_DEVICE, "--device %s: %s; devices here: %s", wanted ? wanted : "auto", why, list);
-    }
-    *chosen = (uint32_t)found;
-    return OK;
-}
-
 static status device_open(struct gpu *gpu)
 {
     float priority = 1;
@@ -321,14 +236,16 @@ status gpu_create(const struct gpu_options *options, struct gpu **out)
     status st = OK;
     VkPhysicalDevice *physical = NULL;
     struct gpu_info *info = NULL;
-    uint32_t n, chosen;
+    uint32_t n;
+    size_t chosen;
     struct gpu *gpu = NULL;
     TRY(memory_alloc(1, sizeof *gpu, "the device", &gpu));
     gpu->options = *options;
     gpu->epoch = 1;
     TRY(instance_create(&gpu->instance));
     TRY(enumerate(gpu->instance, &physical, &info, &n));
-    TRY(choose(options->device, info, n, &chosen));
+    const char *ids = getenv("SLURM_STEP_GPUS");
+    TRY(gpu_choose(options->device, ids ? ids : getenv("SLURM_JOB_GPUS"), info, n, &chosen));
     gpu->info = info[chosen];
     gpu->physical = physical[chosen];
     TRY(device_open(gpu));

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "job/parse.h"
 
 /* The place of `key` where it is given, else of the mapping that lacks it. */
@@ -36,6 +37,15 @@ static status check_direction(const struct yaml *map, const char *key, const dou
     return length(v) < 1e-6 ? yaml_fail(place(map, key), NULL, "has no length, so no direction") : OK;
 }
 
+static status check_wind(const struct yaml *map, const struct job_wind *w)
+{
+    const double *d = w->direction;
+    if (length(d) >= 1e-6 && w->flow.solver == FLOW_SPH && hypot(d[0], d[1]) < 0.5 * length(d))
+        return yaml_fail(place(map, "direction"), NULL,
+                         "steeper than 60 degrees, which flow.solver: sph cannot lay flat (use uniform)");
+    return check_direction(map, "direction", d);
+}
+
 static status check_cylinder(const struct yaml *map, const struct job_cylinder *c)
 {
     if (distance(c->from_m, c->to_m) < 1e-6)
@@ -48,8 +58,18 @@ static status check_cylinder(const struct yaml *map, const struct job_cylinder *
 
 static status check_camera(const struct yaml *map, const struct job_camera *c)
 {
-    if (c->orbit.distance_m == 0 && distance(c->position_m, c->target_m) < 1e-6)
-        return yaml_fail(place(map, "target_m"), NULL, "the same point as position_m");
+    /* Where either has a key; between keys it is only a picture. */
+    const struct curve *keys[] = {&c->position_m, &c->target_m};
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < keys[k]->n; i++) {
+            double frame = keys[k]->frame[i], eye[3], target[3];
+            if (curve_at(&c->orbit.distance_m, frame) > 0)
+                continue;
+            track_at(&c->position_m, frame, eye);
+            track_at(&c->target_m, frame, target);
+            if (distance(eye, target) < 1e-6)
+                return yaml_fail(place(map, "target_m"), NULL, "the same point as position_m");
+        }
     return OK;
 }
 
@@ -108,7 +128,7 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
     case SECTION_plane:
         return check_direction(map, "normal", ((const struct job_plane *)base)->normal);
     case SECTION_wind:
-        return check_direction(map, "direction", ((const struct job_wind *)base)->direction);
+        return check_wind(map, base);
     case SECTION_camera:
         return check_camera(map, base);
     case SECTION_material:
@@ -129,6 +149,23 @@ static status check_strata(const struct yaml *root, const struct job *job)
                 place(yaml_item(list, i), "to_m"), NULL,
                 "%g m is not above the layer below, which reaches to %g m (strata are listed bottom up)",
                 job->strata[i].to_m, job->strata[i - 1].to_m);
+    return OK;
+}
+
+static status check_aov_layers(const struct yaml *root, const struct job *job)
+{
+    const struct job_aov *aov = &job->output.aov;
+    const struct yaml *list = yaml_get(yaml_get(yaml_get(root, "output"), "aov"), "layers");
+    for (size_t i = 0; i < aov->n_layers; i++) {
+        bool found = false;
+        for (size_t k = 0; k < AOV_LAYER_COUNT; k++)
+            found |= strcmp(aov->layers[i], aov_layer_names[k]) == 0;
+        if (!found) {
+            const char *near = nearest_word(aov->layers[i], aov_layer_names, AOV_LAYER_COUNT);
+            return yaml_fail(yaml_item(list, i), NULL, "no layer '%s'%s%s", aov->layers[i],
+                             near ? "; did you mean " : " (see jobs/README.md)", near ? near : "");
+        }
+    }
     return OK;
 }
 
@@ -155,11 +192,31 @@ static status check_aov_cameras(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+/* Lists that are zipped must end together. */
+static status check_wedge(const struct yaml *root, const struct job_wedge *wedge)
+{
+    const struct yaml *map = yaml_get(root, "wedge"), *list = yaml_get(map ? map : root, "over");
+    for (size_t i = 0; i < wedge->n_over; i++) {
+        const struct yaml *at = yaml_item(list, i);
+        if (wedge->over[i].n_values == 0)
+            return yaml_fail(place(at, "values"), NULL, "a wedge without values");
+        if (wedge->combine == WEDGE_ZIP && wedge->over[i].n_values != wedge->over[0].n_values)
+            return yaml_fail(place(at, "values"), NULL,
+                             "%zu values, but %s has %zu; zipped lists are of one length (or combine: cross)",
+                             wedge->over[i].n_values, wedge->over[0].key, wedge->over[0].n_values);
+    }
+    if (wedge->n_over && *wedge->csv)
+        return yaml_fail(place(map, "csv"), NULL, "given beside over; a wedge has one of the two");
+    return OK;
+}
+
 status check_job(const struct yaml *root, const struct job *job)
 {
     status st = OK;
     TRY(check_strata(root, job));
     TRY(check_aov_cameras(root, job));
+    TRY(check_wedge(root, &job->wedge));
+    TRY(check_aov_layers(root, job));
 done:
     return st;
 }

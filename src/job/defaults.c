@@ -69,6 +69,15 @@ status read_default(const struct job_key *key, const struct yaml *map, const cha
         curve->value[0] = key->number;
         curve->n = 1;
         return OK;
+    case KEY_TRACK:
+        curve = member;
+        st = memory_alloc(1 + key->n, sizeof *curve->frame, "a curve", &curve->frame);
+        if (st != OK)
+            return st;
+        curve->value = curve->frame + 1;
+        default_vec(key, curve->value);
+        curve->n = 1;
+        return OK;
     case KEY_CHOICE:
         *(int *)member = default_choice(key);
         return OK;
@@ -83,6 +92,7 @@ status read_default(const struct job_key *key, const struct yaml *map, const cha
     case KEY_MAP:
     case KEY_POINTS:
     case KEY_NAMES:
+    case KEY_TEXTS:
     case KEY_NODE:
         break; /* zeroed: none */
     }

@@ -39,13 +39,14 @@ static void put_text(struct walk *w, const char *s)
 }
 
 /* A curve that never changes is a number, however it is written. */
-static void put_curve(struct walk *w, const struct curve *c)
+static void put_curve(struct walk *w, const struct curve *c, size_t width)
 {
     put_count(w, c->n);
     for (size_t i = 0; i < c->n; i++) {
         if (c->n > 1)
             put_number(w, c->frame[i]);
-        put_number(w, c->value[i]);
+        for (size_t a = 0; a < width; a++)
+            put_number(w, c->value[i * width + a]);
     }
     if (c->n > 1)
         put_count(w, (size_t)c->ease);
@@ -167,7 +168,8 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
         put_text(w, "");
         break;
     case KEY_CURVE:
-        put_curve(w, member);
+    case KEY_TRACK:
+        put_curve(w, member, key->type == KEY_TRACK ? key->n : 1);
         break;
     case KEY_VEC:
         for (size_t i = 0; i < key->n; i++)
@@ -186,6 +188,7 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
             put_number(w, points[i]);
         break;
     case KEY_NAMES:
+    case KEY_TEXTS:
         names = key_items(key, base, &n);
         put_count(w, n);
         for (size_t i = 0; i < n; i++)

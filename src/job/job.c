@@ -34,6 +34,7 @@ void free_section(enum job_section_id section, void *base)
             free(*(char **)member);
             break;
         case KEY_CURVE:
+        case KEY_TRACK:
             free(((struct curve *)member)->frame); /* value is its second half */
             break;
         case KEY_SUB:
@@ -53,6 +54,7 @@ void free_section(enum job_section_id section, void *base)
             free(key_items(key, base, &n));
             break;
         case KEY_NAMES:
+        case KEY_TEXTS:
             items = key_items(key, base, &n);
             for (size_t k = 0; k < n; k++)
                 free(((char **)(void *)items)[k]);
@@ -95,6 +97,21 @@ static status folder_of(const char *path, char **out)
     return st;
 }
 
+const char *const aov_layer_names[AOV_LAYER_COUNT] = {
+#define AOV_LAYER(name) #name,
+    AOV_LAYERS(AOV_LAYER)
+#undef AOV_LAYER
+};
+
+bool job_wants_layer(const struct job *job, enum aov_layer layer)
+{
+    const struct job_aov *a = &job->output.aov;
+    for (size_t i = 0; i < a->n_layers; i++)
+        if (strcmp(a->layers[i], aov_layer_names[layer]) == 0)
+            return true;
+    return a->n_layers == 0;
+}
+
 size_t job_layer_at(const struct job *job, double z)
 {
     size_t layer = 0;
@@ -128,6 +145,7 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     TRY(read_section(SECTION_job, root, NULL, folder, job));
     TRY(read_default_layer(root, job));
     TRY(check_job(root, job));
+    TRY(read_wedge_csv(folder, job));
     *out = job;
     job = NULL;
 done:

@@ -16,7 +16,8 @@
 
 enum curve_ease { EASE_LINEAR, EASE_SMOOTH, EASE_STEP };
 
-/* A number, or a number that changes with the frame. Constant outside its first and last frame. */
+/* A number, or a number that changes with the frame. Constant outside its first and last frame. A TRACK has
+ * three numbers for each frame. */
 struct curve {
     size_t n; /* >= 1 */
     double *frame, *value;
@@ -25,6 +26,7 @@ struct curve {
 
 double curve_at(const struct curve *c, double frame);
 double curve_max(const struct curve *c);
+void track_at(const struct curve *c, double frame, double out[3]);
 
 enum job_node_kind { NODE_UNION, NODE_INTERSECTION, NODE_DIFFERENCE, NODE_SHAPE };
 enum job_shape {
@@ -50,6 +52,7 @@ enum job_shape {
 #define INPUT(section, key, use, preset, meaning, source) char *key;
 #define NUM(section, key, use, unit, preset, min, max, meaning, source) double key;
 #define CURVE(section, key, use, unit, preset, min, max, meaning, source) struct curve key;
+#define TRACK(section, key, use, unit, preset, min, max, meaning, source) struct curve key;
 #define INT(section, key, use, unit, preset, min, max, meaning, source) int64_t key;
 #define BOOL(section, key, use, preset, meaning, source) bool key;
 #define CHOICE(section, key, use, preset, choices, meaning, source) int key;
@@ -67,6 +70,7 @@ enum job_shape {
 #define NAMES(section, key, use, meaning)                                                                    \
     char **key;                                                                                              \
     size_t n_##key;
+#define TEXTS(section, key, use, meaning) NAMES(section, key, use, meaning)
 #include "job/keys.def"
 
 struct job_node {
@@ -88,6 +92,7 @@ struct job_node {
     } u;
 };
 
+enum { WEDGE_ZIP, WEDGE_CROSS };
 enum { MODEL_ARENITE, MODEL_GOBLINS, MODEL_ARCHES };
 enum { TOOL_SCULPT, TOOL_SWEEP, TOOL_DEPOSIT, TOOL_ERODE, TOOL_FILL, TOOL_NOISE };
 enum { MODE_CARVE, MODE_ADD };
@@ -99,7 +104,33 @@ enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
+enum { USD_POINTS_SURFACE, USD_POINTS_NONE };
 enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
+
+/* The layers of an AOV picture (DESIGN 2), by name; output.aov.layers chooses among them. */
+#define AOV_LAYERS(X)                                                                                        \
+    X(rgba)                                                                                                  \
+    X(depth)                                                                                                 \
+    X(N)                                                                                                     \
+    X(P)                                                                                                     \
+    X(stress)                                                                                                \
+    X(viability)                                                                                             \
+    X(erodibility)                                                                                           \
+    X(discharge)                                                                                             \
+    X(wind)                                                                                                  \
+    X(vegetation)                                                                                            \
+    X(layer)                                                                                                 \
+    X(phase)
+enum aov_layer {
+#define AOV_LAYER(name) AOV_##name,
+    AOV_LAYERS(AOV_LAYER)
+#undef AOV_LAYER
+        AOV_LAYER_COUNT
+};
+extern const char *const aov_layer_names[AOV_LAYER_COUNT];
+
+/* Whether the job wants a layer. */
+bool job_wants_layer(const struct job *job, enum aov_layer layer);
 
 /* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside
  * are made absolute against the job file's folder. E_INPUT: the file cannot be read. E_USAGE: it is wrong;
@@ -107,6 +138,19 @@ enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
  * *out is freed with job_destroy(). */
 MUST_USE status job_load(const char *path, const char *const *sets, size_t n_sets, struct job **out);
 void job_destroy(struct job **job);
+
+/* Puts the job's input files where OpenJD's path mapping rules (the file of a session) say they are here.
+ * E_INPUT: the file is missing or wrong. */
+MUST_USE status job_map_paths(struct job *job, const char *file);
+
+/* Wedges: the job with other values, side by side. How many there are; 0 if the job has none, or is one. */
+size_t job_wedges(const struct job *job);
+
+/* Wedge `index` (1..job_wedges(base)) of the job that job_load(path, sets) gave as `base`: named
+ * NAME_w0001, with wedge.index and wedge.label filled in and no wedges of its own. E_USAGE: there is no such
+ * wedge, or its values are wrong. */
+MUST_USE status job_load_wedge(const char *path, const char *const *sets, size_t n_sets,
+                               const struct job *base, int index, struct job **out);
 
 /* The job as run: YAML with every key, its value and, as a comment, its unit and meaning. Loading it again
  * gives an equal job. */

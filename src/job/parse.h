@@ -31,6 +31,9 @@ MUST_USE status read_default_layer(const struct yaml *root, struct job *job);
 /* A job, section or node that was filled only partly is fine. */
 void free_section(enum job_section_id section, void *base);
 
+/* Fills job->wedge.over from job->wedge.csv, relative to `folder`. E_INPUT names the file and line. */
+MUST_USE status read_wedge_csv(const char *folder, struct job *job);
+
 /* What one key's range cannot say. check_section() looks at one mapping, check_job() at all. */
 MUST_USE status check_section(enum job_section_id section, const struct yaml *map, const void *base);
 MUST_USE status check_job(const struct yaml *root, const struct job *job);

@@ -74,6 +74,8 @@ static const char *type_name(const struct job_key *key)
         return "number";
     case KEY_CURVE:
         return "curve";
+    case KEY_TRACK:
+        return "curve of points";
     case KEY_INT:
         return "whole number";
     case KEY_BOOL:
@@ -96,6 +98,8 @@ static const char *type_name(const struct job_key *key)
         return "list of points";
     case KEY_NAMES:
         return "list of names";
+    case KEY_TEXTS:
+        return "list of values";
     }
     return "";
 }
@@ -123,12 +127,14 @@ static void put_default(struct text *t, const struct job_key *key)
         break;
     case KEY_CHOICE:
     case KEY_VEC:
+    case KEY_TRACK:
     case KEY_RANGE:
         text_add(t, "`%s`", key->preset);
         break;
     case KEY_LIST:
     case KEY_POINTS:
     case KEY_NAMES:
+    case KEY_TEXTS:
         text_add(t, "`[]`");
         break;
     case KEY_MAP:

@@ -48,26 +48,37 @@ static void put_key(struct text *t, const char *name)
         text_add(t, "%s", name);
 }
 
-static void put_curve(struct text *t, const struct curve *c)
-{
-    static const char *const ease[] = {"linear", "smooth", "step"};
-    char number[32];
-    if (c->n == 1) {
-        text_add(t, "%s", key_number(c->value[0], number));
-        return;
-    }
-    text_add(t, "{");
-    for (size_t i = 0; i < c->n; i++)
-        text_add(t, "%.0f: %s, ", c->frame[i], key_number(c->value[i], number));
-    text_add(t, "ease: %s}", ease[c->ease]);
-}
-
 static void put_vec(struct text *t, const double *v, size_t n)
 {
     char number[32];
     for (size_t i = 0; i < n; i++)
         text_add(t, "%s%s", i ? ", " : "[", key_number(v[i], number));
     text_add(t, "]");
+}
+
+static void put_curve_value(struct text *t, const struct job_key *key, const struct curve *c, size_t i)
+{
+    char number[32];
+    if (key->type == KEY_TRACK)
+        put_vec(t, c->value + i * key->n, key->n);
+    else
+        text_add(t, "%s", key_number(c->value[i], number));
+}
+
+static void put_curve(struct text *t, const struct job_key *key, const struct curve *c)
+{
+    static const char *const ease[] = {"linear", "smooth", "step"};
+    if (c->n == 1) {
+        put_curve_value(t, key, c, 0);
+        return;
+    }
+    text_add(t, "{");
+    for (size_t i = 0; i < c->n; i++) {
+        text_add(t, "%.0f: ", c->frame[i]);
+        put_curve_value(t, key, c, i);
+        text_add(t, ", ");
+    }
+    text_add(t, "ease: %s}", ease[c->ease]);
 }
 
 static void put_value(struct text *t, const struct job_key *key, const void *base)
@@ -91,7 +102,8 @@ static void put_value(struct text *t, const struct job_key *key, const void *bas
         text_add(t, "%lld", (long long)*(const int64_t *)member);
         break;
     case KEY_CURVE:
-        put_curve(t, member);
+    case KEY_TRACK:
+        put_curve(t, key, member);
         break;
     case KEY_BOOL:
         text_add(t, *(const bool *)member ? "true" : "false");
@@ -116,6 +128,7 @@ static void put_value(struct text *t, const struct job_key *key, const void *bas
         text_add(t, "]");
         break;
     case KEY_NAMES:
+    case KEY_TEXTS:
         names = key_items(key, base, &n);
         text_add(t, "[");
         for (size_t i = 0; i < n; i++) {

@@ -34,6 +34,9 @@
     ROW(s_, key_, KEY_NUM, use_, unit_, meaning_, source_, .number = number_, .min = min_, .max = max_)
 #define CURVE(s_, key_, use_, unit_, number_, min_, max_, meaning_, source_)                                 \
     ROW(s_, key_, KEY_CURVE, use_, unit_, meaning_, source_, .number = number_, .min = min_, .max = max_)
+#define TRACK(s_, key_, use_, unit_, preset_, min_, max_, meaning_, source_)                                 \
+    ROW(s_, key_, KEY_TRACK, use_, unit_, meaning_, source_, .preset = preset_, .n = 3, .min = min_,         \
+        .max = max_)
 #define INT(s_, key_, use_, unit_, number_, min_, max_, meaning_, source_)                                   \
     ROW(s_, key_, KEY_INT, use_, unit_, meaning_, source_, .number = number_, .min = min_, .max = max_)
 #define BOOL(s_, key_, use_, number_, meaning_, source_)                                                     \
@@ -56,6 +59,8 @@
         .offset_n = offsetof(struct job_##s_, n_##key_))
 #define NAMES(s_, key_, use_, meaning_)                                                                      \
     ROW(s_, key_, KEY_NAMES, use_, "", meaning_, "", .offset_n = offsetof(struct job_##s_, n_##key_))
+#define TEXTS(s_, key_, use_, meaning_)                                                                      \
+    ROW(s_, key_, KEY_TEXTS, use_, "", meaning_, "", .offset_n = offsetof(struct job_##s_, n_##key_))
 #include "job/keys.def"
 
 const struct job_section job_sections[JOB_SECTIONS] = {
@@ -90,6 +95,7 @@ bool key_required(const struct job_key *key)
     case KEY_RANGE:
     case KEY_CHOICE:
     case KEY_VEC:
+    case KEY_TRACK:
         return key->preset == NULL;
     case KEY_NUM:
     case KEY_CURVE:
@@ -103,6 +109,7 @@ bool key_required(const struct job_key *key)
     case KEY_MAP:
     case KEY_POINTS:
     case KEY_NAMES:
+    case KEY_TEXTS:
         break;
     }
     return false;
@@ -177,6 +184,7 @@ const char *key_allowed(const struct job_key *key, char out[256])
     case KEY_CURVE:
     case KEY_INT:
     case KEY_VEC:
+    case KEY_TRACK:
     case KEY_POINTS:
         snprintf(out, 256, "%s..%s%s%s", key_number(key->min, low), key_number(key->max, high),
                  key->unit[0] ? " " : "", key->unit);
@@ -190,6 +198,7 @@ const char *key_allowed(const struct job_key *key, char out[256])
     case KEY_MAP:
     case KEY_NODE:
     case KEY_NAMES:
+    case KEY_TEXTS:
         break;
     }
     return out;

@@ -24,6 +24,7 @@ enum key_type {
     KEY_INPUT,
     KEY_NUM,
     KEY_CURVE,
+    KEY_TRACK,
     KEY_INT,
     KEY_BOOL,
     KEY_CHOICE,
@@ -34,7 +35,8 @@ enum key_type {
     KEY_MAP,
     KEY_NODE,
     KEY_POINTS,
-    KEY_NAMES
+    KEY_NAMES,
+    KEY_TEXTS
 };
 
 enum key_use { OUT, SIM };
@@ -44,11 +46,11 @@ struct job_key {
     enum key_use use; /* SIM for SUB, LIST, MAP and NODE: their own keys decide */
     const char *name, *unit, *meaning, *source;
     size_t offset;       /* of the member in its struct */
-    size_t offset_n;     /* LIST, MAP, POINTS, NAMES: of the member n_<key> */
-    size_t n;            /* VEC, POINTS: numbers of one */
-    const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, RANGE; NULL: required */
+    size_t offset_n;     /* LIST, MAP, POINTS, NAMES, TEXTS: of the member n_<key> */
+    size_t n;            /* VEC, TRACK, POINTS: numbers of one; else 0 */
+    const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, TRACK, RANGE; NULL: required */
     double number;       /* NUM, CURVE, INT, BOOL: default; NaN: required */
-    double min, max;     /* NUM, CURVE, INT, VEC, POINTS */
+    double min, max;     /* NUM, CURVE, INT, VEC, TRACK, POINTS */
     const char *choices; /* CHOICE: "a|b|c" */
     int child;           /* SUB, LIST, MAP: its section */
 };

@@ -39,9 +39,10 @@ static status read_number(const struct job_key *key, const struct yaml *v, doubl
     return OK;
 }
 
-static status curve_alloc(struct curve *c, size_t n)
+/* `width` numbers for each of n frames. */
+static status curve_alloc(struct curve *c, size_t n, size_t width)
 {
-    status st = memory_alloc(2 * n, sizeof *c->frame, "a curve", &c->frame);
+    status st = memory_alloc((1 + width) * n, sizeof *c->frame, "a curve", &c->frame);
     if (st != OK)
         return st;
     c->value = c->frame + n;
@@ -50,7 +51,7 @@ static status curve_alloc(struct curve *c, size_t n)
 }
 
 struct curve_key {
-    double frame, value;
+    double frame, value[3];
     const struct yaml *at;
 };
 
@@ -71,6 +72,19 @@ static status read_ease(const struct yaml *v, enum curve_ease *out)
     return yaml_fail(v, NULL, "not an ease (linear, smooth, step)");
 }
 
+static status read_vec(const struct job_key *key, const struct yaml *v, double *out);
+
+/* One value of a curve or a track. */
+static status read_curve_value(const struct job_key *key, const struct yaml *v, double *out)
+{
+    return key->type == KEY_TRACK ? read_vec(key, v, out) : read_number(key, v, out);
+}
+
+static size_t curve_width(const struct job_key *key)
+{
+    return key->type == KEY_TRACK ? key->n : 1;
+}
+
 static status read_keyed_curve(const struct job_key *key, const struct yaml *map, struct curve *out)
 {
     status st = OK;
@@ -85,12 +99,12 @@ static status read_keyed_curve(const struct job_key *key, const struct yaml *map
         }
         if (!yaml_decimal(v->key, &k->frame) || k->frame != floor(k->frame) || fabs(k->frame) > FRAME_LIMIT) {
             st = yaml_fail_key(
-                v, "not a frame; a curve is a number, or {frame: value, ease: linear|smooth|step}");
+                v, "not a frame; a curve is a value, or {frame: value, ease: linear|smooth|step}");
             goto done;
         }
         k->frame += 0.0;
         k->at = v;
-        TRY(read_number(key, v, &k->value));
+        TRY(read_curve_value(key, v, k->value));
         n++;
     }
     if (n == 0) {
@@ -98,14 +112,14 @@ static status read_keyed_curve(const struct job_key *key, const struct yaml *map
         goto done;
     }
     qsort(keys, n, sizeof *keys, by_frame);
-    TRY(curve_alloc(out, n));
+    TRY(curve_alloc(out, n, curve_width(key)));
     for (size_t i = 0; i < n; i++) {
         if (i && keys[i].frame == keys[i - 1].frame) {
             st = yaml_fail_key(keys[i].at, "frame %.0f is given twice", keys[i].frame);
             goto done;
         }
         out->frame[i] = keys[i].frame;
-        out->value[i] = keys[i].value;
+        memcpy(out->value + i * curve_width(key), keys[i].value, curve_width(key) * sizeof(double));
     }
 done:
     free(keys);
@@ -116,11 +130,11 @@ static status read_curve(const struct job_key *key, const struct yaml *v, struct
 {
     if (v->kind == YAML_MAP)
         return read_keyed_curve(key, v, out);
-    double number;
-    status st = read_number(key, v, &number);
-    if (st != OK || (st = curve_alloc(out, 1)) != OK)
+    double value[3];
+    status st = read_curve_value(key, v, value);
+    if (st != OK || (st = curve_alloc(out, 1, curve_width(key))) != OK)
         return st;
-    out->value[0] = number;
+    memcpy(out->value, value, curve_width(key) * sizeof *value);
     return OK;
 }
 
@@ -265,6 +279,56 @@ static status read_names(const struct job_key *key, const struct yaml *v, void *
     return st;
 }
 
+/* A value of any kind as one line of YAML, for --set to read again. Texts in quotes are YAML already. */
+static void put_flow(struct text *t, const struct yaml *v, bool top)
+{
+    if (v->kind == YAML_SCALAR && (top || !v->quoted)) {
+        text_add(t, "%s", v->text);
+    } else if (v->kind == YAML_SCALAR) {
+        text_add(t, "'");
+        for (const char *s = v->text; *s; s++)
+            text_add(t, *s == '\'' ? "''" : "%c", *s);
+        text_add(t, "'");
+    } else {
+        bool map = v->kind == YAML_MAP;
+        text_add(t, map ? "{" : "[");
+        for (const struct yaml *item = v->first; item; item = item->next) {
+            if (map)
+                text_add(t, "%s: ", item->key);
+            put_flow(t, item, false);
+            text_add(t, item->next ? ", " : "");
+        }
+        text_add(t, map ? "}" : "]");
+    }
+}
+
+static status read_texts(const struct job_key *key, const struct yaml *v, void *base)
+{
+    char **texts = NULL;
+    if (v->kind != YAML_LIST)
+        return yaml_fail(v, NULL, "%s, but a list of values is wanted ([] for none)", yaml_what(v));
+    if (v->n > NAMES)
+        return yaml_fail(v, NULL, "%zu values (at most %d)", v->n, NAMES);
+    status st = memory_alloc(v->n, sizeof *texts, key->name, &texts);
+    if (st != OK)
+        return st;
+    key_set_items(key, base, texts, v->n);
+    for (const struct yaml *item = v->first; item && st == OK; item = item->next) {
+        struct text t = {0};
+        put_flow(&t, item, true);
+        st = text_status(&t);
+        if (st == OK && (!t.data || !printable(t.data) || t.size >= YAML_TEXT))
+            st = yaml_fail(item, NULL,
+                           !t.data               ? "is empty"
+                           : t.size >= YAML_TEXT ? "is too long"
+                                                 : "holds a control character");
+        if (st == OK)
+            st = memory_strdup(t.data, texts++);
+        text_free(&t);
+    }
+    return st;
+}
+
 status read_value(const struct job_key *key, const struct yaml *v, const char *folder, void *base)
 {
     void *member = key_member(key, base);
@@ -286,6 +350,7 @@ status read_value(const struct job_key *key, const struct yaml *v, const char *f
             *(int64_t *)member = (int64_t)number;
         return st;
     case KEY_CURVE:
+    case KEY_TRACK:
         return read_curve(key, v, member);
     case KEY_BOOL:
         return read_bool(v, member);
@@ -299,6 +364,8 @@ status read_value(const struct job_key *key, const struct yaml *v, const char *f
         return read_points(key, v, base);
     case KEY_NAMES:
         return read_names(key, v, base);
+    case KEY_TEXTS:
+        return read_texts(key, v, base);
     case KEY_SUB:
     case KEY_LIST:
     case KEY_MAP:

@@ -82,7 +82,7 @@ void yaml_append(struct yaml *parent, struct yaml *child)
 
 struct yaml *yaml_get(const struct yaml *map, const char *key)
 {
-    if (map->kind == YAML_MAP)
+    if (map && map->kind == YAML_MAP)
         for (struct yaml *v = map->first; v; v = v->next)
             if (strcmp(v->key, key) == 0)
                 return v;

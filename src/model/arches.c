@@ -152,23 +152,18 @@ static status show(struct model *m, struct terrain_view *v, struct particles *p,
 {
     status st = OK;
     const struct job *job = m->job;
-    size_t n_images = job->output.aov.n_cameras + (job->arches.maps ? 1 : 0);
-    TRY(gpu_upload(m->gpu, p->field[ROCK_erodibility], 0, v->rock.erodibility, v->rock.n));
-    TRY(gpu_upload(m->gpu, p->field[ROCK_N], 0, v->rock.N, v->rock.n));
     gpu_stage(m->gpu, "field");
     TRY(field_build_share(m->gpu, &m->field, p, v->share));
     TRY(particles_download(m->gpu, p, DERIVED, &out->rock));
-    TRY(field_download(m->gpu, &m->field, &out->grids));
+    TRY(field_download(m->gpu, &m->field, p, NULL, 0, &out->grids));
     TRY(add_ratios(v, &out->grids));
     gpu_stage(m->gpu, "pictures");
-    TRY(memory_alloc(n_images, sizeof *out->image, "pictures", &out->image));
-    for (size_t c = 0; c < job->output.aov.n_cameras; c++)
-        for (size_t i = 0; i < job->n_cameras; i++)
-            if (strcmp(job->cameras[i].name, job->output.aov.cameras[c]) == 0)
-                TRY(aov_render(m->gpu, &m->aov, job, &job->cameras[i], &m->field, p,
-                               &out->image[out->n_images++]));
-    if (job->arches.maps)
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, p, NULL, out));
+    if (job->arches.maps) {
+        size_t capacity = job->output.aov.n_cameras;
+        TRY(memory_grow(&out->image, &capacity, out->n_images + 1, sizeof *out->image, "pictures"));
         TRY(terrain_map(&m->stacks, m->n_materials, &out->image[out->n_images++]));
+    }
 done:
     return st;
 }
@@ -225,7 +220,7 @@ static status output(struct model *m, struct frame *out)
         (m->job->arches.stacks == STACKS_LAST && m->frame == m->job->frames.last))
         TRY(stacks_encode(&m->stacks, spaces_kinds(m->table, m->n_materials).solid, &out->stacks.bytes,
                           &out->stacks.size));
-    TRY(particles_create(m->gpu, m->work, &v.rock, voxels, m->job->domain.spacing_m, &p));
+    TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, voxels, m->job->domain.spacing_m, &p));
     TRY(show(m, &v, &p, out));
 done:
     particles_destroy(m->gpu, &p);
@@ -333,7 +328,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
     size_t voxels = voxel_count(n);
     /* The surface's voxels, about: caves and walls as much again as the ground, three voxels thick; the sides. */
     out->n_particles = 6 * (size_t)n[0] * (size_t)n[1] + 2 * (size_t)(n[0] + n[1]) * (size_t)n[2];
-    uint64_t rock = 0, field = field_bytes(n), picture = (uint64_t)pixels * 17 * 4;
+    uint64_t rock = 0, field = field_bytes(n), picture = aov_picture_bytes(job);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += out->n_particles * rock_field_size((enum rock_field)f);
     double stacks = job->domain.size_m[0] * job->domain.size_m[1] / (cell * cell) * 28;

@@ -3,11 +3,13 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   wind -> viability -> eroded particles -> unsupported blocks -> surface, normals -> stress -> erodibility
+ *   plants -> wind -> water -> viability -> eroded particles, deposits -> unsupported blocks -> surface, normals
+ *   -> stress -> erodibility
  *
- * once or more, until the frame's years have passed; output() then adds the surface field and the pictures.
- * The state between frames is the particles, the grid's displacement and the ledger; the rest is found anew
- * from them, so that a resumed run has the same bits.
+ * all but the first once or more, until the frame's years have passed; output() then adds the surface field and
+ * the pictures.
+ * The state between frames is the particles, the grid's displacement, the air and the ledger; the rest is
+ * found anew from them, so that a resumed run has the same bits.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -16,15 +18,23 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "blocks/blocks.h"
+#include "deposit/deposit.h"
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
+#include "model/air.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
+#include "plants/plants.h"
 #include "scene/scene.h"
 #include "stress/elastic.h"
+#include "water/water.h"
 #include "wind/wind.h"
+
+/* Spacings that a step may take where water is fast, before it is cut shorter: those the carry can still take
+ * off whole. */
+static const double WATER_STEP = 1.5;
 
 struct model {
     struct gpu *gpu;
@@ -36,7 +46,12 @@ struct model {
     struct particles particles;
     struct elastic elastic;
     struct erosion erosion;
+    struct wind wind;
+    struct water water;
+    bool told; /* that water is held back */
+    struct deposit deposit;
     struct blocks blocks;
+    bool deposits, plants; /* does the job ever have any? */
     struct field field;
     struct aov aov;
 };
@@ -48,11 +63,47 @@ static size_t voxel_count(const int voxels[3])
 
 /* ---- a frame */
 
-static status remove_eroded(struct model *m, uint32_t n_eroded)
+/* What the particles are now; where the others went is counted as they go. */
+static status count_rock(struct model *m)
 {
-    m->ledger.rock -= n_eroded;
-    m->ledger.left += n_eroded; /* carried away: nothing deposits them yet */
-    return n_eroded ? particles_index(m->gpu, m->work, &m->particles) : OK;
+    status st = OK;
+    uint32_t n_deposits = 0;
+    if (m->deposits)
+        TRY(deposit_count(m->gpu, m->work, &m->particles, &n_deposits));
+    m->ledger.deposit = n_deposits;
+    m->ledger.rock = m->particles.n - n_deposits;
+done:
+    return st;
+}
+
+/* Does what erodes in this frame stay in the domain? */
+static bool depositing(const struct model *m)
+{
+    return m->deposits && curve_at(&m->job->deposition.viability, m->frame) > 0;
+}
+
+/* Eroded particles, in a step of the frame, leave, or come to rest elsewhere. Did anything move? */
+static status remove_eroded(struct model *m, int step, uint32_t n_eroded, bool *changed)
+{
+    status st = OK;
+    struct deposit_counts moved = {.crumbs = n_eroded, .left = n_eroded};
+    if (depositing(m) && (n_eroded > 0 || m->ledger.deposit > 0)) {
+        struct deposit_routing routing = {.tag = m->water.tag, .receiver = m->water.receiver};
+        memcpy(routing.cells, m->water.cells, sizeof routing.cells);
+        memcpy(routing.shift, m->water.shift, sizeof routing.shift);
+        gpu_stage(m->gpu, "deposition");
+        TRY(deposit_land(m->gpu, m->work, &m->deposit, m->job, m->frame, step, &routing, &m->particles,
+                         &moved));
+    }
+    m->ledger.left += moved.left;
+    *changed = moved.crumbs > 0;
+    gpu_stage(m->gpu, "particles");
+    if (*changed) {
+        TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
+done:
+    return st;
 }
 
 static status remove_unsupported(struct model *m)
@@ -61,10 +112,11 @@ static status remove_unsupported(struct model *m)
     uint32_t n_fallen = 0;
     gpu_stage(m->gpu, "blocks");
     TRY(blocks_fall(m->gpu, m->work, &m->blocks, &m->particles, &n_fallen));
-    m->ledger.rock -= n_fallen;
     m->ledger.fallen += n_fallen;
-    if (n_fallen)
+    if (n_fallen) {
         TRY(particles_index(m->gpu, m->work, &m->particles));
+        TRY(count_rock(m));
+    }
 done:
     return st;
 }
@@ -87,6 +139,72 @@ static status settle(struct model *m, bool solved)
     elastic_recover(m->gpu, &m->elastic, &m->particles);
     gpu_stage(m->gpu, "erodibility");
     TRY(erosion_interlock(m->gpu, &m->erosion, m->job, m->frame, &m->particles));
+    if (m->plants)
+        plants_bind(m->gpu, m->job, &m->particles);
+done:
+    return st;
+}
+
+/* Does anything in the job need to know where water runs? */
+static bool routes(const struct job *job)
+{
+    return water_ever_flows(job) || deposit_wanted(job);
+}
+
+/* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
+ * water is fast; cut into parts of `least` it would not be into fewer. */
+static status run_water(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    const struct job *job = m->job;
+    bool deposits = depositing(m), flows = water_flows(job, m->frame);
+    struct water_routing how = {.seed = (uint32_t)job->seed,
+                                .frame = m->frame,
+                                .step = step,
+                                .leak = job->rain.leak,
+                                .cells = deposits};
+    double fastest;
+    gpu_stage(m->gpu, "water");
+    if (deposits || flows)
+        TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    if (!flows)
+        goto done;
+    TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
+    if (deposits)
+        water_sweep(m->gpu, &m->water, job, &m->particles);
+    water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
+    TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
+    if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {
+        log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
+                 "rain.steps (%d), or lower rain.erosion",
+                 m->frame, (double)WATER_DEPTH, (int)job->rain.steps);
+        m->told = true;
+    }
+    /* Equal parts: at most as many as `least` goes into *kyr, now and after each. */
+    if (fastest * *kyr > WATER_STEP * job->domain.spacing_m)
+        *kyr /= ceil(*kyr / fmax(least, WATER_STEP * job->domain.spacing_m / fastest) - 1e-6);
+done:
+    return st;
+}
+
+/* One step of up to *kyr. */
+static status erode(struct model *m, int step, double least, double *kyr)
+{
+    status st = OK;
+    uint32_t n_eroded;
+    bool changed;
+    gpu_stage(m->gpu, "wind");
+    TRY(wind_update(m->gpu, &m->wind, m->job, m->frame, &m->particles));
+    wind_erode(m->gpu, &m->wind, m->job, m->frame, &m->particles, m->erosion.intensity);
+    TRY(run_water(m, step, least, kyr));
+    if (m->plants)
+        plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
+    gpu_stage(m->gpu, "viability");
+    TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &n_eroded));
+    TRY(remove_eroded(m, step, n_eroded, &changed));
+    if (changed)
+        TRY(remove_unsupported(m));
+    TRY(settle(m, false));
 done:
     return st;
 }
@@ -95,20 +213,17 @@ static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
-    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame));
-    double kyr = m->job->clock.years_per_frame / 1000 / steps;
-    for (int i = 0; i < steps && m->particles.n > 0; i++) {
-        uint32_t n_eroded;
-        gpu_stage(m->gpu, "wind");
-        wind_erode(m->gpu, m->job, m->frame, &m->particles, m->erosion.intensity);
-        gpu_stage(m->gpu, "viability");
-        TRY(erosion_weather(m->gpu, m->work, &m->erosion, kyr, &m->particles, &n_eroded));
-        gpu_stage(m->gpu, "particles");
-        TRY(remove_eroded(m, n_eroded));
-        if (n_eroded)
-            TRY(remove_unsupported(m));
-        TRY(settle(m, false));
+    if (m->plants) {
+        gpu_stage(m->gpu, "plants");
+        plants_grow(m->gpu, m->job, m->frame, &m->particles);
     }
+    int steps = erosion_steps(m->job, m->frame, wind_intensity(m->job, m->frame)), number = 0;
+    double whole = m->job->clock.years_per_frame / 1000 / steps, least = whole / (double)m->job->rain.steps;
+    for (int i = 0; i < steps; i++)
+        for (double left = whole, kyr; left > 0 && m->particles.n > 0; left -= kyr) {
+            kyr = left;
+            TRY(erode(m, number++, fmin(least, left), &kyr));
+        }
 done:
     return st;
 }
@@ -141,33 +256,105 @@ static status measure(const struct model *m, struct frame *out)
     return OK;
 }
 
+/* The discharge over the shape as it is now. One grid and one set of choices for all frames, so that streams
+ * move only where the rock has changed. */
+static status show_water(struct model *m)
+{
+    status st = OK;
+    struct water_routing how = {.seed = (uint32_t)m->job->seed, .leak = m->job->rain.leak};
+    if (!water_flows(m->job, m->frame)) {
+        gpu_fill(m->gpu, m->particles.field[ROCK_discharge], 0);
+        return OK;
+    }
+    gpu_stage(m->gpu, "water");
+    TRY(water_route(m->gpu, m->work, &m->water, &how, &m->particles));
+    TRY(water_discharge(m->gpu, m->work, &m->water, m->job, m->frame, &m->particles));
+    water_show(m->gpu, &m->water, &m->particles);
+done:
+    return st;
+}
+
+/* Which values of the surface this job can have. */
+static size_t skin_fields(const struct job *job, enum rock_field out[3])
+{
+    size_t n = 0;
+    if (water_ever_flows(job))
+        out[n++] = ROCK_discharge;
+    if (plants_wanted(job))
+        out[n++] = ROCK_vegetation;
+    if (deposit_wanted(job))
+        out[n++] = ROCK_phase;
+    return n;
+}
+
 static status output(struct model *m, struct frame *out)
 {
     status st = OK;
     const struct job *job = m->job;
+    enum rock_field skin[3];
+    size_t n_skin = skin_fields(job, skin);
+    struct aov_air air = {0};
     *out = (struct frame){.number = m->frame,
                           .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
                           .ledger = m->ledger,
                           .stress_iterations = m->elastic.iterations};
+    TRY(show_water(m));
     gpu_stage(m->gpu, "field");
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
-    TRY(field_download(m->gpu, &m->field, &out->grids));
+    TRY(field_download(m->gpu, &m->field, &m->particles, skin, n_skin, &out->grids));
+    TRY(air_grid(m->gpu, &m->wind, job, m->frame, m->particles.voxels,
+                 &out->grids.grid[out->grids.n_grids++]));
     gpu_stage(m->gpu, "pictures");
-    TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
-    for (size_t c = 0; c < job->output.aov.n_cameras; c++)
-        for (size_t i = 0; i < job->n_cameras; i++)
-            if (strcmp(job->cameras[i].name, job->output.aov.cameras[c]) == 0)
-                TRY(aov_render(m->gpu, &m->aov, job, &job->cameras[i], &m->field, &m->particles,
-                               &out->image[out->n_images++]));
+    TRY(air_upload(m->gpu, &out->grids, &air));
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, &air, out));
 done:
+    gpu_buffer_destroy(m->gpu, &air.velocity);
     if (st != OK)
         frame_free(out);
     return st;
 }
 
 /* ---- the state */
+
+static status save_air(struct model *m, struct checkpoint *out)
+{
+    status st = OK;
+    void *data;
+    struct flow *air = &m->wind.flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_add(out, "air", 8, sizeof air->state / 8, &data));
+    memcpy(data, &air->state, sizeof air->state);
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        TRY(section_add(out, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &data));
+        TRY(gpu_download(m->gpu, array[i].buffer, 0, data, array[i].n));
+    }
+done:
+    return st;
+}
+
+static status restore_air(struct model *m, const struct checkpoint *c)
+{
+    status st = OK;
+    const struct checkpoint_section *s;
+    struct flow *air = &m->wind.flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_find(c, "air", 8, sizeof air->state / 8, &s));
+    memcpy(&air->state, s->data, sizeof air->state);
+    TRY(flow_check(air));
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        if (array[i].n == 0)
+            continue;
+        TRY(section_find(c, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &s));
+        TRY(gpu_upload(m->gpu, array[i].buffer, 0, s->data, array[i].n));
+    }
+    flow_restore(m->gpu, air);
+done:
+    return st;
+}
 
 static status save(struct model *m, struct checkpoint *out)
 {
@@ -191,6 +378,8 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->start_volume, sizeof m->start_volume);
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &m->elastic.iterations, 4);
+    if (m->wind.flows)
+        TRY(save_air(m, out));
 done:
     if (st != OK)
         checkpoint_free(out);
@@ -219,7 +408,9 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    if (m->wind.flows)
+        TRY(restore_air(m, c));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = c->frame;
 done:
     return st;
@@ -230,7 +421,7 @@ static status begin(struct model *m, const int voxels[3])
     status st = OK;
     struct rock rock = {0};
     TRY(scene_sample(m->job, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     m->frame = m->job->frames.first;
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
     TRY(remove_unsupported(m));
@@ -252,8 +443,11 @@ static void destroy(struct model **handle)
         return;
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
+    deposit_destroy(m->gpu, &m->deposit);
     blocks_destroy(m->gpu, &m->blocks);
+    wind_destroy(m->gpu, &m->wind);
     erosion_destroy(m->gpu, &m->erosion);
+    water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
     particles_destroy(m->gpu, &m->particles);
     gpu_work_destroy(m->gpu, &m->work);
@@ -284,11 +478,18 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
+    m->plants = plants_wanted(job);
+    m->deposits = deposit_wanted(job);
+    if (m->deposits)
+        TRY(deposit_create(gpu, voxels, &m->deposit));
+    TRY(wind_create(gpu, job, voxels, &m->wind));
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
     TRY(from ? restore(m, from, voxels) : begin(m, voxels));
     TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
+    if (routes(job))
+        TRY(water_create(gpu, job, voxels, h, &m->water));
     TRY(settle(m, from != NULL));
     *out = m;
     m = NULL;
@@ -304,22 +505,26 @@ static status estimate(const struct job *job, struct model_estimate *out)
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
     TRY(scene_estimate(job, &out->n_particles));
+    TRY(wind_check(job, out->voxels));
     n = out->n_particles;
     size_t voxels = voxel_count(out->voxels);
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
-                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) + field +
-                        aov_bytes(pixels);
+                        elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) +
+                        wind_bytes(job, out->voxels) + field + aov_bytes(pixels) +
+                        (routes(job) ? water_bytes(out->voxels) : 0) +
+                        (deposit_wanted(job) ? deposit_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
-    uint64_t picture = pixels * 17 * 4;
+    uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
     /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
      * 0.6. */
     out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.2 * (double)field) +
                        (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
-    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels));
+    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels) +
+                                       0.9 * (double)wind_checkpoint_bytes(job, out->voxels));
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
         out->steps += erosion_steps(job, f, wind_intensity(job, f));
 done:

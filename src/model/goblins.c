@@ -152,16 +152,9 @@ static status show(struct model *m, struct particles *p, struct frame *out)
     gpu_stage(m->gpu, "field");
     field_build(m->gpu, &m->field, p);
     TRY(particles_download(m->gpu, p, DERIVED, &out->rock));
-    TRY(field_download(m->gpu, &m->field, &out->grids));
+    TRY(field_download(m->gpu, &m->field, p, NULL, 0, &out->grids));
     gpu_stage(m->gpu, "pictures");
-    TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
-    for (size_t c = 0; c < job->output.aov.n_cameras; c++)
-        for (size_t i = 0; i < job->n_cameras; i++)
-            if (strcmp(job->cameras[i].name, job->output.aov.cameras[c]) == 0)
-                TRY(aov_render(m->gpu, &m->aov, job, &job->cameras[i], &m->field, p,
-                               &out->image[out->n_images++]));
-    for (size_t i = 0; i < out->rock.n; i++)
-        out->max_stress_Pa = fmax(out->max_stress_Pa, fabs((double)out->rock.stress[i]));
+    TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, p, NULL, out));
 done:
     return st;
 }
@@ -183,7 +176,7 @@ static status output(struct model *m, struct frame *out)
     TRY(voxels_download(m->gpu, &m->voxels, share, factor));
     out->volume_m3 = volume_of(share, n, m->voxels.h);
     TRY(rock_of(m, share, factor, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, m->voxels.n, m->voxels.h, &p));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels.n, m->voxels.h, &p));
     TRY(gpu_upload(m->gpu, p.field[ROCK_erodibility], 0, rock.erodibility, rock.n));
     TRY(show(m, &p, out));
     out->stress_iterations = m->elastic.iterations;
@@ -323,7 +316,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
     TRY(scene_voxels(job, out->voxels));
     TRY(scene_estimate(job, &out->n_particles));
     size_t n = out->n_particles, voxels = voxel_count(out->voxels);
-    uint64_t rock = 0, field = field_bytes(out->voxels), picture = (uint64_t)pixels * 17 * 4;
+    uint64_t rock = 0, field = field_bytes(out->voxels), picture = aov_picture_bytes(job);
     for (int f = 0; f < ROCK_FIELDS; f++)
         rock += n * rock_field_size((enum rock_field)f);
     /* A third of the rock active is more than most have. */

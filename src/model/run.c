@@ -7,10 +7,13 @@
 
 #include "base/atomic_file.h"
 #include "base/hash.h"
+#include "base/lock.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/version.h"
 #include "model/model.h"
+#include "model/stage.h"
+#include "model/timing.h"
 #include "model/writer.h"
 #include "output/folder.h"
 
@@ -23,10 +26,14 @@ struct run {
     struct gpu *gpu;
     struct model *model;
     struct writer *writer;
-    bool *done;        /* [last - first + 1], by frame number */
-    int first_missing; /* last + 1: none */
+    struct lock *lock;
+    char lock_path[4096];
+    bool lacks_checkpoint; /* the last frame's, or a later one */
+    bool *done;            /* [last - first + 1], by frame number */
+    int first_missing;     /* last + 1: none */
     int last_missing;
     size_t n_done;
+    int began; /* the frame the model was made or restored at */
 };
 
 /* ---- what is there */
@@ -37,7 +44,7 @@ static status frame_done(const struct run *r, int frame, bool *done)
     const char *bad = "";
     status st = manifest_read(r->options->root, r->job->name, frame, &manifest);
     if (st == OK)
-        st = manifest_check(r->options->root, &manifest, false, &bad);
+        st = manifest_check(r->options->root, &manifest, r->options->repair, &bad);
     *done = st == OK && *bad == '\0' && manifest.job_hash == r->job_hash;
     if (st == OK && !*done)
         log_info("frame %d is there but %s; it will be made again", frame, *bad ? bad : "of another job");
@@ -51,6 +58,9 @@ static status survey(struct run *r)
     size_t n = (size_t)(r->frames.last - r->frames.first) + 1;
     int *there = NULL, *checkpoints = NULL;
     size_t n_there, n_checkpoints;
+    free(r->done);
+    r->done = NULL;
+    r->n_done = 0;
     TRY(memory_alloc(n, sizeof *r->done, "the frames", &r->done));
     TRY(folder_frames(r->options->root, r->job->name, &there, &n_there));
     for (size_t i = 0; i < n_there; i++)
@@ -68,7 +78,8 @@ static status survey(struct run *r)
         }
     /* Without the last frame's checkpoint there is more to do than the frames. */
     TRY(checkpoint_list(r->options->root, r->job->name, &checkpoints, &n_checkpoints));
-    if (n_checkpoints == 0 || checkpoints[0] < r->frames.last)
+    r->lacks_checkpoint = n_checkpoints == 0 || checkpoints[0] < r->frames.last;
+    if (r->lacks_checkpoint)
         r->last_missing = r->frames.last;
 done:
     free(there);
@@ -124,6 +135,46 @@ static status forget(const struct run *r)
     }
 done:
     free(frames);
+    return st;
+}
+
+/* --repair: a checkpoint that is damaged is none; what it stood for is made again. */
+static status drop_damaged(const struct run *r)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    char path[4096];
+    struct checkpoint c;
+    TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
+    for (size_t i = 0; i < n; i++) {
+        TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
+        st = checkpoint_read_index(path, &c);
+        if (st == E_CHECKPOINT) {
+            log_warn("%s; it is removed", status_message());
+            unlink(path);
+            st = OK;
+        }
+        TRY(st);
+    }
+done:
+    free(frames);
+    return st;
+}
+
+/* From here on this process alone simulates into the folder; what was surveyed before may have changed. */
+static status own_folder(struct run *r)
+{
+    status st = OK;
+    char what[128], frames[48];
+    snprintf(what, sizeof what, "simulates frames %s here", range_text(r->frames, frames));
+    TRY(lock_take(r->lock_path, what, (struct lock_patience){0}, r->options->stop, &r->lock));
+    if (r->options->resume == RUN_NEVER)
+        TRY(forget(r));
+    if (r->options->repair)
+        TRY(drop_damaged(r));
+    TRY(survey(r));
+done:
     return st;
 }
 
@@ -235,6 +286,10 @@ static status write_papers(const struct run *r)
     json_text(&t, "device_pci", info->pci);
     json_integer(&t, "seed", r->job->seed);
     json_text(&t, "job_hash", hash_text(r->job_hash, hash));
+    if (r->job->wedge.index) {
+        json_integer(&t, "wedge", r->job->wedge.index);
+        json_text(&t, "wedge_values", r->job->wedge.label);
+    }
     json_array(&t, "inputs");
     for (size_t i = 0; i < n_inputs; i++) {
         json_object(&t, NULL);
@@ -298,7 +353,7 @@ static status begin(struct run *r)
                  r->options->root, r->first_missing);
         goto done;
     }
-    if (!found && r->frames.first != r->job->frames.first) {
+    if (!found && r->frames.first != r->job->frames.first && !r->options->repair) {
         st = fail(E_CHECKPOINT,
                   "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the "
                   "block before it first",
@@ -309,6 +364,7 @@ static status begin(struct run *r)
         log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
                  range_count(r->frames));
     TRY(r->type->create(r->gpu, r->job, found ? &c : NULL, &r->model));
+    r->began = r->type->frame(r->model);
     TRY(write_papers(r)); /* not before: a scene that is refused does not claim the folder */
     TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
 done:
@@ -344,6 +400,7 @@ static status simulate(struct run *r)
         r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
     for (;;) {
         int number = r->type->frame(r->model);
+        TRY(lock_check(r->lock));
         /* The last frame says that all is done: what the next block begins from is there before it. */
         if (fresh && number >= last && !repair)
             TRY(save(r));
@@ -371,19 +428,24 @@ done:
     return st;
 }
 
-static void log_times(struct gpu *gpu)
+/* Of a folder that is complete: as its files are, whatever the job now says of output. */
+static status write_stage(const struct run *r)
 {
-    const struct gpu_time *times;
-    size_t n = gpu_stage_times(gpu, &times);
-    for (size_t i = 0; i < n; i++)
-        if (times[i].ns)
-            log_note("device time: %-12s %8.2f s in %llu dispatches", times[i].name,
-                     (double)times[i].ns / 1e9, (unsigned long long)times[i].dispatches);
+    status st = OK;
+    char path[4096];
+    struct job *theirs = NULL;
+    snprintf(path, sizeof path, "%.4000s/job.yaml", r->options->root);
+    TRY(job_load(path, NULL, 0, &theirs));
+    TRY(stage_write(theirs, r->job_hash, r->options->root));
+done:
+    job_destroy(&theirs);
+    return st;
 }
 
 status run_job(const struct job *job, const struct run_options *options)
 {
     status st = OK;
+    const double started = timing_now();
     struct run r = {.job = job, .options = options, .type = model_of(job), .frames = options->frames};
     if (r.frames.step == 0)
         r.frames = job->frames;
@@ -394,23 +456,30 @@ status run_job(const struct job *job, const struct run_options *options)
     }
     TRY(job_hash(job, &r.job_hash));
     TRY(folder_prepare(options->root));
-    if (options->resume == RUN_NEVER)
-        TRY(forget(&r));
-    else
+    if (snprintf(r.lock_path, sizeof r.lock_path, "%s/lock", options->root) >= (int)sizeof r.lock_path)
+        return fail(E_OUTPUT, "%.100s...: the path is too long", options->root);
+    if (options->resume != RUN_NEVER)
         TRY(check_owner(&r));
-    TRY(survey(&r));
+    if (!options->repair)
+        TRY(survey(&r));
+    if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
+        TRY(own_folder(&r));
+    else
+        lock_sweep(r.lock_path);
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
-    if (r.first_missing > r.frames.last) {
+    if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {
         log_info("all %zu frames are done already", r.n_done);
+        st = write_stage(&r);
         goto done;
     }
     TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
     TRY(check_memory(&r));
     TRY(begin(&r));
     TRY(simulate(&r));
-    log_times(r.gpu);
 done:
+    if (r.model)
+        timing_write(options->root, r.gpu, r.began, r.type->frame(r.model), started);
     if (st != OK && r.writer) {
         /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
         char message[2048];
@@ -422,6 +491,7 @@ done:
     if (r.model)
         r.type->destroy(&r.model);
     gpu_destroy(&r.gpu);
+    lock_release(&r.lock);
     free(r.done);
     return st;
 }

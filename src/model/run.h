@@ -8,6 +8,10 @@
  *             It ends with the last frame that is not done, if the last frame's checkpoint is there.
  * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or
  *             the first frame asked for is not the job's first and there is no checkpoint before it.
+ * Repair      As above, but files are read, not only looked at, damaged checkpoints are removed, and a range of
+ *             frames without a checkpoint before it is reached from the job's first frame.
+ * Alone       root/lock (base/lock.h) keeps a second writer out: E_OUTPUT. A run with nothing to do needs no
+ *             lock.
  * Stop        When a stop is requested, the frame under way is finished and written, then a checkpoint:
  *             STOPPED.
  */
@@ -27,6 +31,7 @@ struct run_options {
     const char *device;        /* gpu_options */
     struct frame_range frames; /* which of the job's to produce; step 0: all */
     enum run_resume resume;
+    bool repair; /* read every file, and make again what is missing or damaged */
 
     /* What the caller shows. Any may be NULL. */
     void (*begin)(void *user, struct frame_range frames, size_t done);

@@ -10,8 +10,10 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "job/palette.h"
+#include "model/stage.h"
 #include "output/exr.h"
 #include "output/folder.h"
+#include "output/usd.h"
 #include "output/vdb.h"
 
 /* ---- one frame's files */
@@ -83,6 +85,11 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         TRY(folder_path(path, root, job->name, FILE_POINTS, frame->number, NULL));
         TRY(put(root, path, &file, manifest));
     }
+    if (job->output.usd.points != USD_POINTS_NONE) {
+        TRY(usd_points(&frame->rock, &options, job->fps, &file));
+        TRY(folder_path(path, root, job->name, FILE_USD, frame->number, NULL));
+        TRY(put(root, path, &file, manifest));
+    }
     options.identity = identity(job_hash, frame->number, FILE_VOLUMES);
     TRY(vdb_volumes(&frame->grids, &options, &file));
     TRY(folder_path(path, root, job->name, FILE_VOLUMES, frame->number, NULL));
@@ -113,7 +120,8 @@ static status put_images(const struct job *job, uint64_t job_hash, const char *r
                                   .years = frame->years,
                                   .job_hash = job_hash,
                                   .owner = job->output.owner,
-                                  .comments = job->output.comments};
+                                  .comments = job->output.comments,
+                                  .wedge = job->wedge.label};
     for (size_t i = 0; i < frame->n_images; i++) {
         TRY(exr_encode(&frame->image[i], &options, &file.bytes, &file.size));
         TRY(folder_path(path, root, job->name, FILE_AOV, frame->number,
@@ -205,6 +213,9 @@ static void *work(void *argument)
             st = item->is_checkpoint
                      ? checkpoint_save(w->root, w->job->name, &item->checkpoint, (int)w->job->checkpoint.keep)
                      : frame_write(w->job, w->job_hash, w->root, &item->frame);
+        /* What is there so far can be opened. */
+        if (st == OK && item->is_checkpoint)
+            st = stage_write(w->job, w->job_hash, w->root);
         pthread_mutex_lock(&w->lock);
         if (st != OK && w->st == OK) {
             w->st = st;
@@ -292,7 +303,7 @@ status writer_finish(struct writer **handle)
     pthread_cond_broadcast(&w->changed);
     pthread_mutex_unlock(&w->lock);
     pthread_join(w->thread, NULL);
-    status st = w->st == OK ? OK : fail(w->st, "%s", w->message);
+    status st = w->st == OK ? stage_write(w->job, w->job_hash, w->root) : fail(w->st, "%s", w->message);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->changed);
     free(w);

@@ -110,10 +110,14 @@ static status add_attributes(exr_context_t exr, int part, const struct aov_image
         TRY_EXR(exr_attr_set_string(exr, part, "comments", options->comments));
     TRY_EXR(exr_attr_set_string(exr, part, "hoodoo:version", hoodoo_version));
     TRY_EXR(exr_attr_set_string(exr, part, "hoodoo:jobHash", hash_text(options->job_hash, hash)));
+    if (options->wedge && *options->wedge)
+        TRY_EXR(exr_attr_set_string(exr, part, "hoodoo:wedge", options->wedge));
     TRY_EXR(exr_attr_set_int(exr, part, "hoodoo:frame", options->frame));
     TRY_EXR(exr_attr_set_double(exr, part, "hoodoo:years", options->years));
     if (image->camera && *image->camera)
         TRY_EXR(exr_attr_set_string(exr, part, "hoodoo:camera", image->camera));
+    for (size_t i = 0; i < image->n_notes; i++)
+        TRY_EXR(exr_attr_set_string(exr, part, image->note[i].name, image->note[i].value));
     if (part == 0)
         TRY_EXR(exr_attr_set_string(exr, part, EXR_HASH_NAME, EXR_HASH_NONE));
 done:
@@ -141,8 +145,15 @@ static status add_part(exr_context_t exr, const struct aov_image *image, const s
     status st = OK;
     int part = -1;
     const bool single = options->layout == AOV_LAYOUT_SINGLE;
+    const int mx = image->margin[0], my = image->margin[1];
+    const exr_attr_box2i_t data = {.min = {.x = -mx, .y = -my},
+                                   .max = {.x = image->width - mx - 1, .y = image->height - my - 1}},
+                           display = {.min = {.x = 0, .y = 0},
+                                      .max = {.x = data.max.x - mx, .y = data.max.y - my}};
+    const exr_attr_v2f_t centre = {.x = 0, .y = 0};
     TRY_EXR(exr_add_part(exr, single ? "aov" : image->channel[first].part, EXR_STORAGE_SCANLINE, &part));
-    TRY_EXR(exr_initialize_required_attr_simple(exr, part, image->width, image->height, EXR_COMPRESSION_ZIP));
+    TRY_EXR(exr_initialize_required_attr(exr, part, &display, &data, 1, &centre, 1,
+                                         EXR_LINEORDER_INCREASING_Y, EXR_COMPRESSION_ZIP));
     for (size_t c = first; c < image->n_channels; c++) {
         const struct aov_channel *channel = &image->channel[c];
         if (in_part(image, options, first, c))
@@ -157,13 +168,13 @@ done:
     return st;
 }
 
-/* Compresses the chunk that starts at row y. *bytes is freed with free(). */
-static exr_result_t encode_chunk(exr_context_t exr, int part, int y, const struct aov_image *image,
+/* Compresses the chunk that starts at a row of the picture. *bytes is freed with free(). */
+static exr_result_t encode_chunk(exr_context_t exr, int part, int row, const struct aov_image *image,
                                  void **bytes, size_t *size)
 {
     exr_chunk_info_t info;
     exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
-    exr_result_t bad = exr_write_scanline_chunk_info(exr, part, y, &info);
+    exr_result_t bad = exr_write_scanline_chunk_info(exr, part, row - image->margin[1], &info);
     if (bad == EXR_ERR_SUCCESS)
         bad = exr_encoding_initialize(exr, part, &info, &pipe);
     if (bad != EXR_ERR_SUCCESS)
@@ -178,7 +189,8 @@ static exr_result_t encode_chunk(exr_context_t exr, int part, int y, const struc
             pipe.channels[k].user_bytes_per_element = 4;
             pipe.channels[k].user_pixel_stride = 4;
             pipe.channels[k].user_line_stride = 4 * image->width;
-            pipe.channels[k].encode_from_ptr = (const uint8_t *)plane + 4 * (size_t)y * (size_t)image->width;
+            pipe.channels[k].encode_from_ptr =
+                (const uint8_t *)plane + 4 * (size_t)row * (size_t)image->width;
         }
     bad = exr_encoding_choose_default_routines(exr, part, &pipe);
     if (bad == EXR_ERR_SUCCESS) {
@@ -216,7 +228,8 @@ static status write_part(exr_context_t exr, int part, const struct aov_image *im
         chunk[c].bad = encode_chunk(exr, part, c * lines, image, &chunk[c].bytes, &chunk[c].size);
     for (int32_t c = 0; c < n; c++) {
         TRY_EXR(chunk[c].bad);
-        TRY_EXR(exr_write_scanline_chunk(exr, part, c * lines, chunk[c].bytes, chunk[c].size));
+        TRY_EXR(
+            exr_write_scanline_chunk(exr, part, c * lines - image->margin[1], chunk[c].bytes, chunk[c].size));
     }
 done:
     for (int32_t c = 0; chunk && c < n; c++)
@@ -227,7 +240,8 @@ done:
 
 static status check_image(const struct aov_image *image)
 {
-    if (image->width < 1 || image->height < 1 || image->n_channels < 1)
+    if (image->width < 1 + 2 * image->margin[0] || image->height < 1 + 2 * image->margin[1] ||
+        image->margin[0] < 0 || image->margin[1] < 0 || image->n_channels < 1)
         return fail(E_OUTPUT, "EXR: %d x %d pixels and %zu channels make no picture", image->width,
                     image->height, image->n_channels);
     for (size_t c = 0; c < image->n_channels; c++) {

@@ -14,6 +14,7 @@ struct exr_options {
     double years;
     uint64_t job_hash;
     const char *owner, *comments;
+    const char *wedge; /* which values this wedge has; "" or NULL: none */
 };
 
 /* ZIP; float but for channels marked half; uint for ids. Standard attributes as DESIGN 2 lists them, and

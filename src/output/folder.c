@@ -22,6 +22,7 @@ static const struct {
     [FILE_MESH] = {"mesh", "ply"},
     [FILE_ROCKS] = {"rocks", "vdb"},
     [FILE_STACKS] = {"stacks", "stacks"},
+    [FILE_USD] = {"points", "usdc"},
 };
 
 /* Made by who fills them: rocks and stacks by the writer, the others by their verbs: mesh, preview, turntable, report, log. */

@@ -17,13 +17,15 @@ enum folder_file {
     FILE_MANIFEST,
     FILE_CHECKPOINT,
     FILE_MESH,
+    FILE_USD,
     FILE_ROCKS,
     FILE_STACKS
 };
 
 /* root/points/NAME.1001.vdb and so on: `root` is the output folder, `name` the job's. Frames are written with
  * at least four digits. `camera`: FILE_AOV only, put in the name (NAME.CAMERA.1001.exr) when the job has more
- * than one AOV camera, else NULL. FILE_MESH is the PLY. E_OUTPUT if the path is too long. */
+ * than one AOV camera, else NULL. FILE_MESH is the PLY, FILE_USD the
+ * surface's points. E_OUTPUT if the path is too long. */
 MUST_USE status folder_path(char out[4096], const char *root, const char *name, enum folder_file kind,
                             int frame, const char *camera);
 

@@ -49,6 +49,10 @@ MUST_USE status vdb_points(const struct rock *rock, const struct vdb_options *op
 struct text;
 MUST_USE status vdb_describe(const char *path, struct text *out);
 
+/* The same without reading any voxels: grids with name, type, class, and the box in m (file's axes) of the
+ * lattice each was written from. */
+MUST_USE status vdb_describe_lattices(const char *path, struct text *out);
+
 /* Reads every grid of the file completely. E_INPUT if anything is missing or damaged. */
 MUST_USE status vdb_check(const char *path);
 
@@ -71,9 +75,10 @@ struct vdb_mesh {
     float *value;       /* [n_values][n_vertices], NULL if none were asked for */
 };
 
-/* adaptivity 0..1: larger merges flat parts into fewer triangles. */
+/* adaptivity 0..1: larger merges flat parts into fewer triangles. The last n_optional values are 0 where the
+ * file has no grid of that name. */
 MUST_USE status vdb_mesh_read(const char *path, double adaptivity, const char *const *values, size_t n_values,
-                              struct vdb_mesh *out);
+                              size_t n_optional, struct vdb_mesh *out);
 void vdb_mesh_free(struct vdb_mesh *mesh);
 
 #ifdef __cplusplus

@@ -23,8 +23,9 @@ using openvdb::points::PointDataGrid;
 const struct {
     const char *name, *unit;
 } known[] = {{"surface", "m"},  {"density", ""},        {"stress", "Pa"},   {"von_mises", "Pa"},
-             {"viability", ""}, {"discharge", "m3/yr"}, {"vegetation", ""}, {"vel", "m/s"},
-             {"bedrock", ""},   {"sand", ""},           {"rock", ""},        {"water", ""}};
+             {"viability", ""}, {"discharge", "m3/yr"}, {"vegetation", ""}, {"deposit", ""},
+             {"vel", "m/s"},    {"bedrock", ""},        {"sand", ""},       {"rock", ""},
+             {"water", ""}};
 
 /* A dense array's worth of voxels is more than a file of this size can mean. */
 void check_size(size_t voxels, size_t components)
@@ -78,6 +79,17 @@ void read_grid(const openvdb::GridBase &base, const vdb::lattice &l, frame_grid 
     else
         read_dense(static_cast<const openvdb::FloatGrid &>(base), l,
                    [to](ptrdiff_t i, float v) { to[i] = v; });
+}
+
+/* A lattice's size as a file gives it, and how many voxels that is. */
+size_t set_size(int n[3], const openvdb::Vec3i &size)
+{
+    for (int a = 0; a < 3; a++) {
+        n[a] = size[a];
+        if (n[a] < 1 || n[a] > 1 << 20)
+            throw std::runtime_error("its grids have no sensible size");
+    }
+    return size_t(n[0]) * size_t(n[1]) * size_t(n[2]);
 }
 
 /* A particle file being read: its leaves, and where each leaf's particles start. */
@@ -168,12 +180,7 @@ try {
     if (!size)
         throw std::runtime_error(
             "not a volume file of hoodoo: it does not say how many voxels its grids have");
-    for (int a = 0; a < 3; a++) {
-        grids.n[a] = size->value()[a];
-        if (grids.n[a] < 1 || grids.n[a] > 1 << 20)
-            throw std::runtime_error("its grids have no sensible size");
-    }
-    const size_t voxels = size_t(grids.n[0]) * size_t(grids.n[1]) * size_t(grids.n[2]);
+    const size_t voxels = set_size(grids.n, size->value());
     const bool y_up = vdb::is_y_up(*file.getMetadata());
     const vdb::lattice l(grids.n, y_up);
     for (const auto &k : known) {
@@ -181,12 +188,18 @@ try {
             continue;
         const auto base = file.readGrid(k.name);
         const Vec3d origin = vdb::sim_from_file(base->transform().indexToWorld(Vec3d(0)), y_up);
-        grids.voxel = base->voxelSize()[0];
-        for (int a = 0; a < 3; a++)
-            grids.origin[a] = origin[a];
+        const auto own = base->getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
         frame_grid &g = grids.grid[grids.n_grids++];
-        g = frame_grid{k.name, k.unit, GRID_PLAIN, 1, nullptr};
-        read_grid(*base, l, g, voxels);
+        g = frame_grid{k.name, k.unit, GRID_PLAIN, 1, nullptr, {}};
+        (own ? g.own.voxel : grids.voxel) = base->voxelSize()[0];
+        for (int a = 0; a < 3; a++)
+            (own ? g.own.origin : grids.origin)[a] = origin[a];
+        if (own) {
+            const size_t n = set_size(g.own.n, own->value());
+            read_grid(*base, vdb::lattice(g.own.n, y_up), g, n);
+        } else {
+            read_grid(*base, l, g, voxels);
+        }
     }
     *out = grids;
     grids = frame_grids{};

@@ -114,7 +114,7 @@ void set_triangles(vdb_mesh &mesh, const std::vector<Vec3s> &points,
 } // namespace
 
 extern "C" status vdb_mesh_read(const char *path, double adaptivity, const char *const *values,
-                                size_t n_values, struct vdb_mesh *out)
+                                size_t n_values, size_t n_optional, struct vdb_mesh *out)
 try {
     *out = vdb_mesh{};
     /* In a child process first: what gets through there is safe to read here. */
@@ -163,6 +163,8 @@ try {
     if (n_values)
         mesh.value = allocate<float>(n_values * mesh.n_vertices);
     for (size_t k = 0; k < n_values; k++) {
+        if (k + n_optional >= n_values && !file.hasGrid(values[k]))
+            continue;
         const FloatGrid::Ptr grid = read_float_grid(file, values[k]);
         for_each(points.size(), [&](size_t begin, size_t end) {
             const FloatGrid::ConstAccessor at = grid->getConstAccessor();

@@ -2,6 +2,7 @@
  * bytes may come from anyone. */
 #include "output/vdb_shim.hpp"
 
+#include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/points/PointDataGrid.h>
 
@@ -181,6 +182,45 @@ try {
 }
 SHIM_CATCH(E_INPUT, path)
 
+/* The lattice's size is metadata, of the grid or else of the file. */
+void describe_lattice(const GridBase &grid, const openvdb::MetaMap &file, struct text *out)
+{
+    const auto own = grid.getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
+    const auto common = file.getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
+    json_object(out, nullptr);
+    json_text(out, "name", grid.getName().c_str());
+    json_text(out, "type", grid.valueType().c_str());
+    json_text(out, "class", GridBase::gridClassToString(grid.getGridClass()).c_str());
+    if (own || common) {
+        const openvdb::Vec3i n = (own ? own : common)->value();
+        const vdb::lattice l(n.asPointer(), vdb::is_y_up(file));
+        const openvdb::BBoxd bounds =
+            grid.transform().indexToWorld(openvdb::BBoxd(l.lo.asVec3d() - 0.5, l.hi.asVec3d() + 0.5));
+        json_object(out, "bounds_m");
+        json_vector(out, "min", bounds.min());
+        json_vector(out, "max", bounds.max());
+        json_end_object(out);
+    }
+    json_end_object(out);
+}
+
+status read_lattices(const char *path, struct text *out)
+try {
+    vdb::start();
+    openvdb::io::File file(path);
+    file.open(/*delayLoad=*/false);
+    const openvdb::GridPtrVecPtr grids = file.readAllGridMetadata();
+    const openvdb::MetaMap::Ptr metadata = file.getMetadata();
+    json_object(out, nullptr);
+    json_array(out, "grids");
+    for (const GridBase::Ptr &grid : *grids)
+        describe_lattice(*grid, *metadata, out);
+    json_end_array(out);
+    json_end_object(out);
+    return OK;
+}
+SHIM_CATCH(E_INPUT, path)
+
 status check_file(const char *path, struct text *)
 {
     return read_file(path, nullptr);
@@ -195,4 +235,9 @@ extern "C" status vdb_check(const char *path)
 extern "C" status vdb_describe(const char *path, struct text *out)
 {
     return sandbox_read(path, read_file, out);
+}
+
+extern "C" status vdb_describe_lattices(const char *path, struct text *out)
+{
+    return sandbox_read(path, read_lattices, out);
 }

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <ios>
 #include <new>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@ extern "C" {
     catch (const std::bad_alloc &)                                                                           \
     {                                                                                                        \
         return fail(E_MEMORY, "%s: out of memory", subject);                                                 \
+    }                                                                                                        \
+    catch (const std::ios_base::failure &)                                                                   \
+    {                                                                                                        \
+        return fail(wrong, "%s: cut short or unreadable", subject);                                          \
     }                                                                                                        \
     catch (const std::exception &caught)                                                                     \
     {                                                                                                        \
@@ -47,7 +52,8 @@ template <class V> V sim_from_file(const V &f, bool y_up)
     return y_up ? V(f[0], 0 - f[2], f[1]) : f;
 }
 
-/* File metadata: how many voxels the frame's grids had, in the simulator's axes. */
+/* Metadata of the file: how many voxels the frame's grids had, in the simulator's axes. Of a grid: how many
+ * it had, where that is something else. */
 constexpr char LATTICE[] = "lattice_voxels";
 
 /* The frame's voxels in the file's index space: their box, and where each is in the dense arrays. */

@@ -136,6 +136,24 @@ openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, 
     grid->setGridClass(g.kind == GRID_FOG ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_UNKNOWN);
     return grid;
 }
+
+status check_lattice(const grid_lattice &l, int frame)
+{
+    for (int a = 0; a < 3; a++)
+        if (l.n[a] < 1 || !std::isfinite(l.origin[a]))
+            return fail(E_OUTPUT, "volumes of frame %d: %d x %d x %d voxels is not a grid", frame, l.n[0],
+                        l.n[1], l.n[2]);
+    if (!(l.voxel > 0) || !std::isfinite(l.voxel))
+        return fail(E_OUTPUT, "volumes of frame %d: a voxel of %g m", frame, l.voxel);
+    return OK;
+}
+
+openvdb::math::Transform::Ptr transform_of(const grid_lattice &l, bool y_up)
+{
+    auto transform = openvdb::math::Transform::createLinearTransform(l.voxel);
+    transform->postTranslate(vdb::file_from_sim(openvdb::Vec3d(l.origin[0], l.origin[1], l.origin[2]), y_up));
+    return transform;
+}
 } // namespace
 
 extern "C" status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options,
@@ -143,15 +161,18 @@ extern "C" status vdb_volumes(const struct frame_grids *grids, const struct vdb_
 try {
     vdb::start();
     *out = vdb_bytes{nullptr, 0};
-    for (int a = 0; a < 3; a++)
-        if (grids->n[a] < 1 || !std::isfinite(grids->origin[a]))
-            return fail(E_OUTPUT, "volumes of frame %d: %d x %d x %d voxels is not a grid", options->frame,
-                        grids->n[0], grids->n[1], grids->n[2]);
-    if (!(grids->voxel > 0) || !std::isfinite(grids->voxel))
-        return fail(E_OUTPUT, "volumes of frame %d: a voxel of %g m", options->frame, grids->voxel);
+    const grid_lattice frame_lattice = {{grids->n[0], grids->n[1], grids->n[2]},
+                                        grids->voxel,
+                                        {grids->origin[0], grids->origin[1], grids->origin[2]}};
+    status st = check_lattice(frame_lattice, options->frame);
+    for (size_t i = 0; i < grids->n_grids && st == OK; i++)
+        if (grids->grid[i].own.n[0])
+            st = check_lattice(grids->grid[i].own, options->frame);
+    if (st != OK)
+        return st;
 
     const bool y_up = options->up == OUTPUT_UP_Y;
-    const lattice l(grids->n, y_up);
+    const lattice common(grids->n, y_up);
     const float *density = nullptr;
     for (size_t i = 0; i < grids->n_grids; i++)
         if (std::strcmp(grids->grid[i].name, "density") == 0)
@@ -159,16 +180,17 @@ try {
 
     openvdb::MetaMap metadata = vdb::file_metadata(*options, grids->voxel);
     metadata.insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(grids->n)));
-    auto transform = openvdb::math::Transform::createLinearTransform(grids->voxel);
-    transform->postTranslate(
-        vdb::file_from_sim(openvdb::Vec3d(grids->origin[0], grids->origin[1], grids->origin[2]), y_up));
+    const auto transform = transform_of(frame_lattice, y_up);
     openvdb::GridCPtrVec made;
     for (size_t i = 0; i < grids->n_grids; i++) {
         const frame_grid &g = grids->grid[i];
-        auto grid = make_grid(*grids, g, l, density);
+        const bool own = g.own.n[0] != 0;
+        auto grid = make_grid(*grids, g, own ? lattice(g.own.n, y_up) : common, own ? nullptr : density);
         grid->setName(g.name);
+        if (own)
+            grid->insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(g.own.n)));
         grid->setCreator(metadata.metaValue<std::string>("creator"));
-        grid->setTransform(transform);
+        grid->setTransform(own ? transform_of(g.own, y_up) : transform);
         grid->setSaveFloatAsHalf(options->half);
         if (g.unit && *g.unit)
             grid->insertMeta("unit", openvdb::StringMetadata(g.unit));

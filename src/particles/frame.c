@@ -2,6 +2,16 @@
 
 #include <stdlib.h>
 
+void aov_image_free(struct aov_image *image)
+{
+    free(image->channel);
+    free(image->memory);
+    for (size_t i = 0; i < image->n_notes; i++)
+        free(image->note[i].value);
+    free(image->note);
+    *image = (struct aov_image){0};
+}
+
 void frame_free(struct frame *frame)
 {
     rock_free(&frame->rock);
@@ -9,10 +19,8 @@ void frame_free(struct frame *frame)
     free(frame->stacks.bytes);
     for (size_t g = 0; g < frame->grids.n_grids; g++)
         free(frame->grids.grid[g].value);
-    for (size_t i = 0; i < frame->n_images; i++) {
-        free(frame->image[i].channel);
-        free(frame->image[i].memory);
-    }
+    for (size_t i = 0; i < frame->n_images; i++)
+        aov_image_free(&frame->image[i]);
     free(frame->image);
     *frame = (struct frame){0};
 }

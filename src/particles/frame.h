@@ -13,12 +13,19 @@
 /* A dense scalar field sampled at voxel centres: origin + (i, j, k) * voxel, numbered (k ny + j) nx + i. */
 enum grid_class { GRID_LEVEL_SET, GRID_FOG, GRID_PLAIN };
 
+struct grid_lattice {
+    int n[3];
+    double voxel, origin[3]; /* m */
+};
+
 struct frame_grid {
     const char *name; /* surface, density, stress, ... */
     const char *unit;
     enum grid_class kind;
     int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
     float *value;   /* owned by the frame */
+    /* Where it is sampled otherwise than the frame's other grids; n[0] is 0 where it is not. */
+    struct grid_lattice own;
 };
 
 struct frame_grids {
@@ -40,14 +47,24 @@ struct aov_channel {
     int half;           /* write as half */
 };
 
+/* A text attribute of the file. */
+struct aov_note {
+    char name[64];
+    char *value;
+};
+
 struct aov_image {
     const char *camera;
-    int width, height;
+    int width, height;                            /* overscan included */
+    int margin[2];                                /* px: of it, on every side, in x and y */
     double world_to_camera[16], world_to_ndc[16]; /* as EXR stores them, row vectors, in the files' axes */
     size_t n_channels;
     struct aov_channel *channel;
     void *memory; /* holds every plane; owned by the frame */
+    size_t n_notes;
+    struct aov_note *note; /* owned by the frame */
 };
+void aov_image_free(struct aov_image *image);
 
 /* Where every particle of the start went. start = rock + deposit + fallen + left, exactly. */
 struct ledger {

@@ -22,8 +22,43 @@ struct voxel_params particles_params(const struct particles *p, size_t n)
                                  .h = (float)p->h};
 }
 
-status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, const int voxels[3],
-                        double h, struct particles *p)
+/* The order of particles_index(), for fields up to `keep`. */
+static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep)
+{
+    status st = OK;
+    size_t n_voxels = voxel_count(p->voxels);
+    struct voxel_params k = particles_params(p, p->n);
+    uint32_t alive;
+    struct gpu_sort sort = {.keys = p->flags,
+                            .ids = p->field[ROCK_id],
+                            .start = p->start,
+                            .order = p->surface, /* found anew after this */
+                            .taken = p->taken,
+                            .unordered = p->place,
+                            .n = p->n,
+                            .n_keys = n_voxels + 1,
+                            .n_ordered = n_voxels};
+    GPU_RUN(gpu, particles_key, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->flags);
+    gpu_sort(gpu, work, &sort);
+    TRY(gpu_download(gpu, p->start, n_voxels, &alive, 1));
+    for (int f = 0; f < ROCK_FIELDS; f++) {
+        if (rock_field_table[f].keep > keep)
+            continue;
+        struct gpu_buffer **spare =
+            rock_field_size((enum rock_field)f) == 16 ? &p->spare_vector : &p->spare_word;
+        struct gpu_buffer *old = p->field[f];
+        gpu_gather(gpu, p->surface, old, *spare, alive);
+        p->field[f] = *spare;
+        *spare = old;
+    }
+    p->n = alive;
+    p->n_surface = 0;
+done:
+    return st;
+}
+
+status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, int keep,
+                        const int voxels[3], double h, struct particles *p)
 {
     status st = OK;
     *p = (struct particles){
@@ -31,7 +66,7 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     for (int f = 0; f < ROCK_FIELDS; f++) {
         TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f),
                               &p->field[f]));
-        if (rock_field_table[f].keep == STATE)
+        if (rock_field_table[f].keep <= keep && rock->field[f])
             TRY(gpu_upload(gpu, p->field[f], 0, rock->field[f], rock->n));
     }
     TRY(gpu_buffer_create(gpu, "voxel start", voxel_count(voxels) + 2, 4, &p->start));
@@ -42,7 +77,7 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     TRY(gpu_buffer_create(gpu, "particle places", p->n_max, 4, &p->place));
     TRY(gpu_buffer_create(gpu, "spare words", p->n_max, 4, &p->spare_word));
     TRY(gpu_buffer_create(gpu, "spare vectors", p->n_max, 16, &p->spare_vector));
-    TRY(particles_index(gpu, work, p));
+    TRY(index_fields(gpu, work, p, keep));
 done:
     if (st != OK)
         particles_destroy(gpu, p);
@@ -66,36 +101,7 @@ void particles_destroy(struct gpu *gpu, struct particles *p)
 
 status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p)
 {
-    status st = OK;
-    size_t n_voxels = voxel_count(p->voxels);
-    struct voxel_params k = particles_params(p, p->n);
-    uint32_t alive;
-    struct gpu_sort sort = {.keys = p->flags,
-                            .ids = p->field[ROCK_id],
-                            .start = p->start,
-                            .order = p->surface, /* found anew after this */
-                            .taken = p->taken,
-                            .unordered = p->place,
-                            .n = p->n,
-                            .n_keys = n_voxels + 1,
-                            .n_ordered = n_voxels};
-    GPU_RUN(gpu, particles_key, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->flags);
-    gpu_sort(gpu, work, &sort);
-    TRY(gpu_download(gpu, p->start, n_voxels, &alive, 1));
-    for (int f = 0; f < ROCK_FIELDS; f++) {
-        if (rock_field_table[f].keep != STATE)
-            continue;
-        struct gpu_buffer **spare =
-            rock_field_size((enum rock_field)f) == 16 ? &p->spare_vector : &p->spare_word;
-        struct gpu_buffer *old = p->field[f];
-        gpu_gather(gpu, p->surface, old, *spare, alive);
-        p->field[f] = *spare;
-        *spare = old;
-    }
-    p->n = alive;
-    p->n_surface = 0;
-done:
-    return st;
+    return index_fields(gpu, work, p, STATE);
 }
 
 void particles_fill(struct gpu *gpu, struct particles *p)

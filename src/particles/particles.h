@@ -27,8 +27,9 @@ struct particles {
 /* Bytes on the device for n particles in that many voxels. */
 uint64_t particles_bytes(size_t n, const int voxels[3]);
 
-/* Uploads the rock's STATE fields and orders them. The caller keeps `rock`. */
-MUST_USE status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock,
+/* Uploads the rock's fields up to `keep` (STATE, or DERIVED for all; NULL ones are zero) and orders them. The
+ * caller keeps `rock`. */
+MUST_USE status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, int keep,
                                  const int voxels[3], double h, struct particles *out);
 void particles_destroy(struct gpu *gpu, struct particles *p);
 

@@ -13,7 +13,7 @@
 /* Edges and corners are rounded where two faces are nearer to each other than this, in radii. */
 #define ROUNDING 0.35
 
-enum { TRIALS = 200000, PLANES = 64, CHIPS = 5, CONTACT_TRIALS = 24 };
+enum { TRIALS = 200000, PLANES = 64, CHIPS = 9, CONTACT_TRIALS = 24 };
 
 /* Half-space n . p <= d around a rock's centre. */
 struct plane {
@@ -263,7 +263,7 @@ static void chip(struct worn *w, uint32_t seed, uint32_t rock)
     for (uint32_t k = 0; k < CHIPS; k++) {
         struct plane p = {0};
         direction(seed, rock, 1000 + k, p.n);
-        p.d = leave(w, p.n) * (0.80 + 0.15 * chance(seed, rock, 2000 + k, 5));
+        p.d = leave(w, p.n) * (0.70 + 0.22 * chance(seed, rock, 2000 + k, 5));
         bool clear = true;
         for (size_t c = 0; c < w->rock->n_contacts; c++)
             clear &= p.d - dot(p.n, w->rock->contact[c].at) > 0.06 * w->radius;

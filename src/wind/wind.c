@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/log.h"
+
 struct wind_at wind_at(const struct job *job, int frame)
 {
     const double *d = job->wind.direction, pi = 3.14159265358979323846;
@@ -30,7 +32,95 @@ double wind_intensity(const struct job *job, int frame)
     return curve_at(&job->wind.deflation.intensity, frame) + abrasion(job, frame);
 }
 
-void wind_erode(struct gpu *gpu, const struct job *job, int frame, struct particles *p,
+/* ---- the flow */
+
+static bool flows(const struct job *job)
+{
+    return job->wind.flow.solver == FLOW_SPH;
+}
+
+status wind_check(const struct job *job, const int voxels[3])
+{
+    struct flow layout;
+    return flows(job) ? flow_layout(job, voxels, &layout) : OK;
+}
+
+uint64_t wind_bytes(const struct job *job, const int voxels[3])
+{
+    struct flow layout;
+    return flows(job) && flow_layout(job, voxels, &layout) == OK ? flow_bytes(&layout) : 0;
+}
+
+uint64_t wind_checkpoint_bytes(const struct job *job, const int voxels[3])
+{
+    struct flow layout;
+    return flows(job) && flow_layout(job, voxels, &layout) == OK ? flow_state_bytes(&layout) : 0;
+}
+
+status wind_create(struct gpu *gpu, const struct job *job, const int voxels[3], struct wind *w)
+{
+    *w = (struct wind){.flows = flows(job)};
+    return w->flows ? flow_create(gpu, job, voxels, &w->flow) : OK;
+}
+
+void wind_destroy(struct gpu *gpu, struct wind *w)
+{
+    if (w->flows)
+        flow_destroy(gpu, &w->flow);
+    *w = (struct wind){0};
+}
+
+/* Steps for which the flow has to run on. */
+static int steps_due(const struct flow *f, const struct job_flow *o, const double direction[2], double change)
+{
+    const double *last = f->state.direction;
+    double flush = flow_flush(f, direction);
+    double turned = fabs(atan2(last[0] * direction[1] - last[1] * direction[0],
+                               last[0] * direction[0] + last[1] * direction[1]));
+    if (f->state.steps == 0)
+        return (int)ceil(o->flushes * flush);
+    return change > o->rock_change || turned > o->wind_change ? (int)ceil(0.5 * flush) : 0;
+}
+
+status wind_update(struct gpu *gpu, struct wind *w, const struct job *job, int frame, struct particles *p)
+{
+    status st = OK;
+    struct wind_at at = wind_at(job, frame);
+    double flat = hypot(at.direction[0], at.direction[1]), change;
+    const double direction[2] = {at.direction[0] / flat, at.direction[1] / flat};
+    if (!w->flows || at.speed == 0 || p->n == 0)
+        return OK;
+    TRY(flow_change(gpu, &w->flow, p, &change));
+    int steps = steps_due(&w->flow, &job->wind.flow, direction, change);
+    if (steps == 0)
+        return OK;
+    TRY(flow_run(gpu, &w->flow, p, direction, steps));
+    const struct flow_report *r = &w->flow.report;
+    log_note(
+        "frame %d: wind: %d steps with %u particles of air around %u of rock (%.1f %% of them new), mean "
+        "density error %.2g (compression %.2g), divergence %.2g, fastest %.2f wind speeds",
+        frame, r->steps, (unsigned)r->n_air, (unsigned)r->n_rock, 100 * change, r->error, r->compression,
+        r->divergence, r->fastest);
+done:
+    return st;
+}
+
+bool wind_lattice(const struct wind *w, const struct job *job, int frame, struct wind_lattice *out)
+{
+    const struct flow *f = &w->flow;
+    if (!w->flows || f->state.steps == 0)
+        return false;
+    *out = (struct wind_lattice){.velocity = f->mean,
+                                 .n = {f->box[0], f->box[1], f->box[2]},
+                                 .origin = {f->origin[0], f->origin[1], 0},
+                                 .cell = f->spacing,
+                                 .speed = wind_at(job, frame).speed};
+    return true;
+}
+
+/* ---- erosion */
+
+void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, int frame, struct particles *p,
                 struct gpu_buffer *intensity)
 {
     const struct job_deflation *d = &job->wind.deflation;
@@ -51,6 +141,18 @@ void wind_erode(struct gpu *gpu, const struct job *job, int frame, struct partic
         .wind_z = (float)wind.direction[2],
         .shelter = (float)job->wind.shelter_m,
     };
-    GPU_RUN(gpu, wind_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            p->field[ROCK_stress], p->start, intensity);
+    struct wind_lattice air;
+    if (!wind_lattice(w, job, frame, &air)) {
+        GPU_RUN(gpu, wind_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
+                p->field[ROCK_stress], p->start, intensity);
+        return;
+    }
+    k.shelter = (float)air.cell;
+    k.bx = (uint)air.n[0];
+    k.by = (uint)air.n[1];
+    k.bz = (uint)air.n[2];
+    k.origin_x = (float)air.origin[0];
+    k.origin_y = (float)air.origin[1];
+    GPU_RUN(gpu, wind_strike, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
+            p->field[ROCK_stress], p->start, air.velocity, intensity);
 }

@@ -183,7 +183,7 @@ static struct bed bed_of(const int n[3], double h,
                 rock.n++;
             }
     assert_ok(gpu_work_create(bed.gpu, voxels + 2, &bed.work));
-    assert_ok(particles_create(bed.gpu, bed.work, &rock, n, h, &bed.p));
+    assert_ok(particles_create(bed.gpu, bed.work, &rock, STATE, n, h, &bed.p));
     assert_ok(particles_surface(bed.gpu, bed.work, &bed.p));
     assert_ok(particles_download(bed.gpu, &bed.p, DERIVED, &bed.rock));
     rock_free(&rock);
@@ -291,7 +291,7 @@ static void erodibility_jumps_where_grains_interlock(void **state)
         struct gpu_buffer *layers = buffer_of(bed.gpu, layer, 2, 16);
         GPU_RUN(bed.gpu, erosion_interlock, bed.p.n, k, layers, bed.p.field[ROCK_layer],
                 bed.p.field[ROCK_rate_factor], bed.p.field[ROCK_interlock_factor], bed.p.field[ROCK_stress],
-                bed.p.field[ROCK_erodibility]);
+                bed.p.field[ROCK_phase], bed.p.field[ROCK_erodibility]);
         assert_ok(gpu_download(bed.gpu, bed.p.field[ROCK_erodibility], 0, got, bed.p.n));
         for (size_t i = 0; i < bed.p.n; i++) {
             const float *l = layer[bed.rock.layer[i]];

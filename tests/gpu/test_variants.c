@@ -49,9 +49,12 @@ static void add_frame(struct trace *t, const struct model_type *type, struct mod
     for (int i = 0; i < ROCK_FIELDS; i++)
         if (f.rock.field[i])
             add(t, f.rock.field[i], f.rock.n * rock_field_size((enum rock_field)i));
-    size_t voxels = (size_t)f.grids.n[0] * (size_t)f.grids.n[1] * (size_t)f.grids.n[2];
-    for (size_t i = 0; i < f.grids.n_grids; i++)
-        add(t, f.grids.grid[i].value, voxels * (f.grids.grid[i].components == 3 ? 3 : 1) * sizeof(float));
+    for (size_t i = 0; i < f.grids.n_grids; i++) {
+        const struct frame_grid *g = &f.grids.grid[i];
+        const int *n = g->own.n[0] ? g->own.n : f.grids.n;
+        add(t, g->value,
+            (size_t)n[0] * (size_t)n[1] * (size_t)n[2] * (g->components == 3 ? 3 : 1) * sizeof(float));
+    }
     const struct aov_image *image = &f.image[0];
     for (size_t i = 0; i < image->n_channels; i++) {
         const struct aov_channel *channel = &image->channel[i];

@@ -66,7 +66,7 @@ static struct solved solve(const struct box *box, size_t n_boxes, const int cell
     struct rock rock = rock_of(box, n_boxes, voxels, dx / 2);
     assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
     assert_ok(gpu_work_create(s.gpu, (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2] + 2, &s.work));
-    assert_ok(particles_create(s.gpu, s.work, &rock, voxels, dx / 2, &s.p));
+    assert_ok(particles_create(s.gpu, s.work, &rock, STATE, voxels, dx / 2, &s.p));
     assert_ok(elastic_create(s.gpu, voxels, dx / 2, &options, &s.e));
     assert_ok(elastic_assemble(s.gpu, s.work, &s.e, &s.p));
     assert_ok(elastic_solve(s.gpu, s.work, &s.e));

@@ -39,8 +39,11 @@ for share in 1 2 8 22 43 74 94; do
     check "$kb kB: it names the file and says why" grep -qE '^hoodoo: disk/out/[^ :]*: .*No space left on device' errors
     cp errors "errors.$kb"
     tree disk/out >part.sums
-    # Whatever has its final name is what it is in the whole run, or a checkpoint that the whole run has removed since.
-    check "$kb kB: nothing half-written" [ -z "$(grep -vxFf whole.sums part.sums | grep -v ' ./checkpoint/twelve\.10[01][0-9]\.ckpt$')" ]
+    # Whatever has its final name is what it is in the whole run, or a checkpoint that the whole run has removed since,
+    # or the stage of the frames so far, down to its last brace.
+    check "$kb kB: nothing half-written" [ -z "$(grep -vxFf whole.sums part.sums | grep -v -e ' ./checkpoint/twelve\.10[01][0-9]\.ckpt$' \
+        -e ' ./twelve\.usda$')" ]
+    [ ! -e disk/out/twelve.usda ] || check "$kb kB: the stage is whole" [ "$(tail -n 1 disk/out/twelve.usda)" = "}" ]
     for c in disk/out/checkpoint/*.ckpt; do
         [ ! -e "$c" ] || check "$kb kB: $(basename "$c") is sound" sh -c '"$1" inspect "$2" >/dev/null 2>err' - "$HOODOO" "$c"
     done

@@ -277,6 +277,40 @@ static void equal_input_gives_equal_bytes(void **state)
     image_free(&image);
 }
 
+/* Pixels beyond the picture: the data window is larger than the display window. */
+static void overscan_is_outside_the_display_window(void **state)
+{
+    (void)state;
+    for (int layout = 0; layout < 2; layout++) {
+        struct aov_image image;
+        const struct exr_options options = options_of(layout);
+        void *bytes;
+        size_t size;
+        exr_context_t exr = NULL;
+        exr_attr_box2i_t data, display;
+        assert_int_equal(sample_image(&image), OK);
+        image.margin[0] = 5;
+        image.margin[1] = 3;
+        assert_int_equal(exr_encode(&image, &options, &bytes, &size), OK);
+        assert_int_equal(atomic_file_write("over.exr", bytes, size), OK);
+        assert_int_equal(exr_check("over.exr"), OK);
+        assert_int_equal(exr_start_read(&exr, "over.exr", NULL), 0);
+        assert_int_equal(exr_get_data_window(exr, 0, &data), 0);
+        assert_int_equal(exr_get_display_window(exr, 0, &display), 0);
+        assert_int_equal(data.min.x, -5);
+        assert_int_equal(data.min.y, -3);
+        assert_int_equal(data.max.x, WIDTH - 6);
+        assert_int_equal(data.max.y, HEIGHT - 4);
+        assert_int_equal(display.min.x, 0);
+        assert_int_equal(display.min.y, 0);
+        assert_int_equal(display.max.x, WIDTH - 11);
+        assert_int_equal(display.max.y, HEIGHT - 7);
+        exr_finish(&exr);
+        free(bytes);
+        image_free(&image);
+    }
+}
+
 static void what_is_no_picture_is_refused(void **state)
 {
     (void)state;
@@ -368,6 +402,7 @@ int main(void)
         cmocka_unit_test(attributes_are_the_standard_ones),
         cmocka_unit_test(rates_are_rational),
         cmocka_unit_test(equal_input_gives_equal_bytes),
+        cmocka_unit_test(overscan_is_outside_the_display_window),
         cmocka_unit_test(what_is_no_picture_is_refused),
         cmocka_unit_test(description_says_what_is_in_it),
         cmocka_unit_test(damage_is_noticed),

@@ -81,7 +81,7 @@ static const struct wrong wrong[] = {
     {"[960, 540]", "[960, 1e9]", {"cameras.main.resolution.1: 1e9 is out of range (8..16384 px)"}},
     /* curves */
     {"{1001: 10, 1060: 14", "{1001: 10, 1060: 1400", {"wind.speed_m_s.1060: 1400 is out of range"}},
-    {"1060: 14", "x: 14", {"wind.speed_m_s.x: not a frame; a curve is a number, or {frame: value"}},
+    {"1060: 14", "x: 14", {"wind.speed_m_s.x: not a frame; a curve is a value, or {frame: value"}},
     {"1060: 14", "1060.5: 14", {"wind.speed_m_s.1060.5: not a frame"}},
     {"1060: 14", "+1001: 14", {"wind.speed_m_s.+1001: frame 1001 is given twice"}},
     {"1060: 14", "1001: 14", {"wind.speed_m_s.1001: given twice"}},
@@ -135,6 +135,14 @@ static const struct wrong wrong[] = {
     {"[main, top-2]", "[main, side]", {"output.aov.cameras.1: no camera 'side' in cameras"}},
     {"[main, top-2]", "[main, main]", {"output.aov.cameras.1: camera 'main' is listed twice"}},
     {"position_m: [0, 0, 99]", "position_m: [0, 0, 0]", {"cameras.top-2: the same point as position_m"}},
+    {"position_m: [0, 0, 99]",
+     "position_m: {1001: [0, 0, 9], 1010: [0, 0, 0]}",
+     {"cameras.top-2: the same point as position_m"}},
+    {"position_m: [0, 0, 99]",
+     "position_m: {1001: [0, 0]}",
+     {"cameras.top-2.position_m.1001: a list of another length"}},
+    {"position_m: [0, 0, 99]", "position_m: {1001: 4}", {"but a list of 3 numbers is wanted"}},
+    {"position_m: [0, 0, 99]", "position_m: {x: [0, 0, 9]}", {"not a frame"}},
     {"distance_m: 90", "distance_m: -90", {"cameras.main.orbit.distance_m: -90 is out of range"}},
     /* YAML a job has no use for */
     {"fps: 25", "fps: &f 25", {"job.yaml:5:9: anchors (&) and aliases (*) are not allowed"}},

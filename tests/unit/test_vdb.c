@@ -113,7 +113,7 @@ static void mesh_of_a_ball_is_closed_and_true(void **state)
         const struct vdb_options options = options_of(up);
         struct vdb_mesh mesh;
         write_volumes("ball.vdb", 0.25, &options);
-        assert_int_equal(vdb_mesh_read("ball.vdb", 0, names, 1, &mesh), OK);
+        assert_int_equal(vdb_mesh_read("ball.vdb", 0, names, 1, 0, &mesh), OK);
         assert_true(mesh.n_vertices > 1000);
         r[up] = measure_mesh(&mesh);
         print_message("# area %g volume %g normal %g value %g centre %g %g %g\n", r[up].area, r[up].volume,
@@ -179,6 +179,38 @@ static void volumes_come_back(void **state)
             sample_grids_free(&in);
             vdb_volumes_free(&out);
         }
+}
+
+/* The wind is known on a coarser and wider lattice than the rock. */
+static void a_grid_with_its_own_lattice_comes_back(void **state)
+{
+    (void)state;
+    for (int up = 0; up < 2; up++) {
+        const struct vdb_options options = options_of(up);
+        struct frame_grids in, out;
+        struct vdb_bytes file;
+        float wind[5 * 4 * 3][3];
+        assert_int_equal(sample_grids(0.5, &in), OK);
+        for (int v = 0; v < 5 * 4 * 3; v++)
+            for (int a = 0; a < 3; a++)
+                wind[v][a] = (float)(v + 1) * (a == 1 ? -1.0F : 0.5F);
+        free(in.grid[3].value);
+        in.grid[3].value = &wind[0][0];
+        in.grid[3].own = (struct grid_lattice){{5, 4, 3}, 6.5, {-8, -7, 3.25}};
+        assert_int_equal(vdb_volumes(&in, &options, &file), OK);
+        assert_int_equal(atomic_file_write("own.vdb", file.bytes, file.size), OK);
+        assert_int_equal(vdb_volumes_read("own.vdb", &out), OK);
+        assert_memory_equal(in.n, out.n, sizeof in.n);
+        assert_memory_equal(in.origin, out.origin, sizeof in.origin);
+        assert_string_equal(out.grid[3].name, "vel");
+        assert_memory_equal(&out.grid[3].own, &in.grid[3].own, sizeof in.grid[3].own);
+        assert_int_equal(out.grid[2].own.n[0], 0);
+        assert_memory_equal(out.grid[3].value, wind, sizeof wind);
+        in.grid[3].value = NULL;
+        sample_grids_free(&in);
+        vdb_volumes_free(&out);
+        free(file.bytes);
+    }
 }
 
 static void half_volumes_come_back_to_three_digits(void **state)
@@ -477,9 +509,13 @@ static void mesh_of_something_else_is_refused(void **state)
     struct frame_grids grids;
     write_points("points.vdb", 1, &options);
     write_volumes("volumes.vdb", 0.5, &options);
-    assert_int_equal(vdb_mesh_read("points.vdb", 0, NULL, 0, &mesh), E_INPUT);
-    assert_int_equal(vdb_mesh_read("volumes.vdb", 0, names, 1, &mesh), E_INPUT);
+    assert_int_equal(vdb_mesh_read("points.vdb", 0, NULL, 0, 0, &mesh), E_INPUT);
+    assert_int_equal(vdb_mesh_read("volumes.vdb", 0, names, 1, 0, &mesh), E_INPUT);
     assert_non_null(strstr(status_message(), "no such grid"));
+    assert_int_equal(vdb_mesh_read("volumes.vdb", 0, names, 1, 1, &mesh), OK);
+    for (size_t i = 0; i < mesh.n_vertices; i++)
+        assert_true(mesh.value[i] == 0);
+    vdb_mesh_free(&mesh);
     assert_int_equal(vdb_points_read("volumes.vdb", &rock), E_INPUT);
     assert_int_equal(vdb_volumes_read("points.vdb", &grids), E_INPUT);
     vdb_mesh_free(&mesh);
@@ -521,7 +557,7 @@ static void rock_on_the_floor_is_closed(void **state)
         assert_int_equal(vdb_volumes(&grids, &options, &file), OK);
         damage_put("floor.vdb", file.bytes, file.size);
         free(file.bytes);
-        assert_int_equal(vdb_mesh_read("floor.vdb", 0, NULL, 0, &mesh), OK);
+        assert_int_equal(vdb_mesh_read("floor.vdb", 0, NULL, 0, 0, &mesh), OK);
         const struct measure r = measure_mesh(&mesh);
         assert_int_equal(r.open_edges, 0);
         assert_true(fabs(r.volume / (8.5 * 12 * 9 + 3 * 3 * 9) - 1) < 0.03);
@@ -542,8 +578,8 @@ static void adaptive_mesh_is_smaller(void **state)
     const struct vdb_options options = options_of(OUTPUT_UP_Y);
     struct vdb_mesh fine, coarse;
     write_volumes("ball.vdb", 0.125, &options);
-    assert_int_equal(vdb_mesh_read("ball.vdb", 0, NULL, 0, &fine), OK);
-    assert_int_equal(vdb_mesh_read("ball.vdb", 0.02, NULL, 0, &coarse), OK);
+    assert_int_equal(vdb_mesh_read("ball.vdb", 0, NULL, 0, 0, &fine), OK);
+    assert_int_equal(vdb_mesh_read("ball.vdb", 0.02, NULL, 0, 0, &coarse), OK);
     assert_null(coarse.value);
     assert_true(coarse.n_triangles < fine.n_triangles * 3 / 4);
     const struct measure r = measure_mesh(&coarse);
@@ -561,6 +597,7 @@ int main(void)
         cmocka_unit_test(equal_input_gives_equal_bytes_on_any_number_of_cores),
         cmocka_unit_test(another_identity_is_another_archive),
         cmocka_unit_test(volumes_come_back),
+        cmocka_unit_test(a_grid_with_its_own_lattice_comes_back),
         cmocka_unit_test(half_volumes_come_back_to_three_digits),
         cmocka_unit_test(points_come_back),
         cmocka_unit_test(surface_points_are_those_with_a_normal),

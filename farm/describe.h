@@ -1,0 +1,12 @@
+/* The graph in an answer (base/text.h's JSON): what plan and submit --dry-run print. */
+#ifndef HOODOO_FARM_DESCRIBE_H
+#define HOODOO_FARM_DESCRIBE_H
+
+#include "base/text.h"
+#include "farm/farm.h"
+
+/* Members "wedges" (if there are any) and "tasks" of the object under way. `words`: flat rows, and no more
+ * of them than a person reads. */
+void farm_describe(const struct farm *f, bool words, struct text *out);
+
+#endif

@@ -1,0 +1,337 @@
+#include "farm/local.h"
+
+#include <sched.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "farm/child.h"
+#include "farm/command.h"
+#include "gpu/gpu.h"
+
+enum { POLL_US = 10000, PAUSE_S = 1 };
+
+static double seconds_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static int cores(void)
+{
+    cpu_set_t set;
+    int n = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
+    return n > 0 ? n : 1;
+}
+
+/* ---- workers */
+
+static void add_cpu_workers(struct local_worker out[LOCAL_WORKERS], size_t *n)
+{
+    /* Stills and meshes beside the GPUs: four cores each, and one left for each GPU's own process. */
+    int left = cores() - (int)*n, k = left / 4 > 1 ? left / 4 : 1;
+    for (int i = 0; i < k && *n < LOCAL_WORKERS; i++)
+        out[(*n)++] = (struct local_worker){.others = true, .threads = left > 4 ? left / k : 1};
+}
+
+static status workers_named(const char *gpus, struct local_worker out[LOCAL_WORKERS], size_t *n)
+{
+    for (const char *s = gpus;; s++) {
+        size_t length = strcspn(s, ",");
+        if (length == 0 || length >= sizeof out[0].device || *n == LOCAL_WORKERS)
+            return fail(E_USAGE, "--gpus %.80s: write devices with commas between, such as 0,1 (at most %d)",
+                        gpus, LOCAL_WORKERS);
+        out[*n] = (struct local_worker){.sims = true, .threads = 1};
+        memcpy(out[(*n)++].device, s, length);
+        s += length;
+        if (!*s)
+            return OK;
+    }
+}
+
+static status workers_found(struct local_worker out[LOCAL_WORKERS], size_t *n)
+{
+    struct gpu_info *info = NULL;
+    size_t n_devices;
+    status st = gpu_list(&info, &n_devices);
+    for (size_t i = 0; st == OK && i < n_devices && *n < LOCAL_WORKERS / 2; i++)
+        if (info[i].usable && !info[i].is_cpu) {
+            out[*n] = (struct local_worker){.sims = true, .threads = 1};
+            snprintf(out[(*n)++].device, sizeof out[0].device, "%d", info[i].index);
+        }
+    free(info);
+    return st;
+}
+
+status local_workers(const char *gpus, int workers, struct local_worker out[LOCAL_WORKERS], size_t *n)
+{
+    status st = OK;
+    *n = 0;
+    if (gpus && workers)
+        return fail(E_USAGE, "--gpus and --workers: give one of the two");
+    if (workers < 0 || workers > LOCAL_WORKERS)
+        return fail(E_USAGE, "--workers %d: 1 to %d", workers, LOCAL_WORKERS);
+    if (gpus)
+        TRY(workers_named(gpus, out, n));
+    else if (!workers)
+        TRY(workers_found(out, n));
+    if (*n > 0) {
+        add_cpu_workers(out, n);
+        return OK;
+    }
+    for (int i = 0; i < (workers ? workers : 1); i++) {
+        int threads = cores() / (workers ? workers : 1);
+        out[*n] = (struct local_worker){.sims = true, .others = true, .threads = threads > 1 ? threads : 1};
+        snprintf(out[(*n)++].device, sizeof out[0].device, "cpu");
+    }
+done:
+    return st;
+}
+
+/* ---- tasks under way */
+
+enum task_state { WAITING, RUNNING, DONE, FAILED, LEFT_OUT };
+
+struct task {
+    enum task_state state;
+    int tries;
+    double not_before; /* a pause before the next try */
+    bool asked;        /* whether the files say it is done */
+};
+
+struct worker {
+    pid_t pid; /* 0: idle */
+    size_t task;
+    double since;
+};
+
+struct local {
+    const struct farm *farm;
+    const struct local_options *options;
+    struct task *task;
+    struct worker worker[LOCAL_WORKERS];
+    struct local_state state;
+    bool stopping;
+    int code; /* of the first task that failed */
+    size_t first_failed;
+};
+
+static void tell(struct local *l, enum local_news what, size_t task, int worker, double seconds,
+                 const char *why)
+{
+    if (l->options->news)
+        l->options->news(l->options->user, what, &l->farm->graph.task[task], worker, seconds, why);
+}
+
+static status start(struct local *l, size_t task, int k)
+{
+    status st = OK;
+    const struct farm_task *t = &l->farm->graph.task[task];
+    const struct local_worker *w = &l->options->worker[k];
+    struct farm_command *command = NULL;
+    char log[FARM_PATH + 128], jobs[32], threads[32];
+    TRY(memory_alloc(1, sizeof *command, "a command", &command));
+    farm_command(l->farm, t, *w->device ? w->device : NULL, command);
+    if (t->kind != FARM_SIM && t->kind != FARM_MESH && t->kind != FARM_WEDGES) {
+        snprintf(jobs, sizeof jobs, "--jobs=%d", w->threads);
+        command->argv[command->n++] = jobs;
+        command->argv[command->n] = NULL;
+    }
+    farm_log_path(l->farm, t, log);
+    snprintf(threads, sizeof threads, "%d", w->threads);
+    bool cpu = strcmp(w->device, "cpu") == 0;
+    const struct child_variable variables[] = {{"OMP_NUM_THREADS", threads},
+                                               {cpu ? "LP_NUM_THREADS" : NULL, threads}};
+    TRY(child_start(command->argv, log, variables, 2, &l->worker[k].pid));
+    l->worker[k].task = task;
+    l->worker[k].since = seconds_now();
+    l->task[task].state = RUNNING;
+    l->task[task].tries++;
+    l->state.running++;
+    l->state.task[k] = t;
+    l->state.running_since[k] = l->worker[k].since;
+    tell(l, LOCAL_STARTED, task, k, 0, "");
+done:
+    free(command);
+    return st;
+}
+
+static void finish(struct local *l, int k, int how)
+{
+    struct worker *w = &l->worker[k];
+    struct task *task = &l->task[w->task];
+    const struct farm_task *t = &l->farm->graph.task[w->task];
+    double took = seconds_now() - w->since;
+    char why[600] = "", log[FARM_PATH + 128];
+    int code = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
+    w->pid = 0;
+    l->state.running--;
+    l->state.task[k] = NULL;
+    if (code == 0) {
+        task->state = DONE;
+        l->state.done++;
+        tell(l, LOCAL_DONE, w->task, k, took, "");
+        return;
+    }
+    if (l->stopping) {
+        /* Whatever it was, the same command goes on from here. */
+        task->state = WAITING;
+        tell(l, LOCAL_SAVED, w->task, k, took, "");
+        return;
+    }
+    farm_log_path(l->farm, t, log);
+    child_reason(how, log, why, sizeof why);
+    task->not_before = seconds_now() + PAUSE_S * task->tries;
+    if (code == STOPPED) {
+        task->tries--; /* someone stopped it alone: no failure */
+        task->state = WAITING;
+        tell(l, LOCAL_AGAIN, w->task, k, took, why);
+    } else if (farm_final(code) || task->tries > farm_job(l->farm, t)->farm.retries) {
+        task->state = FAILED;
+        l->state.failed++;
+        if (!l->code) {
+            l->code = code;
+            l->first_failed = w->task;
+        }
+        tell(l, LOCAL_FAILED, w->task, k, took, why);
+    } else {
+        task->state = WAITING;
+        tell(l, LOCAL_AGAIN, w->task, k, took, why);
+    }
+}
+
+/* Can the task begin? It is left out if something it waits for failed, and done if its files say so. */
+static status ready(struct local *l, size_t i, bool *yes)
+{
+    status st = OK;
+    const struct farm_graph *g = &l->farm->graph;
+    struct task *task = &l->task[i];
+    *yes = false;
+    for (size_t k = 0; k < g->task[i].n_after; k++) {
+        enum task_state before = l->task[g->after[g->task[i].after + k]].state;
+        if (before == FAILED || before == LEFT_OUT) {
+            task->state = LEFT_OUT;
+            l->state.left_out++;
+            tell(l, LOCAL_LEFT_OUT, i, -1, 0, g->task[g->after[g->task[i].after + k]].name);
+            return OK;
+        }
+        if (before != DONE)
+            return OK;
+    }
+    if (!task->asked) {
+        bool done;
+        task->asked = true;
+        TRY(farm_task_done(l->farm, &g->task[i], &done));
+        if (done) {
+            task->state = DONE;
+            l->state.done++;
+            l->state.already++;
+            return OK;
+        }
+    }
+    *yes = seconds_now() >= task->not_before;
+done:
+    return st;
+}
+
+/* Gives idle workers what is ready, simulation first. */
+static status hand_out(struct local *l)
+{
+    status st = OK;
+    const struct farm_graph *g = &l->farm->graph;
+    for (int others = 0; others < 2; others++)
+        for (size_t i = 0; i < g->n; i++) {
+            bool sim = g->task[i].kind == FARM_SIM, yes;
+            if (l->task[i].state != WAITING || sim == (others == 1))
+                continue;
+            TRY(ready(l, i, &yes));
+            for (size_t k = 0; yes && k < l->options->n_workers; k++) {
+                const struct local_worker *w = &l->options->worker[k];
+                if (l->worker[k].pid == 0 && (sim ? w->sims : w->others)) {
+                    TRY(start(l, i, (int)k));
+                    break;
+                }
+            }
+        }
+done:
+    return st;
+}
+
+static void stop_all(struct local *l)
+{
+    l->stopping = true;
+    for (size_t k = 0; k < l->options->n_workers; k++)
+        if (l->worker[k].pid)
+            kill(l->worker[k].pid, SIGTERM);
+}
+
+/* Takes in what has ended; true if anything has. */
+static bool reap(struct local *l)
+{
+    bool any = false;
+    for (size_t k = 0; k < l->options->n_workers; k++) {
+        int how;
+        if (l->worker[k].pid && waitpid(l->worker[k].pid, &how, WNOHANG) == l->worker[k].pid) {
+            finish(l, (int)k, how);
+            any = true;
+        }
+    }
+    return any;
+}
+
+static status verdict(const struct local *l)
+{
+    char log[FARM_PATH + 128];
+    if (l->stopping)
+        return fail(STOPPED, "stopped with %zu of %zu tasks done; run the same command again to go on",
+                    l->state.done, l->state.total);
+    if (l->code == 0)
+        return OK;
+    const struct farm_task *t = &l->farm->graph.task[l->first_failed];
+    farm_log_path(l->farm, t, log);
+    status st = E_OUTPUT;
+#define KNOWN(name, value, text) st = l->code == (value) ? name : st;
+    STATUS_MAP(KNOWN)
+#undef KNOWN
+    return fail(st,
+                "%zu of %zu tasks failed and %zu were left out that wait for them; the first was %s: see %s, "
+                "then run the same command again",
+                l->state.failed, l->state.total, l->state.left_out, t->name, log);
+}
+
+status local_run(const struct farm *f, const struct local_options *options)
+{
+    status st = OK;
+    struct local l = {.farm = f, .options = options, .state = {.total = f->graph.n}};
+    double ticked = 0;
+    TRY(memory_alloc(f->graph.n, sizeof *l.task, "the tasks", &l.task));
+    for (;;) {
+        bool any = reap(&l);
+        if (!l.stopping && options->stop && options->stop())
+            stop_all(&l);
+        if (!l.stopping && st == OK && (st = hand_out(&l)) != OK)
+            stop_all(&l);
+        size_t over = l.state.done + l.state.failed + l.state.left_out;
+        if (l.state.running == 0 && (l.stopping || over == l.state.total))
+            break;
+        if (options->tick && (any || seconds_now() - ticked > 1)) {
+            options->tick(options->user, &l.state);
+            ticked = seconds_now();
+        }
+        if (!any)
+            usleep(POLL_US);
+    }
+    if (options->tick)
+        options->tick(options->user, &l.state);
+    if (st == OK)
+        st = verdict(&l);
+done:
+    free(l.task);
+    return st;
+}

@@ -1,0 +1,273 @@
+/* What the manifests say over time, and what the last frame's files say of stress and layers. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "job/palette.h"
+#include "render/report_page.h"
+
+/* Told apart by lightness as well as by hue. */
+static const char ROCK[] = "#a9491f", DEPOSIT[] = "#e8bd52", FALLEN[] = "#2f5f8a", LEFT[] = "#d9d3ca";
+
+enum column { TIME, VOLUME, RATE, STRESS, N_ROCK, N_DEPOSIT, N_FALLEN, N_LEFT, N_COLUMNS };
+
+struct columns {
+    size_t n; /* sound frames */
+    double *value[N_COLUMNS];
+    double unit;       /* years of the time axis' unit */
+    const char *label; /* of the time axis */
+};
+
+static void fill(const struct report *r, struct columns *c)
+{
+    const struct manifest *before = NULL;
+    for (size_t i = 0; i < r->n_frames; i++) {
+        const struct manifest *m = &r->frame[i].manifest;
+        if (r->frame[i].damaged)
+            continue;
+        const size_t k = c->n++;
+        c->value[TIME][k] = m->years / c->unit;
+        c->value[VOLUME][k] = m->volume_m3;
+        c->value[STRESS][k] = m->max_stress_Pa / 1e6;
+        c->value[RATE][k] = before && m->years > before->years
+                                ? (before->volume_m3 - m->volume_m3) / (m->years - before->years) * 1000
+                                : (double)NAN;
+        c->value[N_ROCK][k] = (double)m->ledger.rock;
+        c->value[N_DEPOSIT][k] = (double)m->ledger.deposit;
+        c->value[N_FALLEN][k] = (double)m->ledger.fallen;
+        c->value[N_LEFT][k] = (double)m->ledger.left;
+        before = m;
+    }
+}
+
+static status make_columns(const struct report *r, struct columns *c)
+{
+    status st = OK;
+    const bool long_ago = (r->frames.last - r->frames.first) * r->job->clock.years_per_frame >= 2000;
+    c->unit = long_ago ? 1000 : 1;
+    c->label = long_ago ? "time, kyr" : "time, yr";
+    for (int i = 0; i < N_COLUMNS; i++)
+        TRY(memory_alloc(r->n_frames, sizeof(double), "curves", &c->value[i]));
+    fill(r, c);
+done:
+    return st;
+}
+
+static void add_ledger(const struct report *r, const struct columns *c, struct text *t)
+{
+    const struct ledger *l = NULL;
+    bool exact = true;
+    int last = 0;
+    char number[48];
+    const char *what = r->job->model == MODEL_GOBLINS ? "voxels" : "particles";
+    for (size_t i = 0; i < r->n_frames; i++)
+        if (!r->frame[i].damaged) {
+            l = &r->frame[i].manifest.ledger;
+            last = r->frame[i].manifest.frame;
+            exact &= l->start == l->rock + l->deposit + l->fallen + l->left;
+        }
+    const struct series series[] = {{"rock", ROCK, c->value[N_ROCK]},
+                                    {"deposit", DEPOSIT, c->value[N_DEPOSIT]},
+                                    {"fallen", FALLEN, c->value[N_FALLEN]},
+                                    {"left the domain", LEFT, c->value[N_LEFT]}};
+    chart_lines(&(struct chart){.title = "Where the rock went",
+                                .x_label = c->label,
+                                .y_label = what,
+                                .n = c->n,
+                                .x = c->value[TIME],
+                                .n_series = 4,
+                                .series = series,
+                                .stacked = true},
+                t);
+    const struct {
+        const char *name;
+        uint64_t n;
+    } rows[] = {{"rock", l->rock},
+                {"deposit", l->deposit},
+                {"fallen", l->fallen},
+                {"left the domain", l->left},
+                {"start", l->start}};
+    text_add(t,
+             "<div><h3>Ledger</h3><p>Where each of the %s of the start is. %s</p><table><thead><tr><th>In "
+             "frame %d</th><th class=\"n\">%s</th><th "
+             "class=\"n\">share</th></tr></thead><tbody>\n",
+             what,
+             exact ? "In every frame the four add up to the start, exactly."
+                   : "<strong>In some frame the four do not add up to the start.</strong>",
+             last, what);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        text_add(t, "<tr><%s>%s</%s><td class=\"n\">%s</td><td class=\"n\">%.2f %%</td></tr>\n",
+                 i == 4 ? "th" : "td", rows[i].name, i == 4 ? "th" : "td",
+                 html_number((double)rows[i].n, number),
+                 l->start ? 100 * (double)rows[i].n / (double)l->start : 0);
+    text_add(t, "</tbody></table></div>\n");
+}
+
+/* ---- the last frame */
+
+static void add_stress(const struct report *r, struct text *t)
+{
+    const struct report_stress *s = &r->stress;
+    struct mark mark[2];
+    size_t n_marks = 0;
+    char title[160], low[48];
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (size_t i = 0; i < r->job->n_strata; i++) {
+        const double at = curve_at(&r->job->strata[i].interlock_MPa, s->frame);
+        least = fmin(least, at);
+        most = fmax(most, at);
+    }
+    /* Other models weather alike under any load. */
+    const double ends[] = {least, most};
+    for (size_t i = 0; r->job->model == MODEL_ARENITE && i < (most > least ? 2 : 1); i++)
+        if (ends[i] > s->low && ends[i] < s->high) {
+            mark[n_marks].x = ends[i];
+            snprintf(mark[n_marks].name, sizeof mark[n_marks].name, "%s at %.30s MPa",
+                     most == least ? "interlocks"
+                     : i           ? "all layers interlock"
+                                   : "the first layer interlocks",
+                     html_number(ends[i], low));
+            n_marks++;
+        }
+    snprintf(title, sizeof title, "Stress in frame %d", s->frame);
+    chart_histogram(&(struct histogram){.title = title,
+                                        .x_label = "−tr σ, MPa (compression positive)",
+                                        .y_label = "share, %",
+                                        .low = s->low,
+                                        .high = s->high,
+                                        .n = STRESS_BINS,
+                                        .share = s->share,
+                                        .n_marks = n_marks,
+                                        .mark = mark},
+                    t);
+}
+
+static void add_words(const struct report *r, struct text *t)
+{
+    const struct report_stress *s = &r->stress;
+    char count[48], low[48], high[48];
+    text_add(t,
+             "<div><h3>How to read this</h3><p>The stresses of frame %d are those of %s %s. Its chart "
+             "reaches from %s to "
+             "%s MPa; the outermost bars hold the half percent beyond on each side.</p>",
+             s->frame, html_number((double)s->n, count), s->what, html_number(s->low, low),
+             html_number(s->high, high));
+    if (r->job->model == MODEL_ARENITE)
+        text_add(t, "<p>Rock under more compression than its layer's interlocking stress erodes at the "
+                    "strong rate, the "
+                    "rest at the weak one.</p>");
+    text_add(t, "</div>\n");
+}
+
+/* Linear to sRGB, as #rrggbb. */
+static void hex_color(const float rgb[3], char out[8])
+{
+    int value[3];
+    for (int i = 0; i < 3; i++) {
+        const double x = fmin(fmax((double)rgb[i], 0), 1);
+        value[i] = (int)lround(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055));
+    }
+    snprintf(out, 8, "#%02x%02x%02x", (unsigned)value[0] & 255, (unsigned)value[1] & 255,
+             (unsigned)value[2] & 255);
+}
+
+enum { MOST_LAYERS = 40 };
+
+static void add_layers(const struct report *r, struct text *t)
+{
+    struct row row[MOST_LAYERS];
+    char color[MOST_LAYERS][8], title[160], number[48], low[48], high[48];
+    size_t n = 0;
+    const struct job *job = r->job;
+    /* Top down, as they lie. */
+    for (size_t i = job->n_strata; i-- > 0 && n < MOST_LAYERS;) {
+        const struct report_layer *l = &r->layer[i];
+        float rgb[3];
+        if (l->start <= 0)
+            continue;
+        palette_color(job, i, rgb);
+        hex_color(rgb, color[n]);
+        row[n].color = color[n];
+        row[n].value = l->now / l->start;
+        const double from = i ? job->strata[i - 1].to_m : 0,
+                     to = fmin(job->strata[i].to_m, job->domain.size_m[2]);
+        snprintf(row[n].name, sizeof row[n].name, "layer %zu, %.16s to %.16s m", i, html_number(from, low),
+                 html_number(to, high));
+        snprintf(row[n].note, sizeof row[n].note, "%.1f %%, %.40s m³", 100 * row[n].value,
+                 html_number(l->now, number));
+        n++;
+    }
+    if (n == 0)
+        return;
+    snprintf(title, sizeof title, "What is left of each layer, frame %d against %d", r->layers_to,
+             r->layers_from);
+    chart_rows(title, "share of the layer's rock at the start", row, n, 1, t);
+}
+
+/* Either may be unknown: the frames' files are missing, or the model has no stress. */
+static void add_rock(const struct report *r, const struct columns *c, struct text *t)
+{
+    double most = 0;
+    for (size_t i = 0; c && i < c->n; i++)
+        most = fmax(most, c->value[STRESS][i]);
+    if (most <= 0 && r->stress.n == 0 && !r->layer)
+        return;
+    text_add(t, "<section><h2>Stress and layers</h2>\n<div class=\"two\">\n");
+    if (most > 0) {
+        const struct series stress = {"greatest compression, MPa", FALLEN, c->value[STRESS]};
+        chart_lines(&(struct chart){.title = "Greatest stress",
+                                    .x_label = c->label,
+                                    .y_label = "compression, MPa",
+                                    .n = c->n,
+                                    .x = c->value[TIME],
+                                    .n_series = 1,
+                                    .series = &stress,
+                                    .from_zero = true},
+                    t);
+    }
+    if (r->stress.n)
+        add_stress(r, t);
+    if (r->layer)
+        add_layers(r, t);
+    if (r->stress.n)
+        add_words(r, t);
+    text_add(t, "</div></section>\n");
+}
+
+void page_curves(const struct report *r, struct text *t)
+{
+    struct columns c = {0};
+    if (make_columns(r, &c) != OK) {
+        t->failed = true;
+        goto done;
+    }
+    const struct series volume = {"rock, m³", ROCK, c.value[VOLUME]},
+                        rate = {"lost, m³ per kyr", ROCK, c.value[RATE]};
+    struct chart chart = {.title = "Rock that is left",
+                          .x_label = c.label,
+                          .y_label = "volume, m³",
+                          .n = c.n,
+                          .x = c.value[TIME],
+                          .n_series = 1,
+                          .series = &volume,
+                          .from_zero = true};
+    text_add(t, "<section><h2>Erosion</h2>\n<p>Frame %d is year 0.</p><div class=\"two\">\n",
+             r->frames.first);
+    chart_lines(&chart, t);
+    chart.title = "How fast it goes";
+    chart.y_label = "lost, m³ per kyr";
+    chart.series = &rate;
+    chart_lines(&chart, t);
+    add_ledger(r, &c, t);
+    text_add(t, "</div></section>\n");
+    add_rock(r, &c, t);
+done:
+    for (int i = 0; i < N_COLUMNS; i++)
+        free(c.value[i]);
+}
+
+void page_rock(const struct report *r, struct text *t)
+{
+    add_rock(r, NULL, t);
+}

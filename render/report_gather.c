@@ -1,0 +1,348 @@
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "checkpoint/checkpoint.h"
+#include "output/vdb.h"
+#include "render/report.h"
+
+enum { LARGEST_LOG = 64 << 20, LOG_LINES = 24, MAX_SESSIONS = 10000 };
+
+void report_note(struct report *r, const char *format, ...)
+{
+    char line[2200];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    for (char *c = line; *c; c++)
+        if (*c == '\n')
+            *c = ' ';
+    text_add(&r->notes, "%s\n", line);
+}
+
+/* ---- frames */
+
+/* A path to hand to other programs: nothing in it means something to them. */
+static bool is_plain(const char *path)
+{
+    return *path != '-' &&
+           strspn(path, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") == strlen(path);
+}
+
+static bool there(const struct report *r, const char *path)
+{
+    char full[4700];
+    snprintf(full, sizeof full, "%.4096s/%s", r->root, path);
+    return access(full, R_OK) == 0;
+}
+
+static bool lists(const struct report_frame *f, const char *folder, const char *ending)
+{
+    for (size_t i = 0; i < f->manifest.n_files; i++) {
+        const char *path = f->manifest.file[i].path, *dot = strrchr(path, '.');
+        if (strncmp(path, folder, strlen(folder)) == 0 && dot && strcmp(dot, ending) == 0)
+            return true;
+    }
+    return false;
+}
+
+static void find_still(const struct report *r, struct report_frame *f)
+{
+    char still[512];
+    snprintf(still, sizeof still, "preview/%.200s.%04d.png", r->name, f->manifest.frame);
+    if (there(r, still))
+        memcpy(f->source, still, sizeof f->source);
+}
+
+static void find_field_picture(const struct report *r, struct report_frame *f)
+{
+    *f->source = '\0';
+    for (size_t i = 0; i < f->manifest.n_files && !*f->source; i++) {
+        const char *path = f->manifest.file[i].path;
+        if (strncmp(path, "aov/", 4) == 0 && is_plain(path) && there(r, path))
+            snprintf(f->source, sizeof f->source, "%s", path);
+    }
+}
+
+/* Stills if two frames have them, or else the run's own pictures: of one kind, so that they compare. */
+static void find_sources(struct report *r)
+{
+    size_t n_stills = 0, n_others = 0;
+    for (size_t i = 0; i < r->n_frames; i++)
+        if (!r->frame[i].damaged) {
+            find_still(r, &r->frame[i]);
+            n_stills += *r->frame[i].source != '\0';
+            n_others += lists(&r->frame[i], "aov/", ".exr");
+        }
+    r->stills = n_stills >= 2 || (n_stills == 1 && n_others < 2);
+    for (size_t i = 0; !r->stills && i < r->n_frames; i++)
+        if (!r->frame[i].damaged)
+            find_field_picture(r, &r->frame[i]);
+}
+
+static status add_frame(struct report *r, int frame)
+{
+    const char *bad = "";
+    struct report_frame *f = &r->frame[r->n_frames++];
+    status st = manifest_read(r->root, r->name, frame, &f->manifest);
+    if (st == OK)
+        st = manifest_check(r->root, &f->manifest, false, &bad);
+    if (st == E_MEMORY)
+        return st;
+    f->damaged = st != OK || *bad;
+    if (f->damaged)
+        snprintf(f->what, sizeof f->what, "%.500s", status_message());
+    f->manifest.frame = frame; /* also where the manifest cannot be read */
+    r->n_damaged += f->damaged;
+    r->n_sound += !f->damaged;
+    for (size_t i = 0; i < f->manifest.n_files; i++)
+        r->disk += f->manifest.file[i].size;
+    f->has_volumes = lists(f, "volumes/", ".vdb");
+    return OK;
+}
+
+static status find_frames(struct report *r)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    TRY(folder_frames(r->root, r->name, &frames, &n));
+    TRY(memory_alloc(n, sizeof *r->frame, "the frames", &r->frame));
+    for (size_t i = 0; i < n; i++)
+        if (range_holds(r->frames, frames[i]))
+            TRY(add_frame(r, frames[i]));
+    r->n_missing = range_count(r->frames) - r->n_frames;
+    find_sources(r);
+done:
+    free(frames);
+    return st;
+}
+
+/* ---- stress and layers */
+
+static int ascending(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Sorts the values, Pa. Their bins hold all but the outermost half percents, and 0. */
+static void fill_bins(struct report_stress *s, float *value, size_t n)
+{
+    if (n == 0)
+        return;
+    qsort(value, n, sizeof *value, ascending);
+    s->low = fmin((double)value[n / 200] / 1e6, 0);
+    s->high = fmax((double)value[n - 1 - n / 200] / 1e6, 0);
+    if (!(s->high > s->low))
+        return;
+    s->n = n;
+    for (size_t i = 0; i < n; i++) {
+        const double part = ((double)value[i] / 1e6 - s->low) / (s->high - s->low) * STRESS_BINS;
+        const size_t bin = part < 0 ? 0 : part >= STRESS_BINS ? STRESS_BINS - 1 : (size_t)part;
+        s->share[bin] += 100.0 / (double)n;
+    }
+}
+
+static void add_layers(struct report *r, const struct rock *rock, bool start)
+{
+    const double h = r->job->domain.spacing_m;
+    for (size_t i = 0; rock->layer && rock->viability && i < rock->n; i++)
+        if (rock->layer[i] < r->job->n_strata && (!rock->phase || rock->phase[i] == 0)) {
+            struct report_layer *l = &r->layer[rock->layer[i]];
+            *(start ? &l->start : &l->now) += (double)rock->viability[i] * h * h * h;
+        }
+}
+
+static status stress_of_points(struct report *r, const struct rock *rock)
+{
+    status st = OK;
+    float *value = NULL;
+    size_t n = 0;
+    TRY(memory_alloc(rock->n, sizeof *value, "stresses", &value));
+    for (size_t i = 0; rock->stress && i < rock->n; i++)
+        if (isfinite(rock->stress[i]))
+            value[n++] = rock->stress[i];
+    r->stress.what = r->job->output.vdb.points == VDB_POINTS_SURFACE ? "surface particles" : "particles";
+    fill_bins(&r->stress, value, n);
+done:
+    free(value);
+    return st;
+}
+
+static status stress_of_volumes(struct report *r, const char *path)
+{
+    status st = OK;
+    struct frame_grids grids = {0};
+    const float *stress = NULL, *density = NULL;
+    float *value = NULL;
+    size_t n = 0;
+    TRY(vdb_volumes_read(path, &grids));
+    for (size_t g = 0; g < grids.n_grids; g++) {
+        if (strcmp(grids.grid[g].name, "stress") == 0 && grids.grid[g].own.n[0] == 0)
+            stress = grids.grid[g].value;
+        if (strcmp(grids.grid[g].name, "density") == 0 && grids.grid[g].own.n[0] == 0)
+            density = grids.grid[g].value;
+    }
+    const size_t n_voxels = (size_t)grids.n[0] * (size_t)grids.n[1] * (size_t)grids.n[2];
+    TRY(memory_alloc(n_voxels, sizeof *value, "stresses", &value));
+    for (size_t i = 0; stress && density && i < n_voxels; i++)
+        if (density[i] > 0 && isfinite(stress[i]))
+            value[n++] = stress[i];
+    r->stress.what = "voxels";
+    fill_bins(&r->stress, value, n);
+done:
+    free(value);
+    vdb_volumes_free(&grids);
+    return st;
+}
+
+/* Into r->stress from the frame's points, or else its volumes; layers too, if the points are all there. */
+static status read_points(struct report *r, const struct report_frame *f, bool start)
+{
+    status st = OK;
+    char path[4096];
+    struct rock rock = {0};
+    const bool all = r->job->output.vdb.points == VDB_POINTS_ALL;
+    if (lists(f, "points/", ".vdb")) {
+        TRY(folder_path(path, r->root, r->name, FILE_POINTS, f->manifest.frame, NULL));
+        TRY(vdb_points_read(path, &rock));
+        if (all && !r->layer)
+            TRY(memory_alloc(r->job->n_strata, sizeof *r->layer, "layers", &r->layer));
+        if (all)
+            add_layers(r, &rock, start);
+        if (!start)
+            TRY(stress_of_points(r, &rock));
+    } else if (!start) {
+        TRY(folder_path(path, r->root, r->name, FILE_VOLUMES, f->manifest.frame, NULL));
+        TRY(stress_of_volumes(r, path));
+    }
+done:
+    rock_free(&rock);
+    return st;
+}
+
+static status find_values(struct report *r)
+{
+    status st = OK;
+    const struct report_frame *first = NULL, *last = NULL;
+    for (size_t i = 0; i < r->n_frames; i++)
+        if (!r->frame[i].damaged && r->frame[i].has_volumes) {
+            first = first ? first : &r->frame[i];
+            last = &r->frame[i];
+        }
+    if (!last)
+        return OK;
+    r->stress.frame = r->layers_to = last->manifest.frame;
+    r->layers_from = first->manifest.frame;
+    if (first != last && r->job->output.vdb.points == VDB_POINTS_ALL)
+        st = read_points(r, first, true);
+    if (st == OK)
+        st = read_points(r, last, false);
+    if (st != OK && st != E_MEMORY) {
+        report_note(r, "No stresses and layers: %s", status_message());
+        st = OK;
+    }
+    if (first == last || r->layers_from != r->frames.first) { /* nothing to compare with */
+        free(r->layer);
+        r->layer = NULL;
+    }
+    return st;
+}
+
+/* ---- papers */
+
+static void read_timing(struct report *r)
+{
+    char path[4300], *bytes = NULL;
+    size_t n = 0, capacity = 0;
+    snprintf(path, sizeof path, "%.4096s/log/timing.jsonl", r->root);
+    if (file_read(path, LARGEST_LOG, &bytes, &n) != OK)
+        return;
+    for (char *line = bytes, *next; line && *line && r->n_timing < MAX_SESSIONS; line = next) {
+        struct json *json = NULL;
+        next = strchr(line, '\n');
+        const size_t length = next ? (size_t)(next - line) : strlen(line);
+        next = next ? next + 1 : NULL;
+        if (length == 0 || json_read(NULL, line, length, &json) != OK)
+            continue; /* a line cut short: the machine died while it was written */
+        if (memory_grow(&r->timing, &capacity, r->n_timing + 1, sizeof *r->timing, "timing") != OK) {
+            json_free(&json);
+            break;
+        }
+        r->timing[r->n_timing++] = json;
+    }
+    free(bytes);
+}
+
+static void read_log(struct report *r)
+{
+    char path[4300], *bytes = NULL;
+    size_t n = 0;
+    int lines = 0;
+    snprintf(path, sizeof path, "%.4096s/log/run.log", r->root);
+    if (file_read(path, LARGEST_LOG, &bytes, &n) != OK)
+        return;
+    char *from = bytes + n;
+    while (from > bytes && lines <= LOG_LINES)
+        lines += *--from == '\n' && from + 1 < bytes + n;
+    if (lines > LOG_LINES)
+        from++;
+    if (memory_strdup(from, &r->log) != OK)
+        r->log = NULL;
+    free(bytes);
+}
+
+static void read_run(struct report *r)
+{
+    char path[4300], *bytes = NULL;
+    size_t n = 0;
+    snprintf(path, sizeof path, "%.4096s/run.json", r->root);
+    if (file_read(path, 16 << 20, &bytes, &n) != OK || json_read(path, bytes, n, &r->run) != OK)
+        report_note(r, "No provenance: %s", status_message());
+    free(bytes);
+}
+
+status report_gather(const char *root, struct report *r)
+{
+    status st = OK;
+    char path[4300];
+    *r = (struct report){.root = root};
+    TRY(folder_open(root, r->name));
+    snprintf(path, sizeof path, "%.4096s/job.yaml", root);
+    TRY(job_load(path, NULL, 0, &r->job));
+    r->frames = r->job->frames;
+    TRY(find_frames(r));
+    TRY(checkpoint_list(root, r->name, &r->checkpoint, &r->n_checkpoints));
+    TRY(find_values(r));
+    read_run(r);
+    read_timing(r);
+    read_log(r);
+done:
+    return st;
+}
+
+void report_free(struct report *r)
+{
+    for (size_t i = 0; i < r->n_frames; i++)
+        manifest_free(&r->frame[i].manifest);
+    for (size_t i = 0; i < r->n_timing; i++)
+        json_free(&r->timing[i]);
+    if (r->run)
+        json_free(&r->run);
+    free(r->frame);
+    free(r->timing);
+    free(r->checkpoint);
+    free(r->layer);
+    free(r->log);
+    text_free(&r->notes);
+    job_destroy(&r->job);
+}

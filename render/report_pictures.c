@@ -1,0 +1,242 @@
+/* The page's own pictures: small, in one folder with it, so that report/ can be moved or mailed as it is. */
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "render/report.h"
+
+enum { CONTACT = 24 /* thumbs at most */, MAX_VIEWS = 72, LARGEST_VIDEO = 1 << 30 };
+
+/* One conversion under way. */
+struct conversion {
+    const struct report *report;
+    char source[512], temporary[600], path[512]; /* relative to root */
+    bool *made;
+};
+
+static bool current(const struct report *r, const char *path, const char *source)
+{
+    char full[4700];
+    struct stat made, from;
+    snprintf(full, sizeof full, "%.4096s/%s", r->root, path);
+    if (stat(full, &made) != 0 || made.st_size == 0)
+        return false;
+    snprintf(full, sizeof full, "%.4096s/%s", r->root, source);
+    return stat(full, &from) == 0 &&
+           (made.st_mtim.tv_sec > from.st_mtim.tv_sec ||
+            (made.st_mtim.tv_sec == from.st_mtim.tv_sec && made.st_mtim.tv_nsec >= from.st_mtim.tv_nsec));
+}
+
+static status converted(void *user)
+{
+    struct conversion *c = user;
+    char from[4700], to[4700];
+    snprintf(from, sizeof from, "%.4096s/%s", c->report->root, c->temporary);
+    snprintf(to, sizeof to, "%.4096s/%s", c->report->root, c->path);
+    if (rename(from, to) != 0)
+        return fail(E_OUTPUT, "%s: %s", to, strerror(errno));
+    *c->made = true;
+    return OK;
+}
+
+/* Pictures are an extra: what fails is said in a note, and the rest goes on. */
+static status forgive(struct report *r, status st)
+{
+    if (st != E_OUTPUT && st != E_INPUT)
+        return st;
+    report_note(r, "A picture is missing: %s", status_message());
+    log_warn("%s", status_message());
+    return OK;
+}
+
+/* Starts making report/... of `c->source`, at most `width` px wide (0: as it is); *c->made tells. */
+static status convert(struct report *r, struct children *children, struct conversion *c, int width)
+{
+    status st = OK;
+    char resize[32];
+    const char *argv[32];
+    size_t k = 0;
+    const bool linear = strlen(c->source) > 4 && strcmp(c->source + strlen(c->source) - 4, ".exr") == 0;
+    c->report = r;
+    if (current(r, c->path, c->source)) {
+        *c->made = true;
+        return OK;
+    }
+    TRY(atomic_file_temporary(c->path, c->temporary, sizeof c->temporary - 4));
+    strcat(c->temporary, ".jpg");
+    argv[k++] = "oiiotool";
+    argv[k++] = "--threads";
+    argv[k++] = "1";
+    argv[k++] = c->source;
+    if (linear) { /* a picture of the fields: nothing behind the rock */
+        static const char *const steps[] = {
+            "--subimage", "0",      "--ch",    "R,G,B,A", "--colorconvert",   "linear", "sRGB",
+            "--dup",      "--mulc", "0,0,0,0", "--addc",  "0.85,0.83,0.79,1", "--over"};
+        for (size_t i = 0; i < sizeof steps / sizeof *steps; i++)
+            argv[k++] = steps[i];
+    }
+    argv[k++] = "--ch";
+    argv[k++] = "R,G,B";
+    if (width) {
+        snprintf(resize, sizeof resize, "%dx0", width);
+        argv[k++] = "--resize";
+        argv[k++] = resize;
+    }
+    const char *const last[] = {"-d", "uint8", "--quality", "88", "--nosoftwareattrib", "-o", c->temporary};
+    for (size_t i = 0; i < sizeof last / sizeof *last; i++)
+        argv[k++] = last[i];
+    argv[k] = NULL;
+    TRY(children_run(children, argv, c->source, converted, c));
+done:
+    return st;
+}
+
+static status wait_all(struct report *r, struct children *children)
+{
+    status st = OK;
+    while (children->n > 0 && st == OK)
+        st = forgive(r, children_wait(children));
+    return st;
+}
+
+/* ---- the turntable */
+
+/* The frame of the newest orbit in turntable/: its view 0 is there. */
+static bool find_orbit(const struct report *r, int *frame)
+{
+    char path[4300], expected[300];
+    bool found = false;
+    snprintf(path, sizeof path, "%.4096s/turntable", r->root);
+    DIR *d = opendir(path);
+    for (struct dirent *e; d && (e = readdir(d));) {
+        const size_t n = strlen(r->name);
+        int number;
+        if (strncmp(e->d_name, r->name, n) != 0 || sscanf(e->d_name + n, ".%d.", &number) != 1)
+            continue;
+        snprintf(expected, sizeof expected, "%.200s.%04d.000.png", r->name, number);
+        if (strcmp(e->d_name, expected) == 0 && (!found || number > *frame)) {
+            *frame = number;
+            found = true;
+        }
+    }
+    if (d)
+        closedir(d);
+    return found;
+}
+
+/* A copy: a link would not survive the mail. */
+static status copy_video(struct report *r)
+{
+    status st = OK;
+    char source[300], from[4700], to[4700];
+    void *bytes = NULL;
+    size_t n = 0;
+    snprintf(source, sizeof source, "%.200s.turntable.mp4", r->name);
+    snprintf(from, sizeof from, "%.4096s/%s", r->root, source);
+    snprintf(to, sizeof to, "%.4096s/report/turntable.mp4", r->root);
+    if (access(from, R_OK) != 0)
+        return OK;
+    if (!current(r, "report/turntable.mp4", source)) {
+        TRY(file_read(from, LARGEST_VIDEO, &bytes, &n));
+        TRY(atomic_file_write(to, bytes, n));
+    }
+    r->video = true;
+done:
+    free(bytes);
+    return forgive(r, st);
+}
+
+static status make_views(struct report *r, struct children *children)
+{
+    status st = OK;
+    struct conversion *c = NULL;
+    bool made[MAX_VIEWS] = {false};
+    char full[4700];
+    int n = 0;
+    if (!find_orbit(r, &r->turntable_frame))
+        return OK;
+    TRY(memory_alloc(MAX_VIEWS, sizeof *c, "pictures", &c));
+    /* A video needs one picture: what is seen before it plays. */
+    for (; n < (r->video ? 1 : MAX_VIEWS); n++) {
+        c[n].made = &made[n];
+        snprintf(c[n].source, sizeof c[n].source, "turntable/%.200s.%04d.%03d.png", r->name,
+                 r->turntable_frame, n);
+        snprintf(c[n].path, sizeof c[n].path, "report/view.%03d.jpg", n);
+        snprintf(full, sizeof full, "%.4096s/%s", r->root, c[n].source);
+        if (access(full, R_OK) != 0)
+            break;
+        TRY(forgive(r, convert(r, children, &c[n], 0)));
+    }
+    TRY(wait_all(r, children));
+    while (r->n_views < n && made[r->n_views])
+        r->n_views++;
+done:
+    if (st != OK)
+        children_end(children);
+    free(c);
+    return st;
+}
+
+/* ---- stills */
+
+static status make_stills(struct report *r, struct children *children)
+{
+    status st = OK;
+    size_t n = 0, k = 0;
+    struct report_frame **frame = NULL;
+    struct conversion *c = NULL;
+    TRY(memory_alloc(r->n_frames, sizeof *frame, "pictures", &frame));
+    for (size_t i = 0; i < r->n_frames; i++)
+        if (*r->frame[i].source)
+            frame[n++] = &r->frame[i];
+    TRY(memory_alloc(CONTACT + 2, sizeof *c, "pictures", &c));
+    const size_t n_thumbs = n < CONTACT ? n : CONTACT;
+    for (size_t i = 0; i < n_thumbs + 2 && n > 0; i++) {
+        const bool thumb = i < n_thumbs;
+        /* Evenly, the first and the last among them; then these two in full. */
+        const size_t which = !thumb         ? (i == n_thumbs ? 0 : n - 1)
+                             : n_thumbs > 1 ? i * (n - 1) / (n_thumbs - 1)
+                                            : 0;
+        struct report_frame *f = frame[which];
+        if (!thumb && i > n_thumbs && n == 1)
+            continue;
+        c[k].made = thumb ? &f->thumb : &f->pictured;
+        memcpy(c[k].source, f->source, sizeof c[k].source);
+        snprintf(c[k].path, sizeof c[k].path, "report/%s.%d.jpg", thumb ? "thumb" : "frame",
+                 f->manifest.frame);
+        TRY(forgive(r, convert(r, children, &c[k++], thumb ? 320 : 0)));
+    }
+    TRY(wait_all(r, children));
+done:
+    if (st != OK)
+        children_end(children);
+    free(frame);
+    free(c);
+    return st;
+}
+
+status report_pictures(struct report *r)
+{
+    status st = OK;
+    struct children children;
+    char path[4300];
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    snprintf(path, sizeof path, "%.4096s/log", r->root);
+    TRY(folder_make(path));
+    children_begin(&children, r->root, "log/report.log", cores > 0 ? (int)cores : 1);
+    st = copy_video(r);
+    if (st == OK)
+        st = make_views(r, &children);
+    if (st == OK)
+        st = make_stills(r, &children);
+    children_end(&children);
+done:
+    return st;
+}

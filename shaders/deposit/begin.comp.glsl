@@ -1,0 +1,49 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Each crumb's id, and the cell it sets out from: its own, or where that one lies in the rock, one across a face
+// that does not, the upper first; failing that, its own, and it leaves. Its voxel is free from now on.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, particle)
+READ_V(1, position)
+READ_U(2, id)
+READ_U(3, tag)
+READ_U(4, start)
+READ_U(5, crumb)
+WRITE_U(6, crumb_id)
+WRITE_U(7, cell)
+WRITE_U(8, place)
+WRITE_U(9, bits)
+PARAMS(deposit_params)
+#include "particles/voxel.glsl"
+#include "deposit/grid.glsl"
+
+bool open(ivec3 c)
+{
+    return cell_inside(c) && (LOAD_U(tag, cell_index(c)) & WATER_KIND) != WATER_SOLID;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    const ivec3 step[7] = ivec3[](ivec3(0), ivec3(0, 0, 1), ivec3(-1, 0, 0), ivec3(1, 0, 0), ivec3(0, -1, 0),
+                                  ivec3(0, 1, 0), ivec3(0, 0, -1));
+    uint j = LOAD_U(particle, i);
+    ivec3 v = voxel_of(LOAD_V(position, j).xyz), c = cell_of(v), from = c;
+    for (int s = 6; s >= 0; s--)
+        if (open(c + step[s]))
+            from = c + step[s];
+    AT(crumb_id, i) = LOAD_U(id, j);
+    AT(cell, i) = cell_index(from);
+    AT(place, i) = open(from) ? DEPOSIT_WAITS : DEPOSIT_LEFT;
+
+    uint index = voxel_index(v), end = LOAD_U(start, index + 1u);
+    bool empty = true;
+    for (uint other = LOAD_U(start, index); other < end; other++)
+        empty = empty && LOAD_U(crumb, other) != 0u;
+    if (empty)
+        atomicAnd(AT(bits, (uint(v.z >> 5) * k.ny + uint(v.y)) * k.nx + uint(v.x)), ~(1u << (v.z & 31)));
+}

@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Which voxels hold a particle that is not a crumb: a bit each, 32 of a column to a word.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, start)
+READ_U(1, crumb)
+WRITE_U(2, bits)
+PARAMS(deposit_params)
+#include "particles/voxel.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint x = i % k.nx, y = (i / k.nx) % k.ny, z = i / (k.nx * k.ny) * 32u, word = 0u;
+    for (uint b = 0u; b < 32u && z + b < k.nz; b++) {
+        uint v = ((z + b) * k.ny + y) * k.nx + x, end = LOAD_U(start, v + 1u);
+        for (uint j = LOAD_U(start, v); j < end; j++)
+            if (LOAD_U(crumb, j) == 0u)
+                word |= 1u << b;
+    }
+    AT(bits, i) = word;
+}

@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The cells in which crumbs may land: with rock under air, where nothing leaves.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, tag)
+WRITE_U(1, ground)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(ground, i) = (LOAD_U(tag, i) & (WATER_KIND | WATER_OUT)) == WATER_SURF ? 1u : 0u;
+}

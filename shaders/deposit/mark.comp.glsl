@@ -1,0 +1,42 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Crumbs: particles of which nothing is left, and deposits with nothing below them, or only such.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_F(0, viability)
+READ_V(1, position)
+READ_U(2, phase)
+READ_U(3, start)
+WRITE_U(4, crumb)
+PARAMS(deposit_params)
+#include "particles/voxel.glsl"
+
+// What is in a voxel: 0 nothing, 1 deposits alone, 2 rock.
+uint inside(ivec3 v)
+{
+    uint c = voxel_index(v), end = LOAD_U(start, c + 1u), most = 0u;
+    for (uint j = LOAD_U(start, c); j < end; j++)
+        if (LOAD_F(viability, j) > 0.0)
+            most = max(most, LOAD_U(phase, j) == 1u ? 1u : 2u);
+    return most;
+}
+
+bool hangs(ivec3 v)
+{
+    uint below = 1u;
+    for (v.z--; v.z >= 0 && below == 1u; v.z--)
+        below = inside(v);
+    return below == 0u;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    bool loose = LOAD_F(viability, i) <= 0.0;
+    if (!loose && LOAD_U(phase, i) == 1u)
+        loose = hangs(voxel_of(LOAD_V(position, i).xyz));
+    AT(crumb, i) = loose ? 1u : 0u;
+}

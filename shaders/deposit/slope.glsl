@@ -1,0 +1,72 @@
+// How steep the ground of a cell is, from means of heights over its four columns and over twelve on each side of
+// it, two and a half voxels off. Two measures, for each fails where the other holds:
+//
+//   flank   the gradient between the sides, which a cell's own roughness does not blur: this one is held to the
+//           angle of repose. Uphill of it a wall may stand; then only the downhill side counts.
+//   tip     the upwind gradient, the root of the squares of the larger downhill difference of each axis. On the
+//           tip of a heap or on a crest the flank is flat, and spikes would grow; and it is what one crumb more in
+//           the cell changes. Plain differences instead of the root would make diamonds of cones.
+
+const float SLOPE_ARM = 2.5;                // voxels between the means
+const float SLOPE_GRAIN = 0.25 / SLOPE_ARM; // what one more particle adds to the tip
+const float SLOPE_TIP = 1.25;               // tips may be steeper by this factor; an ideal cone's is, by 1.41
+const float SLOPE_SLIDE = 0.15;             // tangent beyond that of repose at which deposits begin to slide
+
+// The free voxel over the highest column of the cell with this base.
+int cell_top(ivec3 base)
+{
+    return max(max(floor_in(base.x, base.y, base.z), floor_in(base.x + 1, base.y, base.z)),
+               max(floor_in(base.x, base.y + 1, base.z), floor_in(base.x + 1, base.y + 1, base.z)));
+}
+
+int heights(ivec3 low, ivec2 size, int z)
+{
+    int sum = 0;
+    for (int y = 0; y < size.y; y++)
+        for (int x = 0; x < size.x; x++)
+            sum += floor_near(low.x + x, low.y + y, z);
+    return sum;
+}
+
+float block(ivec3 low, ivec2 size, int z)
+{
+    return float(heights(low, size, z)) / float(size.x * size.y);
+}
+
+struct slope {
+    vec2 tip;    // the larger drop along x and y, as a tangent; below 0 where both sides are uphill
+    float flank; // tangent
+};
+
+// Along an axis, from the drops to its two sides.
+float across(float a, float b)
+{
+    float down = max(a, b), up = -min(a, b);
+    return up > 2.0 * k.repose + 0.5 ? max(down, 0.0) : 0.5 * (down + up);
+}
+
+slope slope_of(ivec3 base, int top)
+{
+    float own = block(base, ivec2(2, 2), top);
+    vec4 d = (own - vec4(block(base + ivec3(2, -1, 0), ivec2(3, 4), top), block(base + ivec3(-3, -1, 0), ivec2(3, 4), top),
+                         block(base + ivec3(-1, 2, 0), ivec2(4, 3), top), block(base + ivec3(-1, -3, 0), ivec2(4, 3), top))) /
+             SLOPE_ARM;
+    return slope(vec2(max(d.x, d.y), max(d.z, d.w)), length(vec2(across(d.x, d.y), across(d.z, d.w))));
+}
+
+// Is the ground stable with `more` particles more in the cell?
+bool stable(slope s, float more, float tan_repose)
+{
+    return s.flank <= tan_repose && length(max(s.tip + more * SLOPE_GRAIN, 0.0)) <= SLOPE_TIP * tan_repose;
+}
+
+// How much lower the ground is in the cells beside this one, east, west, north and south, in voxels of four
+// columns; 0 where it is not.
+uvec4 drops(ivec3 base, int top)
+{
+    int own = heights(base, ivec2(2, 2), top);
+    return uvec4(max(own - ivec4(heights(base + ivec3(2, 0, 0), ivec2(2, 2), top),
+                                 heights(base - ivec3(2, 0, 0), ivec2(2, 2), top),
+                                 heights(base + ivec3(0, 2, 0), ivec2(2, 2), top),
+                                 heights(base - ivec3(0, 2, 0), ivec2(2, 2), top)), 0));
+}

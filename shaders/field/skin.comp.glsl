@@ -1,0 +1,50 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What the surface carries at each sample of the field: the mean of a value over the surface's particles (those
+// with a normal) in the sample's voxel and its neighbours, weighted as in the rock's share; 0 where there are
+// none.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, start)
+READ_V(1, normal)
+READ_F(2, value)
+READ_F(3, share)
+WRITE_F(4, mean)
+PARAMS(field_params)
+#include "field/lattice.glsl"
+#include "particles/voxel.glsl"
+
+vec2 sum = vec2(0.0);
+
+void add(ivec3 v, float weight)
+{
+    if (!voxel_inside(v))
+        return;
+    uint c = voxel_index(v), end = LOAD_U(start, c + 1u);
+    for (uint j = LOAD_U(start, c); j < end; j++)
+        if (LOAD_V(normal, j).xyz != vec3(0.0))
+            sum += weight * vec2(LOAD_F(value, j), 1.0);
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    if (LOAD_F(share, i) > 0.0) {
+        ivec3 v = lattice_of(i) - int(k.margin);
+        add(v, SHARE_SELF);
+        for (int s = -1; s <= 1; s += 2) {
+            add(v + ivec3(s, 0, 0), SHARE_FACE);
+            add(v + ivec3(0, s, 0), SHARE_FACE);
+            add(v + ivec3(0, 0, s), SHARE_FACE);
+            for (int t = -1; t <= 1; t += 2) {
+                add(v + ivec3(s, t, 0), SHARE_EDGE);
+                add(v + ivec3(s, 0, t), SHARE_EDGE);
+                add(v + ivec3(0, s, t), SHARE_EDGE);
+            }
+        }
+    }
+    AT(mean, i) = sum.y > 0.0 ? sum.x / sum.y : 0.0;
+}

@@ -1,0 +1,46 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What wind, water and plants do under each pixel: weather = (discharge, wind speed, vegetation, 0). Water and
+// plants are those of the particle there; the wind is met one spacing of its lattice off the surface, as it is
+// still on the rock itself.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_V(0, hit)
+READ_V(1, facing)
+READ_U(2, ids)
+READ_F(3, discharge)
+READ_F(4, vegetation)
+READ_V(5, velocity)
+WRITE_V(6, weather)
+PARAMS(pixel_weather_params)
+
+vec3 velocity_at(vec3 x)
+{
+    uvec3 n = uvec3(k.ax, k.ay, k.az);
+    vec3 at = clamp((x - vec3(k.origin_x, k.origin_y, k.origin_z)) / k.cell, vec3(0.0), vec3(n) - 1.001);
+    uvec3 c = uvec3(at);
+    vec3 f = at - vec3(c), sum = vec3(0.0);
+    for (uint b = 0u; b < 8u; b++) {
+        uvec3 corner = uvec3(b & 1u, (b >> 1) & 1u, b >> 2);
+        vec3 near = mix(1.0 - f, f, vec3(corner));
+        uvec3 d = min(c + corner, n - 1u);
+        sum += near.x * near.y * near.z * LOAD_V(velocity, (d.z * n.y + d.y) * n.x + d.x).xyz;
+    }
+    return sum;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    vec4 where = LOAD_V(hit, i), sum = vec4(0.0);
+    if (where.w >= 0.0) {
+        uint found = LOAD_U(ids, 3u * i + 2u);
+        sum.x = LOAD_F(discharge, found);
+        sum.y = length(velocity_at(where.xyz + k.cell * LOAD_V(facing, i).xyz));
+        sum.z = LOAD_F(vegetation, found);
+    }
+    AT(weather, i) = sum;
+}

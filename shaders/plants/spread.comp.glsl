@@ -1,0 +1,57 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One voxel's step of plants over deposits: bare ground takes seedlings from a covered particle in the voxels
+// around it, from each across a face surely and from farther ones by a hash, as likely as makes the front round.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_V(1, position)
+READ_V(2, normal)
+READ_U(3, phase)
+READ_U(4, start)
+READ_F(5, before)
+READ_U(6, id)
+WRITE_F(7, vegetation)
+PARAMS(plants_params)
+#include "particles/voxel.glsl"
+#include "particles/empty.glsl"
+#include "plants/stand.glsl"
+#include "shared/random.glsl"
+
+const float SEEDLING = 0.02;
+const float WIDE = 0.2; // how often from across a corner, as seen from above: measured, for a round front
+
+bool covered(ivec3 v)
+{
+    if (!voxel_inside(v))
+        return false;
+    uint i = voxel_index(v), end = LOAD_U(start, i + 1u);
+    for (uint j = LOAD_U(start, i); j < end; j++)
+        if (LOAD_F(before, j) > 0.0)
+            return true;
+    return false;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint self = LOAD_U(list, i);
+    if (LOAD_U(phase, self) != 1u || LOAD_F(before, self) > 0.0)
+        return;
+    vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
+    if (n.z < k.steepest)
+        return;
+    ivec3 v = voxel_of(x);
+    bool wide = random_float(random_hash(k.seed, LOAD_U(id, self), k.spread, 0u)) < WIDE;
+    bool found = false;
+    for (int z = -1; z <= 1; z++)
+        for (int y = -1; y <= 1; y++)
+            for (int s = -1; s <= 1; s++)
+                if (!found && (wide || s == 0 || y == 0))
+                    found = covered(v + ivec3(s, y, z));
+    if (found && stands(x, n))
+        AT(vegetation, self) = SEEDLING;
+}

@@ -1,0 +1,36 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// 32 levels of a column of cells as bits, and how many spans begin in them. See water/columns.glsl.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, rows)
+WRITE_U(1, occupied)
+WRITE_U(2, floors)
+WRITE_U(3, count)
+PARAMS(water_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint x = i % k.cx, y = (i / k.cx) % k.cy, word = i / (k.cx * k.cy), bits = 0u, above = 0u;
+    uint wide = (k.cx + 31u) / 32u, slab = wide * k.cy, levels = min(k.cz - 32u * word, 33u);
+    uint at = 32u * word * slab + y * wide + (x >> 5u);
+    for (uint l = 0u; l < levels; l++) {
+        uint rock = LOAD_U(rows, at) >> (x & 31u) & 1u;
+        if (l < 32u)
+            bits |= rock << l;
+        else
+            above = rock << 31u;
+        at += slab;
+    }
+    uint bottoms = bits & ~(bits >> 1u | above);
+    if (word == 0u && (bits & 1u) == 0u)
+        bottoms |= 1u;
+    uint to = (y * k.cx + x) * k.words + word;
+    AT(occupied, to) = bits;
+    AT(floors, to) = bottoms;
+    AT(count, to) = uint(bitCount(bottoms));
+}

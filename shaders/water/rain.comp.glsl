@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Rain on the highest span of each column: as many units as the column has columns of voxels.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, occupied)
+READ_U(1, floors)
+READ_U(2, first)
+WRITE_U(3, rain)
+PARAMS(water_params)
+#include "water/columns.glsl"
+#include "water/voxels.glsl"
+
+void main()
+{
+    uint column = THREAD;
+    if (column >= k.n)
+        return;
+    uvec3 low, high;
+    cell_voxels(uvec3(column % k.cx, column / k.cx, 0u), low, high);
+    AT(rain, node_at(column, k.cz - 1u)) = (high.x - low.x) * (high.y - low.y);
+}

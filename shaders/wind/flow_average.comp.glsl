@@ -1,0 +1,31 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The air's velocity at the middles of the box's cells, weighted by the kernel (Shepard 1968), into sums that
+// fade with time. w: how much air there is around.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, start)
+READ_V(1, position)
+READ_V(2, velocity)
+WRITE_V(3, sums)
+PARAMS(flow_params)
+#include "wind/flow.glsl"
+#include "wind/cells.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    vec3 x = vec3(i % k.bx, i / k.bx % k.by, i / (k.bx * k.by)) + 0.5;
+    vec4 sum = vec4(0.0);
+    FLOW_EACH(x,
+        float r2 = dot(LOAD_V(position, j).xyz - x, LOAD_V(position, j).xyz - x);
+        if (r2 < FLOW_SUPPORT * FLOW_SUPPORT) {
+            vec4 v = LOAD_V(velocity, j);
+            if (v.w <= FLOW_SKIN)
+                sum += flow_kernel(sqrt(r2)) * vec4(v.xyz, 1.0);
+        })
+    AT(sums, i) = k.keep * AT(sums, i) + k.gain * sum;
+}

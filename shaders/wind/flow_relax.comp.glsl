@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One Jacobi iteration: pressure where the velocity that it leaves still compresses. Where the air is full it
+// may also pull.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_V(0, of_step)
+READ_U(1, list)
+READ_V(2, position)
+READ_V(3, push)
+WRITE_F(4, pressure)
+PARAMS(flow_params)
+#include "wind/flow.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    vec4 step = LOAD_V(of_step, i);
+    uint n = uint(step.w);
+    vec3 x = LOAD_V(position, i).xyz, own = LOAD_V(push, i).xyz;
+    float left = step.z;
+    for (uint s = 0u; s < n; s++) {
+        uint j = LOAD_U(list, s * k.slots + i);
+        vec4 other = LOAD_V(position, j);
+        vec3 d = x - other.xyz;
+        left += other.w * dot(own - LOAD_V(push, j).xyz, flow_slope(d, sqrt(max(dot(d, d), 1e-12))));
+    }
+    float p = AT(pressure, i) + 0.5 * step.y * left;
+    AT(pressure, i) = step.x >= k.full ? p : max(p, 0.0);
+}

@@ -1,0 +1,60 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Wind on each particle of the surface (Arenite eqs. 7, 8, 12), where it flows around the rock: deflation, and
+// abrasion by the velocity of the air before it.
+//
+// That is sampled one spacing of the air out along the normal: from there on the average is within a few
+// hundredths of potential flow before a sphere; closer in the kernel reaches only air that is farther out. Blown
+// grains need about a metre to follow the air, and strike with the speed it had before. In a narrower gap it is
+// sampled midway to the other side.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_V(1, position)
+READ_V(2, normal)
+READ_F(3, stress)
+READ_U(4, start)
+READ_V(5, air)
+WRITE_F(6, intensity)
+PARAMS(wind_params)
+#include "particles/voxel.glsl"
+#include "particles/empty.glsl"
+#include "wind/deflation.glsl"
+
+vec3 air_at(ivec3 c)
+{
+    c = clamp(c, ivec3(0), ivec3(k.bx, k.by, k.bz) - 1);
+    return LOAD_V(air, (uint(c.z) * k.by + uint(c.y)) * k.bx + uint(c.x)).xyz;
+}
+
+vec3 air_between(ivec3 c, vec3 f)
+{
+    vec3 low = mix(mix(air_at(c), air_at(c + ivec3(1, 0, 0)), f.x),
+                   mix(air_at(c + ivec3(0, 1, 0)), air_at(c + ivec3(1, 1, 0)), f.x), f.y);
+    c.z++;
+    vec3 high = mix(mix(air_at(c), air_at(c + ivec3(1, 0, 0)), f.x),
+                    mix(air_at(c + ivec3(0, 1, 0)), air_at(c + ivec3(1, 1, 0)), f.x), f.y);
+    return mix(low, high, f.z);
+}
+
+// The first steps leave the particle's own bump.
+float clear_way(vec3 x, vec3 n)
+{
+    for (float s = 1.5 * k.h; s < k.shelter; s += k.h)
+        if (!voxel_empty(ivec3(floor((x + s * n) / k.h))))
+            return 0.5 * s;
+    return k.shelter;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint self = LOAD_U(list, i);
+    vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
+    vec3 at = (x + clear_way(x, n) * n - vec3(k.origin_x, k.origin_y, 0.0)) / k.shelter - 0.5;
+    vec3 v = air_between(ivec3(floor(at)), fract(at));
+    AT(intensity, i) = deflation(LOAD_F(stress, self)) + k.abrasion * length(v) * max(0.0, -dot(n, v));
+}

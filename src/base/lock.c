@@ -1,0 +1,371 @@
+#include "base/lock.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/json.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "base/text.h"
+
+enum { LOCK_BYTES = 4096, COUNT_DIGITS = 12, WATCH_US = 100000 };
+static const double BEAT_S = 5, WATCH_S = 30;
+
+/* Who a process is: pids come again, on this machine and others, and mean nothing across containers. */
+struct holder {
+    char host[128], boot[64], space[64];
+    long pid;
+    unsigned long long began; /* in ticks since boot */
+};
+
+struct lock {
+    char path[4096], token[96];
+    double beat_s;
+    pthread_t thread;
+    pthread_mutex_t guard;
+    pthread_cond_t wake;
+    bool ending;
+    atomic_bool lost;
+    unsigned long long count;
+};
+
+/* ---- who */
+
+/* When a process began; 0 if there is none. */
+static unsigned long long process_began(long pid)
+{
+    char path[64], line[1024];
+    unsigned long long began = 0;
+    snprintf(path, sizeof path, "/proc/%ld/stat", pid);
+    FILE *f = fopen(path, "re");
+    if (!f)
+        return 0;
+    size_t n = fread(line, 1, sizeof line - 1, f);
+    fclose(f);
+    line[n] = '\0';
+    /* Fields follow the name, which may hold spaces and brackets; the state comes first, this is 20th. */
+    char *s = strrchr(line, ')');
+    for (int field = 0; s && field < 20; field++)
+        s = strchr(s + 1, ' ');
+    if (s)
+        began = strtoull(s, NULL, 10);
+    return began;
+}
+
+static void first_line(const char *path, char *out, size_t size)
+{
+    FILE *f = fopen(path, "re");
+    out[0] = '\0';
+    if (f && fgets(out, (int)size, f))
+        out[strcspn(out, "\n")] = '\0';
+    if (f)
+        fclose(f);
+}
+
+static void who_am_i(struct holder *h)
+{
+    *h = (struct holder){.pid = (long)getpid()};
+    gethostname(h->host, sizeof h->host - 1);
+    first_line("/proc/sys/kernel/random/boot_id", h->boot, sizeof h->boot);
+    ssize_t n = readlink("/proc/self/ns/pid", h->space, sizeof h->space - 1);
+    h->space[n > 0 ? n : 0] = '\0';
+    h->began = process_began(h->pid);
+}
+
+/* ---- the file */
+
+/* The count stands first and has a fixed width, so that it can be written in place. */
+static status compose(const struct lock *lock, const char *what, struct text *t)
+{
+    struct holder me;
+    char since[32] = "";
+    time_t now = time(NULL);
+    struct tm tm;
+    who_am_i(&me);
+    if (localtime_r(&now, &tm))
+        strftime(since, sizeof since, "%Y-%m-%dT%H:%M:%S%z", &tm);
+    text_add(t, "%0*d\n", COUNT_DIGITS, 0);
+    json_object(t, NULL);
+    json_text(t, "token", lock->token);
+    json_text(t, "host", me.host);
+    json_text(t, "boot", me.boot);
+    json_text(t, "pid_space", me.space);
+    json_integer(t, "pid", me.pid);
+    json_integer(t, "began", (int64_t)me.began);
+    json_text(t, "since", since);
+    json_text(t, "what", what);
+    json_end_object(t);
+    return text_status(t);
+}
+
+struct seen {
+    bool there;
+    char count[COUNT_DIGITS + 1], token[96], since[40], what[256];
+    struct holder holder;
+};
+
+static void take_text(const struct json *json, const char *key, char *out, size_t size)
+{
+    const char *text = json_to_text(json_member(json, key));
+    snprintf(out, size, "%s", text ? text : "");
+}
+
+/* A file that cannot be understood counts as there, of an unknown holder. */
+static status look(const char *path, struct seen *s)
+{
+    char *bytes = NULL;
+    size_t n = 0;
+    struct json *json = NULL;
+    struct stat info;
+    int64_t pid = 0;
+    uint64_t began = 0;
+    *s = (struct seen){0};
+    if (lstat(path, &info) != 0)
+        return OK;
+    s->there = true;
+    status st = file_read(path, LOCK_BYTES, &bytes, &n);
+    if (st == E_MEMORY)
+        return st;
+    if (st == OK && n > COUNT_DIGITS) {
+        memcpy(s->count, bytes, COUNT_DIGITS);
+        if (json_read(path, bytes + COUNT_DIGITS, n - COUNT_DIGITS, &json) == OK) {
+            take_text(json, "token", s->token, sizeof s->token);
+            take_text(json, "host", s->holder.host, sizeof s->holder.host);
+            take_text(json, "boot", s->holder.boot, sizeof s->holder.boot);
+            take_text(json, "pid_space", s->holder.space, sizeof s->holder.space);
+            take_text(json, "since", s->since, sizeof s->since);
+            take_text(json, "what", s->what, sizeof s->what);
+            if (json_to_integer(json_member(json, "pid"), 0, INT32_MAX, &pid))
+                s->holder.pid = (long)pid;
+            if (json_to_uint64(json_member(json, "began"), &began))
+                s->holder.began = began;
+        }
+    }
+    json_free(&json);
+    free(bytes);
+    return OK;
+}
+
+/* ---- the heartbeat */
+
+static void beat(struct lock *lock)
+{
+    struct seen s;
+    char count[32];
+    if (look(lock->path, &s) != OK)
+        return;
+    if (!s.there || strcmp(s.token, lock->token) != 0) {
+        atomic_store(&lock->lost, true);
+        return;
+    }
+    int fd = open(lock->path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (fd < 0)
+        return; /* the disk is away for a moment; the next beat will tell */
+    snprintf(count, sizeof count, "%0*llu", COUNT_DIGITS, ++lock->count);
+    if (pwrite(fd, count, COUNT_DIGITS, 0) == COUNT_DIGITS)
+        fsync(fd);
+    close(fd);
+}
+
+static void *keep_beating(void *argument)
+{
+    struct lock *lock = argument;
+    pthread_mutex_lock(&lock->guard);
+    while (!lock->ending) {
+        struct timespec until;
+        clock_gettime(CLOCK_REALTIME, &until);
+        until.tv_sec += (time_t)lock->beat_s;
+        until.tv_nsec += (long)((lock->beat_s - (double)(time_t)lock->beat_s) * 1e9);
+        until.tv_sec += until.tv_nsec / 1000000000;
+        until.tv_nsec %= 1000000000;
+        if (pthread_cond_timedwait(&lock->wake, &lock->guard, &until) == ETIMEDOUT && !lock->ending) {
+            pthread_mutex_unlock(&lock->guard);
+            beat(lock);
+            pthread_mutex_lock(&lock->guard);
+        }
+    }
+    pthread_mutex_unlock(&lock->guard);
+    return NULL;
+}
+
+/* ---- taking */
+
+static status held(const char *path, const struct seen *s)
+{
+    return fail(
+        E_OUTPUT,
+        "%s: process %ld on %s %s, since %s; wait for it or stop it. If it is no more, remove that file",
+        path, s->holder.pid, *s->holder.host ? s->holder.host : "an unknown machine",
+        *s->what ? s->what : "writes here", *s->since ? s->since : "an unknown time");
+}
+
+/* Is the holder one of this machine's processes, or was it? Only then can they tell. */
+static bool is_local(const struct holder *h)
+{
+    struct holder me;
+    who_am_i(&me);
+    return strcmp(h->host, me.host) == 0 && strcmp(h->boot, me.boot) == 0 && *h->boot &&
+           strcmp(h->space, me.space) == 0 && *h->space;
+}
+
+static bool is_alive(const struct holder *h)
+{
+    unsigned long long began = process_began(h->pid);
+    return began && began == h->began;
+}
+
+/* Is the holder gone? E_OUTPUT if it lives. */
+static status judge(const char *path, const struct seen *first, double watch_s, bool (*stop)(void))
+{
+    struct seen now;
+    const struct holder *h = &first->holder;
+    if (is_local(h))
+        return is_alive(h) ? held(path, first) : OK;
+    log_info("%s is held by process %ld on %s; watching for %.0f s whether that one lives", path, h->pid,
+             *h->host ? h->host : "an unknown machine", watch_s);
+    for (double waited = 0; waited < watch_s; waited += WATCH_US * 1e-6) {
+        if (stop && stop())
+            return fail(STOPPED, "stopped before anything was written; run the same command again");
+        usleep(WATCH_US);
+        status st = look(path, &now);
+        if (st != OK)
+            return st;
+        if (!now.there)
+            return OK;
+        if (strcmp(now.token, first->token) != 0 || strcmp(now.count, first->count) != 0)
+            return held(path, &now);
+    }
+    return OK;
+}
+
+/* Moves a lock that was left behind out of the way. Of several who try, one succeeds; and if what was moved
+ * is not what was judged (someone else was quicker, and holds it now), it is put back. */
+static status remove_stale(const char *path, const struct seen *stale)
+{
+    char aside[4096];
+    struct seen moved;
+    status st = OK;
+    TRY(atomic_file_temporary(path, aside, sizeof aside));
+    if (rename(path, aside) != 0)
+        return errno == ENOENT ? OK : fail(E_OUTPUT, "%s: cannot be moved: %s", path, strerror(errno));
+    TRY(look(aside, &moved));
+    if (strcmp(moved.token, stale->token) != 0 && link(aside, path) != 0 && errno != EEXIST)
+        st = fail(E_OUTPUT, "%s: cannot be put back: %s", path, strerror(errno));
+    else if (strcmp(moved.token, stale->token) == 0)
+        log_warn("%s was left behind by process %ld on %s (%s, since %s); taking over", path,
+                 stale->holder.pid, *stale->holder.host ? stale->holder.host : "an unknown machine",
+                 *stale->what ? stale->what : "unknown", *stale->since ? stale->since : "an unknown time");
+    unlink(aside);
+done:
+    return st;
+}
+
+/* link() fails if the name is taken, on NFS too; its answer may be lost there, so the count of links decides. */
+static status put_in_place(struct lock *lock, const char *what, bool *mine)
+{
+    status st = OK;
+    char own[4096];
+    struct text t = {0};
+    struct stat info = {0};
+    TRY(atomic_file_temporary(lock->path, own, sizeof own));
+    snprintf(lock->token, sizeof lock->token, "%.95s", own + strlen(lock->path) + 1);
+    TRY(compose(lock, what, &t));
+    TRY(atomic_file_write(own, t.data, t.size));
+    int linked = link(own, lock->path), why = errno;
+    *mine = linked == 0 || (stat(own, &info) == 0 && info.st_nlink == 2);
+    unlink(own);
+    if (!*mine && why != EEXIST)
+        st = fail(E_OUTPUT, "%s: cannot be made: %s", lock->path, strerror(why));
+done:
+    text_free(&t);
+    return st;
+}
+
+status lock_take(const char *path, const char *what, struct lock_patience patience, bool (*stop)(void),
+                 struct lock **out)
+{
+    enum { TRIES = 100 };
+    status st = OK;
+    struct lock *lock = NULL;
+    struct seen seen;
+    bool mine = false;
+    *out = NULL;
+    TRY(memory_alloc(1, sizeof *lock, "a lock", &lock));
+    if (strlen(path) >= sizeof lock->path) {
+        st = fail(E_OUTPUT, "%.200s...: the path is too long", path);
+        goto done;
+    }
+    strcpy(lock->path, path);
+    lock->beat_s = patience.beat_s > 0 ? patience.beat_s : BEAT_S;
+    for (int i = 0; i < TRIES && !mine; i++) {
+        TRY(put_in_place(lock, what, &mine));
+        if (mine)
+            break;
+        TRY(look(path, &seen));
+        if (!seen.there)
+            continue;
+        TRY(judge(path, &seen, patience.watch_s > 0 ? patience.watch_s : WATCH_S, stop));
+        TRY(remove_stale(path, &seen));
+    }
+    if (!mine) {
+        st = fail(E_OUTPUT, "%s: others take this lock again and again", path);
+        goto done;
+    }
+    pthread_mutex_init(&lock->guard, NULL);
+    pthread_cond_init(&lock->wake, NULL);
+    if (pthread_create(&lock->thread, NULL, keep_beating, lock) != 0) {
+        unlink(path);
+        st = fail(E_MEMORY, "no thread for the lock");
+        goto done;
+    }
+    *out = lock;
+    lock = NULL;
+done:
+    free(lock);
+    return st;
+}
+
+status lock_check(const struct lock *lock)
+{
+    if (lock && atomic_load(&lock->lost))
+        return fail(E_OUTPUT, "%s: another process took this folder over while this one stood still",
+                    lock->path);
+    return OK;
+}
+
+void lock_sweep(const char *path)
+{
+    struct seen s;
+    if (look(path, &s) == OK && s.there && is_local(&s.holder) && !is_alive(&s.holder) &&
+        remove_stale(path, &s) != OK)
+        log_warn("%s", status_message());
+}
+
+void lock_release(struct lock **handle)
+{
+    struct lock *lock = *handle;
+    struct seen s;
+    if (!lock)
+        return;
+    pthread_mutex_lock(&lock->guard);
+    lock->ending = true;
+    pthread_cond_signal(&lock->wake);
+    pthread_mutex_unlock(&lock->guard);
+    pthread_join(lock->thread, NULL);
+    pthread_cond_destroy(&lock->wake);
+    pthread_mutex_destroy(&lock->guard);
+    if (look(lock->path, &s) == OK && s.there && strcmp(s.token, lock->token) == 0)
+        unlink(lock->path);
+    free(lock);
+    *handle = NULL;
+}

@@ -1,0 +1,261 @@
+/* hoodoo aov OUT: pictures of frames that are done, from any camera, out of their VDBs. */
+#include "field/aov.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "cli/cli.h"
+#include "cli/progress.h"
+#include "cli/signals.h"
+#include "field/field.h"
+#include "model/air.h"
+#include "output/exr.h"
+#include "output/folder.h"
+#include "output/vdb.h"
+#include "scene/scene.h"
+
+struct shot {
+    const char *root;
+    char name[256];
+    struct job *job;
+    uint64_t job_hash;
+    const struct job_camera **camera;
+    size_t n_cameras;
+    int voxels[3];
+    struct gpu *gpu;
+    struct gpu_work *work;
+    struct field field;
+    struct aov aov;
+};
+
+/* ---- a frame, back on the device */
+
+struct loaded {
+    struct frame_grids grids;
+    struct rock rock;
+    struct particles particles;
+    struct aov_air air;
+};
+
+static void unload(struct shot *s, struct loaded *l)
+{
+    vdb_volumes_free(&l->grids);
+    rock_free(&l->rock);
+    particles_destroy(s->gpu, &l->particles);
+    gpu_buffer_destroy(s->gpu, &l->air.velocity);
+}
+
+static status load(struct shot *s, int frame, struct loaded *l)
+{
+    status st = OK;
+    char volumes[4096], points[4096];
+    TRY(folder_path(volumes, s->root, s->name, FILE_VOLUMES, frame, NULL));
+    TRY(folder_path(points, s->root, s->name, FILE_POINTS, frame, NULL));
+    TRY(vdb_volumes_read(volumes, &l->grids));
+    if (access(points, F_OK) != 0) {
+        st = fail(E_INPUT, "%s is not there: pictures need the particles (output.vdb.points)", points);
+        goto done;
+    }
+    TRY(vdb_points_read(points, &l->rock));
+    if (l->rock.n == 0) {
+        st = fail(E_INPUT, "frame %d: no rock is left, there is nothing to show", frame);
+        goto done;
+    }
+    if (field_upload(s->gpu, &s->field, &l->grids) != OK) {
+        char why[400];
+        snprintf(why, sizeof why, "%.390s", status_message());
+        st = fail(E_INPUT, "%s: %s", volumes, why);
+        goto done;
+    }
+    TRY(particles_create(s->gpu, s->work, &l->rock, DERIVED, s->voxels, s->job->domain.spacing_m,
+                         &l->particles));
+    TRY(air_upload(s->gpu, &l->grids, &l->air));
+done:
+    return st;
+}
+
+/* ---- its pictures */
+
+/* The run's own pictures stay as its manifests know them. */
+static status check_unlisted(const struct shot *s, int frame, const char *path)
+{
+    struct manifest manifest = {0};
+    status st = manifest_read(s->root, s->name, frame, &manifest);
+    const char *own = path + strlen(s->root) + 1;
+    for (size_t i = 0; st == OK && i < manifest.n_files; i++)
+        if (strcmp(manifest.file[i].path, own) == 0)
+            st = fail(E_OUTPUT,
+                      "%s is the run's own picture, which its manifest vouches for; give the camera another "
+                      "name (--set 'cameras.NAME={...}' --camera NAME)",
+                      path);
+    manifest_free(&manifest);
+    return st == E_INPUT ? OK : st; /* a frame without a manifest vouches for nothing */
+}
+
+static status write_picture(const struct shot *s, int frame, const struct aov_image *image)
+{
+    status st = OK;
+    char path[4096];
+    void *bytes = NULL;
+    size_t size;
+    const struct exr_options options = {
+        .layout = s->job->output.aov.layout,
+        .fps = s->job->fps,
+        .frame = frame,
+        .years = (frame - s->job->frames.first) * s->job->clock.years_per_frame,
+        .job_hash = s->job_hash,
+        .owner = s->job->output.owner,
+        .comments = s->job->output.comments,
+    };
+    TRY(folder_path(path, s->root, s->name, FILE_AOV, frame, image->camera));
+    TRY(check_unlisted(s, frame, path));
+    TRY(exr_encode(image, &options, &bytes, &size));
+    TRY(atomic_file_write(path, bytes, size));
+done:
+    free(bytes);
+    return st;
+}
+
+static status shoot(struct shot *s, int frame)
+{
+    status st = OK;
+    struct loaded l = {0};
+    struct aov_image image = {0};
+    TRY(load(s, frame, &l));
+    for (size_t c = 0; c < s->n_cameras; c++) {
+        TRY(aov_render(s->gpu, &s->aov, s->job, s->camera[c], frame, &s->field, &l.particles,
+                       l.air.velocity ? &l.air : NULL, &image));
+        TRY(write_picture(s, frame, &image));
+        aov_image_free(&image);
+    }
+done:
+    aov_image_free(&image);
+    unload(s, &l);
+    return st;
+}
+
+/* ---- the verb */
+
+static status choose_cameras(struct shot *s, const struct words *asked)
+{
+    status st = OK;
+    TRY(memory_alloc(s->job->n_cameras, sizeof *s->camera, "cameras", &s->camera));
+    for (size_t i = 0; i < s->job->n_cameras; i++) {
+        bool wanted = asked->n == 0;
+        for (size_t k = 0; k < asked->n; k++)
+            wanted |= strcmp(asked->word[k], s->job->cameras[i].name) == 0;
+        if (wanted)
+            s->camera[s->n_cameras++] = &s->job->cameras[i];
+    }
+    for (size_t k = 0; k < asked->n; k++) {
+        bool found = false;
+        for (size_t i = 0; i < s->n_cameras; i++)
+            found |= strcmp(asked->word[k], s->camera[i]->name) == 0;
+        if (!found) {
+            st = fail(E_USAGE, "--camera %.64s: the job has no camera of that name", asked->word[k]);
+            goto done;
+        }
+    }
+    if (s->n_cameras == 0)
+        st = fail(E_USAGE, "the job has no cameras; make one: --set 'cameras.NAME={orbit: {...}}'");
+done:
+    return st;
+}
+
+/* aov_create() sizes its buffers by the cameras the job renders: those that are wanted now. */
+static status prepare(struct shot *s, const char *device)
+{
+    status st = OK;
+    size_t most = 0;
+    for (size_t i = 0; i < s->n_cameras; i++) {
+        size_t n = aov_camera_pixels(s->camera[i]);
+        most = n > most ? n : most;
+    }
+    TRY(scene_voxels(s->job, s->voxels));
+    TRY(gpu_create(&(struct gpu_options){.device = device}, &s->gpu));
+    TRY(gpu_work_create(s->gpu, (size_t)s->voxels[0] * (size_t)s->voxels[1] * (size_t)s->voxels[2] + 2,
+                        &s->work));
+    TRY(field_create(s->gpu, s->voxels, s->job->domain.spacing_m, &s->field));
+    TRY(aov_create(s->gpu, s->job, most, &s->aov));
+done:
+    return st;
+}
+
+static void finish(struct shot *s)
+{
+    if (s->gpu) {
+        aov_destroy(s->gpu, &s->aov);
+        field_destroy(s->gpu, &s->field);
+        gpu_work_destroy(s->gpu, &s->work);
+        gpu_destroy(&s->gpu);
+    }
+    free(s->camera);
+    job_destroy(&s->job);
+}
+
+/* For the progress line: as many frames as there are to do. */
+static struct frame_range frames_shown(const int *frames, size_t n)
+{
+    int step = n > 1 ? frames[1] - frames[0] : 1;
+    return (struct frame_range){frames[0], frames[0] + (int)(n - 1) * step, step};
+}
+
+status cli_aov(int argc, char **argv)
+{
+    status st = OK;
+    struct common c = {0};
+    struct words operands = {0}, cameras = {0};
+    struct shot s = {0};
+    struct progress progress = {0};
+    char path[4700];
+    int *frames = NULL;
+    size_t n = 0;
+    bool help = false;
+    const struct option options[] = {
+        OPTION_FRAMES(&c),
+        OPTION_DEVICE(&c),
+        OPTION_SET(&c),
+        OPTION_PROGRESS(&c),
+        {"camera", "NAME", OPTION_WORDS, &cameras,
+         "of the job, or of --set 'cameras.NAME={...}'; repeatable (default: all)"},
+    };
+    TRY(options_parse(&usage_aov, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
+    if (help)
+        goto done;
+    s.root = operands.word[0];
+    TRY(folder_open(s.root, s.name));
+    snprintf(path, sizeof path, "%.4096s/job.yaml", s.root);
+    TRY(job_load(path, NULL, 0, &s.job));
+    TRY(job_hash(s.job, &s.job_hash));
+    job_destroy(&s.job);
+    TRY(job_load(path, c.sets.word, c.sets.n, &s.job));
+    TRY(choose_cameras(&s, &cameras));
+    TRY(volume_frames(s.root, s.name, c.frames, &frames, &n));
+    TRY(prepare(&s, c.device));
+    signals_install();
+    progress_begin(&progress, (enum progress_style)c.progress, frames_shown(frames, n), 0);
+    for (size_t i = 0; i < n; i++) {
+        if (stop_requested()) {
+            st = fail(STOPPED,
+                      "stopped before frame %d; run the same command with --frames %d-%d for the rest",
+                      frames[i], frames[i], frames[n - 1]);
+            goto done;
+        }
+        TRY(shoot(&s, frames[i]));
+        progress_frame(&progress, frames[i], -1, "");
+    }
+done:
+    progress_end(&progress);
+    finish(&s);
+    free(frames);
+    words_free(&operands);
+    words_free(&cameras);
+    common_free(&c);
+    return st;
+}

@@ -1,0 +1,71 @@
+/* Where eroded rock comes to rest (Arenite section 7).
+ *
+ * Crumbs     are particles of which erosion left nothing; deposits with nothing below them; and deposits on ground
+ *            that has become too steep: those slide on, one of a routing cell in a step.
+ * Way        From the ground to one of the lower cells beside it, by a hash of the crumb's id and as likely as
+ *            it is lower now, then along the routing's receivers to the next cell where there is room (pointer
+ *            doubling). Out of the domain: the crumb has left.
+ * Room       A cell takes crumbs while its ground is not steeper than deposition.repose_deg, by the gradient of
+ *            the heights of the columns around it, and no spike (deposit/slope.glsl). So cones come out round
+ *            and at that angle.
+ * Rounds     Crumbs that find no room in one round go on in the next, over the ground as it has risen. After
+ *            the last round what still waits lands where it waits if there is a free voxel, and slides on in
+ *            later steps, or else leaves.
+ * Landing    In a free voxel on top of a column, one particle a voxel, jittered in it. A deposit has phase 1,
+ *            keeps its id and layer, and is whole (viability 1), for viability is how much of a voxel it fills.
+ *            deposition.viability, the paper's lower initial b, says how long it lasts: its rate_factor is
+ *            divided by that when it first lands. Deposits never interlock (erosion/interlock).
+ * Same bits  Crumbs of a cell are ordered by id; all else is gathers and integer sums.
+ */
+#ifndef HOODOO_DEPOSIT_H
+#define HOODOO_DEPOSIT_H
+
+#include <stdbool.h>
+
+#include "gpu/gpu.h"
+#include "gpu/primitives.h"
+#include "job/job.h"
+#include "particles/particles.h"
+
+/* Where things flow to: cells of 2^3 voxels, voxel v in cell (v + shift) / 2, numbered (k ny + j) nx + i. */
+struct deposit_routing {
+    int cells[3], shift[3];
+    struct gpu_buffer
+        *tag; /* uint: kind and flags, WATER_* in params.h; none lands where WATER_SWEPT is set */
+    struct gpu_buffer *receiver; /* uint: a cell; without cycles. Its end is an OUT cell, or itself */
+};
+
+struct deposit {
+    struct gpu_buffer *bits;            /* uint [nx ny words]: solid voxels, 32 of a column to a word */
+    struct gpu_buffer *room, *ground;   /* uint [cells]: how many may land; the cells of the ground */
+    struct gpu_buffer *pointer, *other; /* uint [cells] */
+    struct gpu_buffer *start, *taken;   /* uint [cells + 2]: the sort of crumbs by cell */
+    size_t n_cells, n_ground, n_crumbs_max;
+    struct gpu_buffer *id, *cell, *place, *key; /* uint [n_crumbs_max]: by crumb */
+    struct gpu_buffer *order, *unordered;
+};
+
+/* What happened to the crumbs of a step: those of rock and of deposits that eroded or slid together. */
+struct deposit_counts {
+    uint32_t crumbs, slid, landed, left, rounds;
+};
+
+/* Does the job ever deposit anything? If not, deposit_create() need not be called. */
+bool deposit_wanted(const struct job *job);
+
+uint64_t deposit_bytes(const int voxels[3]);
+MUST_USE status deposit_create(struct gpu *gpu, const int voxels[3], struct deposit *out);
+void deposit_destroy(struct gpu *gpu, struct deposit *d);
+
+/* After erosion took viability and before the particles are indexed: moves crumbs to where they come to rest.
+ * What leaves keeps a viability of 0. `p` is as it was indexed before the step, and the routing is of the same
+ * shape; particles_index() must follow if there were any crumbs. `step`: of the frame. Waits. E_MEMORY. */
+MUST_USE status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, const struct job *job,
+                             int frame, int step, const struct deposit_routing *routing, struct particles *p,
+                             struct deposit_counts *out);
+
+/* How many of the particles are deposits. Waits. */
+MUST_USE status deposit_count(struct gpu *gpu, struct gpu_work *work, const struct particles *p,
+                              uint32_t *n_deposits);
+
+#endif

@@ -1,0 +1,125 @@
+/* OpenJD's path mapping (pathmapping-1.0): where this machine finds what another one's job names. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "base/json.h"
+#include "base/memory.h"
+#include "job/parse.h"
+
+enum { RULES_BYTES = 4 << 20 };
+
+struct rule {
+    const char *from, *to;
+};
+
+struct rules {
+    struct rule *rule;
+    size_t n;
+};
+
+/* Is `path` the rule's, or below it? */
+static bool applies(const struct rule *r, const char *path, size_t *length)
+{
+    size_t n = strlen(r->from);
+    while (n > 1 && r->from[n - 1] == '/')
+        n--;
+    *length = n;
+    return n > 0 && strncmp(path, r->from, n) == 0 &&
+           (path[n] == '\0' || path[n] == '/' || (n == 1 && *path == '/'));
+}
+
+/* The longest source that applies, the first of equals. */
+static status map_path(const struct rules *rules, char **path)
+{
+    const struct rule *best = NULL;
+    size_t longest = 0, n;
+    char *mapped = NULL;
+    for (size_t i = 0; i < rules->n; i++)
+        if (applies(&rules->rule[i], *path, &n) && n > longest) {
+            best = &rules->rule[i];
+            longest = n;
+        }
+    if (!best)
+        return OK;
+    const char *rest = *path + longest;
+    size_t size = strlen(best->to) + strlen(rest) + 2;
+    status st = memory_alloc(size, 1, "a path", &mapped);
+    if (st != OK)
+        return st;
+    snprintf(mapped, size, "%s%s%s", best->to, *rest && *rest != '/' ? "/" : "", rest);
+    free(*path);
+    *path = mapped;
+    return OK;
+}
+
+static status map_section(const struct rules *rules, enum job_section_id section, void *base);
+
+static status map_node(const struct rules *rules, struct job_node *node)
+{
+    status st = map_section(rules, node_section(node), &node->u);
+    for (size_t i = 0; i < node->n_child && st == OK; i++)
+        st = map_node(rules, node->child[i]);
+    return st;
+}
+
+static status map_section(const struct rules *rules, enum job_section_id section, void *base)
+{
+    const struct job_section *s = &job_sections[section];
+    status st = OK;
+    for (size_t i = 0; i < s->n && st == OK; i++) {
+        const struct job_key *key = &s->key[i];
+        void *member = key_member(key, base);
+        size_t n;
+        char *items;
+        if (key->type == KEY_INPUT) {
+            st = map_path(rules, member);
+        } else if (key->type == KEY_SUB) {
+            st = map_section(rules, (enum job_section_id)key->child, member);
+        } else if (key->type == KEY_NODE) {
+            st = *(struct job_node **)member ? map_node(rules, *(struct job_node **)member) : OK;
+        } else if (key->type == KEY_LIST || key->type == KEY_MAP) {
+            items = key_items(key, base, &n);
+            for (size_t k = 0; k < n && st == OK; k++)
+                st = map_section(rules, (enum job_section_id)key->child,
+                                 items + k * job_sections[key->child].size);
+        }
+    }
+    return st;
+}
+
+status job_map_paths(struct job *job, const char *file)
+{
+    status st = OK;
+    char *bytes = NULL;
+    size_t n;
+    struct json *json = NULL;
+    struct rules rules = {0};
+    TRY(file_read(file, RULES_BYTES, &bytes, &n));
+    TRY(json_read(file, bytes, n, &json));
+    const struct json *list = json_member(json, "path_mapping_rules");
+    if (!list)
+        goto done; /* a session without rules has an empty file */
+    TRY(memory_alloc(list->n, sizeof *rules.rule, "path mapping rules", &rules.rule));
+    for (const struct json *r = list->first; r; r = r->next) {
+        const char *format = json_to_text(json_member(r, "source_path_format")),
+                   *from = json_to_text(json_member(r, "source_path")),
+                   *to = json_to_text(json_member(r, "destination_path"));
+        if (!format || !from || !to) {
+            st = fail(E_INPUT,
+                      "%s: a path mapping rule without source_path_format, source_path or destination_path",
+                      file);
+            goto done;
+        }
+        /* A job file names POSIX paths alone. */
+        if (strcmp(format, "POSIX") == 0)
+            rules.rule[rules.n++] = (struct rule){from, to};
+    }
+    TRY(map_section(&rules, SECTION_job, job));
+done:
+    free(rules.rule);
+    json_free(&json);
+    free(bytes);
+    return st;
+}

@@ -1,0 +1,81 @@
+#include "model/air.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+static size_t samples(const struct grid_lattice *l)
+{
+    return (size_t)l->n[0] * (size_t)l->n[1] * (size_t)l->n[2];
+}
+
+static status flow_grid(struct gpu *gpu, const struct wind_lattice *air, struct frame_grid *out)
+{
+    status st = OK;
+    float *share = NULL;
+    out->own.voxel = air->cell;
+    for (int a = 0; a < 3; a++) {
+        out->own.n[a] = air->n[a];
+        out->own.origin[a] = air->origin[a] + 0.5 * air->cell;
+    }
+    size_t n = samples(&out->own);
+    TRY(memory_alloc(n, 4 * sizeof *share, "the wind", &share));
+    TRY(memory_alloc(n, 3 * sizeof *share, "the wind", &out->value));
+    TRY(gpu_download(gpu, air->velocity, 0, share, n));
+    for (size_t i = 0; i < n; i++)
+        for (size_t a = 0; a < 3; a++)
+            out->value[3 * i + a] = (float)air->speed * share[4 * i + a];
+done:
+    free(share);
+    return st;
+}
+
+/* As few samples as span the domain. */
+static status uniform_grid(const struct job *job, int frame, const int voxels[3], struct frame_grid *out)
+{
+    status st = OK;
+    const struct wind_at wind = wind_at(job, frame);
+    double longest = 0;
+    for (int a = 0; a < 3; a++)
+        longest = voxels[a] > longest ? voxels[a] : longest;
+    out->own = (struct grid_lattice){{2, 2, 2}, longest * job->domain.spacing_m, {0, 0, 0}};
+    TRY(memory_alloc(8, 3 * sizeof *out->value, "the wind", &out->value));
+    for (size_t i = 0; i < 8; i++)
+        for (size_t a = 0; a < 3; a++)
+            out->value[3 * i + a] = (float)(wind.speed * wind.direction[a]);
+done:
+    return st;
+}
+
+status air_grid(struct gpu *gpu, const struct wind *w, const struct job *job, int frame, const int voxels[3],
+                struct frame_grid *out)
+{
+    struct wind_lattice air;
+    *out = (struct frame_grid){.name = "vel", .unit = "m/s", .kind = GRID_PLAIN, .components = 3};
+    return wind_lattice(w, job, frame, &air) ? flow_grid(gpu, &air, out)
+                                             : uniform_grid(job, frame, voxels, out);
+}
+
+status air_upload(struct gpu *gpu, const struct frame_grids *grids, struct aov_air *out)
+{
+    status st = OK;
+    float *velocity = NULL;
+    *out = (struct aov_air){0};
+    for (size_t g = 0; g < grids->n_grids; g++) {
+        const struct frame_grid *grid = &grids->grid[g];
+        if (strcmp(grid->name, "vel") != 0 || grid->own.n[0] == 0 || grid->components != 3)
+            continue;
+        size_t n = samples(&grid->own);
+        TRY(memory_alloc(n, 4 * sizeof *velocity, "the wind", &velocity));
+        for (size_t i = 0; i < n; i++)
+            memcpy(velocity + 4 * i, grid->value + 3 * i, 3 * sizeof *velocity);
+        TRY(gpu_buffer_create(gpu, "the wind", n, 16, &out->velocity));
+        TRY(gpu_upload(gpu, out->velocity, 0, velocity, n));
+        out->lattice = grid->own;
+        break;
+    }
+done:
+    free(velocity);
+    return st;
+}

@@ -1,0 +1,263 @@
+#include "model/stage.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "base/json.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "field/camera.h"
+#include "output/folder.h"
+#include "output/usd.h"
+
+enum { MAX_FIELDS = 32 };
+
+struct stage {
+    const struct job *job;
+    const char *root;
+    struct usd_sequence sequence;
+    struct usd_field field[MAX_FIELDS];
+    int *volumes, *points;     /* frames */
+    struct usd_camera *camera; /* their keys are owned too */
+};
+
+/* ---- frames */
+
+static bool lists(const struct manifest *m, const char *folder, const char *extension)
+{
+    for (size_t i = 0; i < m->n_files; i++) {
+        const char *path = m->file[i].path, *dot = strrchr(path, '.');
+        if (strncmp(path, folder, strlen(folder)) == 0 && dot && strcmp(dot, extension) == 0)
+            return true;
+    }
+    return false;
+}
+
+static status find_frames(struct stage *s, uint64_t job_hash, size_t *n_done)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    struct manifest m = {0};
+    *n_done = 0;
+    TRY(folder_frames(s->root, s->job->name, &frames, &n));
+    TRY(memory_alloc(n, sizeof *s->volumes, "frame numbers", &s->volumes));
+    TRY(memory_alloc(n, sizeof *s->points, "frame numbers", &s->points));
+    for (size_t i = 0; i < n; i++) {
+        const char *bad = "";
+        if (manifest_read(s->root, s->job->name, frames[i], &m) != OK)
+            continue;
+        TRY(manifest_check(s->root, &m, false, &bad));
+        if (!*bad && m.job_hash == job_hash && range_holds(s->job->frames, frames[i])) {
+            (*n_done)++;
+            if (lists(&m, "volumes/", ".vdb"))
+                s->volumes[s->sequence.n_volumes++] = frames[i];
+            if (lists(&m, "points/", ".usdc"))
+                s->points[s->sequence.n_points++] = frames[i];
+        }
+        manifest_free(&m);
+    }
+done:
+    manifest_free(&m);
+    free(frames);
+    return st;
+}
+
+/* ---- fields: as the last volumes have them */
+
+static bool to_vector(const struct json *array, double out[3])
+{
+    if (!array || array->kind != JSON_ARRAY || array->n != 3)
+        return false;
+    const struct json *item = array->first;
+    for (int a = 0; a < 3; a++, item = item->next) {
+        if (item->kind != JSON_NUMBER || !isfinite(item->number))
+            return false;
+        out[a] = item->number;
+    }
+    return true;
+}
+
+static void add_field(struct stage *s, const struct json *grid)
+{
+    struct usd_sequence *q = &s->sequence;
+    const char *name = json_to_text(json_member(grid, "name")),
+               *type = json_to_text(json_member(grid, "type")),
+               *kind = json_to_text(json_member(grid, "class"));
+    const struct json *bounds = json_member(grid, "bounds_m");
+    double low[3], high[3];
+    if (!name || !*name || !type || !kind || q->n_fields == MAX_FIELDS ||
+        !to_vector(json_member(bounds, "min"), low) || !to_vector(json_member(bounds, "max"), high))
+        return;
+    struct usd_field *f = &s->field[q->n_fields];
+    for (int a = 0; a < 3; a++) {
+        q->low[a] = q->n_fields ? fmin(q->low[a], low[a]) : low[a];
+        q->high[a] = q->n_fields ? fmax(q->high[a], high[a]) : high[a];
+    }
+    snprintf(f->name, sizeof f->name, "%s", name);
+    f->vector = strncmp(type, "vec3", 4) == 0;
+    f->kind = strcmp(kind, "level set") == 0    ? GRID_LEVEL_SET
+              : strcmp(kind, "fog volume") == 0 ? GRID_FOG
+                                                : GRID_PLAIN;
+    q->n_fields++;
+}
+
+static status find_fields(struct stage *s)
+{
+    status st = OK;
+    char path[4096];
+    struct text t = {0};
+    struct json *json = NULL;
+    if (s->sequence.n_volumes == 0)
+        return OK;
+    TRY(folder_path(path, s->root, s->job->name, FILE_VOLUMES, s->volumes[s->sequence.n_volumes - 1], NULL));
+    st = vdb_describe_lattices(path, &t);
+    if (st == OK)
+        st = json_read(path, t.data, t.size, &json);
+    if (st != OK) { /* a run does not fail of a file that was sound once; `hoodoo verify` tells */
+        log_warn("%s.usda: no volumes in it: %s", s->job->name, status_message());
+        st = OK;
+        goto done;
+    }
+    const struct json *grids = json_member(json, "grids");
+    for (const struct json *g = grids ? grids->first : NULL; g; g = g->next)
+        add_field(s, g);
+done:
+    if (json)
+        json_free(&json);
+    text_free(&t);
+    return st;
+}
+
+/* ---- cameras */
+
+static void to_file(const double sim[3], int up, double out[4])
+{
+    out[0] = sim[0];
+    out[1] = up == OUTPUT_UP_Y ? sim[2] : sim[1];
+    out[2] = up == OUTPUT_UP_Y ? 0 - sim[1] : sim[2];
+}
+
+/* USD's camera looks along its -z. */
+static void to_world(const struct camera *c, int up, double m[16])
+{
+    double wide = 0, high = 0, row[3][3];
+    for (int a = 0; a < 3; a++) {
+        wide += c->right[a] * c->right[a];
+        high += c->down[a] * c->down[a];
+    }
+    for (int a = 0; a < 3; a++) {
+        row[0][a] = c->right[a] / sqrt(wide);
+        row[1][a] = -c->down[a] / sqrt(high);
+        row[2][a] = -c->ahead[a];
+    }
+    memset(m, 0, 16 * sizeof *m);
+    for (int r = 0; r < 3; r++)
+        to_file(row[r], up, m + 4 * r);
+    to_file(c->eye, up, m + 12);
+    m[15] = 1;
+}
+
+static struct usd_key key_at(const struct job_camera *from, int up, int frame)
+{
+    const struct camera camera = camera_of(from, frame);
+    struct usd_key key = {.frame = frame, .focal_mm = curve_at(&from->focal_mm, frame)};
+    to_world(&camera, up, key.to_world);
+    return key;
+}
+
+/* A camera that stands still has one key, another one for every frame, so that between frames it is where a
+ * picture's would be. */
+static status add_camera(struct stage *s, const struct job_camera *from)
+{
+    status st = OK;
+    const struct frame_range frames = s->job->frames;
+    const int up = s->job->output.up;
+    const struct usd_key first = key_at(from, up, frames.first);
+    struct usd_camera *to = &s->camera[s->sequence.n_cameras];
+    struct usd_key *key = NULL;
+    size_t n = 1;
+    for (int f = frames.first + 1; f <= frames.last && n == 1; f++) {
+        const struct usd_key other = key_at(from, up, f);
+        if (other.focal_mm != first.focal_mm ||
+            memcmp(other.to_world, first.to_world, sizeof first.to_world) != 0)
+            n = (size_t)(frames.last - frames.first) + 1;
+    }
+    TRY(memory_alloc(n, sizeof *key, "a camera's way", &key));
+    for (size_t i = 0; i < n; i++)
+        key[i] = key_at(from, up, frames.first + (int)i);
+    *to = (struct usd_camera){.name = from->name,
+                              .width_mm = from->aperture_mm,
+                              .height_mm = from->aperture_mm * from->resolution[1] / from->resolution[0],
+                              .n_keys = n,
+                              .key = key};
+    s->sequence.n_cameras++;
+done:
+    return st;
+}
+
+static status find_cameras(struct stage *s)
+{
+    status st = OK;
+    TRY(memory_alloc(s->job->n_cameras, sizeof *s->camera, "cameras", &s->camera));
+    s->sequence.camera = s->camera;
+    for (size_t i = 0; i < s->job->n_cameras; i++)
+        TRY(add_camera(s, &s->job->cameras[i]));
+done:
+    return st;
+}
+
+/* ---- files */
+
+static status put(const struct stage *s, const char *path,
+                  void (*write)(const struct usd_sequence *, struct text *))
+{
+    status st = OK;
+    struct text t = {0};
+    write(&s->sequence, &t);
+    TRY(text_status(&t));
+    TRY(atomic_file_write(path, t.data, t.size));
+done:
+    text_free(&t);
+    return st;
+}
+
+status stage_write(const struct job *job, uint64_t job_hash, const char *root)
+{
+    status st = OK;
+    size_t n_done;
+    char path[4096];
+    struct stage s = {.job = job,
+                      .root = root,
+                      .sequence = {.name = job->name,
+                                   .first = job->frames.first,
+                                   .last = job->frames.last,
+                                   .fps = job->fps,
+                                   .up = job->output.up}};
+    TRY(find_frames(&s, job_hash, &n_done));
+    if (n_done == 0)
+        goto done;
+    TRY(find_fields(&s));
+    TRY(find_cameras(&s));
+    s.sequence.field = s.field;
+    s.sequence.volumes_frame = s.volumes;
+    s.sequence.points_frame = s.points;
+    if (snprintf(path, sizeof path, "%s/points/%s.clips.usda", root, job->name) >= (int)sizeof path) {
+        st = fail(E_OUTPUT, "%.200s...: the path is too long", root);
+        goto done;
+    }
+    if (s.sequence.n_points)
+        TRY(put(&s, path, usd_clips));
+    snprintf(path, sizeof path, "%.3800s/%.200s.usda", root, job->name);
+    TRY(put(&s, path, usd_stage));
+done:
+    free(s.volumes);
+    free(s.points);
+    for (size_t i = 0; i < s.sequence.n_cameras; i++)
+        free((void *)s.camera[i].key);
+    free(s.camera);
+    return st;
+}

@@ -1,0 +1,81 @@
+#include "model/timing.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/log.h"
+#include "base/text.h"
+#include "base/version.h"
+
+double timing_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* To the millisecond: more digits say nothing. */
+static double rounded(double seconds)
+{
+    return (double)(int64_t)(seconds * 1000 + 0.5) / 1000;
+}
+
+static void describe(const struct gpu *gpu, int first, int last, double started, struct text *t)
+{
+    const struct gpu_info *info = gpu_info(gpu);
+    const struct gpu_time *times;
+    const size_t n = gpu_stage_times(gpu, &times);
+    char ended[32] = "";
+    struct tm tm;
+    time_t now = time(NULL);
+    if (gmtime_r(&now, &tm))
+        strftime(ended, sizeof ended, "%Y-%m-%dT%H:%M:%SZ", &tm);
+    json_object(t, NULL);
+    json_text(t, "version", hoodoo_version);
+    json_text(t, "commit", hoodoo_commit);
+    json_text(t, "device", info->name);
+    json_text(t, "driver", info->driver);
+    json_text(t, "ended", ended);
+    json_integer(t, "first_frame", first);
+    json_integer(t, "last_frame", last);
+    json_number(t, "wall_seconds", rounded(timing_now() - started));
+    json_array(t, "stages");
+    for (size_t i = 0; i < n; i++) {
+        if (times[i].ns == 0)
+            continue;
+        json_object(t, NULL);
+        json_text(t, "name", times[i].name);
+        json_number(t, "device_seconds", rounded((double)times[i].ns / 1e9));
+        json_integer(t, "dispatches", (int64_t)times[i].dispatches);
+        json_end_object(t);
+        log_note("device time: %-12s %8.2f s in %llu dispatches", times[i].name, (double)times[i].ns / 1e9,
+                 (unsigned long long)times[i].dispatches);
+    }
+    json_end_array(t);
+    json_end_object(t);
+}
+
+void timing_write(const char *root, const struct gpu *gpu, int first, int last, double started)
+{
+    char path[4096];
+    struct text t = {0};
+    int file = -1;
+    describe(gpu, first, last, started, &t);
+    if (text_status(&t) != OK || snprintf(path, sizeof path, "%s/log/timing.jsonl", root) >= (int)sizeof path)
+        goto done;
+    /* The writer breaks lines between members only: texts hold none. */
+    for (size_t i = 0; i + 1 < t.size; i++)
+        if (t.data[i] == '\n')
+            t.data[i] = ' ';
+    file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (file < 0 || write(file, t.data, t.size) != (ssize_t)t.size)
+        log_note("%s: %s", path, strerror(errno));
+done:
+    if (file >= 0)
+        close(file);
+    text_free(&t);
+}

@@ -1,0 +1,268 @@
+#include "output/usd.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/version.h"
+#include "output/usd_points.h"
+
+/* ---- words of the language */
+
+enum { IDENTIFIER = 80 };
+
+/* A prim's name: letters, digits and _, not beginning with a digit. */
+static void identifier(const char *name, char out[IDENTIFIER])
+{
+    size_t n = 0;
+    if (*name >= '0' && *name <= '9')
+        out[n++] = '_';
+    for (; *name && n + 1 < IDENTIFIER; name++) {
+        const bool letter = (*name >= 'a' && *name <= 'z') || (*name >= 'A' && *name <= 'Z');
+        out[n++] = letter || (*name >= '0' && *name <= '9') ? *name : '_';
+    }
+    if (n == 0)
+        out[n++] = '_';
+    out[n] = '\0';
+}
+
+/* What may stand in quotes. */
+static void add_quoted(struct text *t, const char *value)
+{
+    text_add(t, "\"");
+    for (; *value; value++)
+        if (*value == '"' || *value == '\\')
+            text_add(t, "\\%c", *value);
+        else if ((unsigned char)*value >= 0x20 && *value != 0x7f)
+            text_add(t, "%c", *value);
+        else
+            text_add(t, " ");
+    text_add(t, "\"");
+}
+
+static void add_number(struct text *t, double value)
+{
+    char number[32];
+    if (value == floor(value) && fabs(value) < 1e15)
+        text_add(t, "%.0f", value + 0.0); /* no negative zero */
+    else
+        text_add(t, "%s", number_text(value, number));
+}
+
+static void add_vector(struct text *t, const double *v, int n)
+{
+    text_add(t, "(");
+    for (int i = 0; i < n; i++) {
+        text_add(t, i ? ", " : "");
+        add_number(t, v[i]);
+    }
+    text_add(t, ")");
+}
+
+/* Files' paths, with frames as folder_path() writes them. */
+static void add_path(struct text *t, const struct usd_sequence *s, const char *folder, int frame,
+                     const char *extension)
+{
+    text_add(t, "@./%s/%s.%s%04d.%s@", folder, s->name, frame < 0 ? "-" : "", abs(frame), extension);
+}
+
+/* ---- the stage's parts; `root` is the name of the prim that holds all */
+
+static void add_field(struct text *t, const struct usd_sequence *s, const struct usd_field *f)
+{
+    static const char *const classes[] = {
+        [GRID_LEVEL_SET] = "levelSet", [GRID_FOG] = "fogVolume", [GRID_PLAIN] = "unknown"};
+    char name[IDENTIFIER];
+    identifier(f->name, name);
+    text_add(t,
+             "\n        def OpenVDBAsset \"%s\"\n        {\n            token fieldClass = \"%s\"\n"
+             "            token fieldDataType = \"%s\"\n            token fieldName = ",
+             name, classes[f->kind], f->vector ? "float3" : "float");
+    add_quoted(t, f->name);
+    text_add(t, "\n");
+    if (f->vector)
+        text_add(t, "            token vectorDataRoleHint = \"Vector\"\n");
+    text_add(t, "            asset filePath.timeSamples = {\n");
+    for (size_t i = 0; i < s->n_volumes; i++) {
+        text_add(t, "                %d: ", s->volumes_frame[i]);
+        add_path(t, s, "volumes", s->volumes_frame[i], "vdb");
+        text_add(t, ",\n");
+    }
+    text_add(t, "            }\n        }\n");
+}
+
+static void add_volume(struct text *t, const struct usd_sequence *s, const char *root)
+{
+    char name[IDENTIFIER];
+    text_add(t, "\n    def Volume \"rock\"\n    {\n        float3[] extent = [");
+    add_vector(t, s->low, 3);
+    text_add(t, ", ");
+    add_vector(t, s->high, 3);
+    text_add(t, "]\n");
+    for (size_t i = 0; i < s->n_fields; i++) {
+        identifier(s->field[i].name, name);
+        text_add(t, "        rel field:%s = </%s/rock/%s>\n", name, root, name);
+    }
+    for (size_t i = 0; i < s->n_fields; i++)
+        add_field(t, s, &s->field[i]);
+    text_add(t, "    }\n");
+}
+
+/* What the clips have values for; without declarations USD does not look into them. */
+static void add_declarations(struct text *t, const char *indent)
+{
+#define ROW(member, name, type, value, interpolation)                                                        \
+    text_add(t, "%s%s %s%s%s%s\n", indent, type, name, *interpolation ? " (interpolation = \"" : "",         \
+             interpolation, *interpolation ? "\")" : "");
+    USD_POINT_ATTRIBUTES(ROW)
+#undef ROW
+}
+
+static void add_points(struct text *t, const struct usd_sequence *s)
+{
+    text_add(t, "\n    def Points \"points\" (\n        clips = {\n            dictionary default = {\n"
+                "                double2[] active = [");
+    for (size_t i = 0; i < s->n_points; i++)
+        text_add(t, "%s(%d, %zu)", i ? ", " : "", s->points_frame[i], i);
+    text_add(t, "]\n                asset[] assetPaths = [");
+    for (size_t i = 0; i < s->n_points; i++) {
+        text_add(t, "%s\n                    ", i ? "," : "");
+        add_path(t, s, "points", s->points_frame[i], "usdc");
+    }
+    text_add(t,
+             "\n                ]\n                asset manifestAssetPath = @./points/%s.clips.usda@\n"
+             "                string primPath = \"/points\"\n                double2[] times = [",
+             s->name);
+    for (size_t i = 0; i < s->n_points; i++)
+        text_add(t, "%s(%d, %d)", i ? ", " : "", s->points_frame[i], s->points_frame[i]);
+    text_add(t, "]\n            }\n        }\n    )\n    {\n");
+    add_declarations(t, "        ");
+    text_add(t, "    }\n");
+}
+
+static void add_matrix(struct text *t, const double m[16])
+{
+    text_add(t, "( ");
+    for (int row = 0; row < 4; row++) {
+        text_add(t, row ? ", " : "");
+        add_vector(t, m + 4 * row, 4);
+    }
+    text_add(t, " )");
+}
+
+static bool moves(const struct usd_camera *c)
+{
+    bool moving = false;
+    for (size_t i = 1; i < c->n_keys; i++)
+        moving |= memcmp(c->key[i].to_world, c->key[0].to_world, sizeof c->key[0].to_world) != 0;
+    return moving;
+}
+
+static bool zooms(const struct usd_camera *c)
+{
+    bool zooming = false;
+    for (size_t i = 1; i < c->n_keys; i++)
+        zooming |= c->key[i].focal_mm != c->key[0].focal_mm;
+    return zooming;
+}
+
+/* USD's film is in tenths of the unit, a metre. */
+static double film(double mm)
+{
+    return mm / 100;
+}
+
+static void add_camera(struct text *t, const struct usd_camera *c, const char *name)
+{
+    text_add(t,
+             "\n        def Camera \"%s\"\n        {\n            float2 clippingRange = (0.1, 100000)\n"
+             "            float focalLength",
+             name);
+    if (zooms(c)) {
+        text_add(t, ".timeSamples = {\n");
+        for (size_t i = 0; i < c->n_keys; i++) {
+            text_add(t, "                %d: ", c->key[i].frame);
+            add_number(t, film(c->key[i].focal_mm));
+            text_add(t, ",\n");
+        }
+        text_add(t, "            }\n");
+    } else {
+        text_add(t, " = ");
+        add_number(t, film(c->key[0].focal_mm));
+        text_add(t, "\n");
+    }
+    text_add(t, "            float horizontalAperture = ");
+    add_number(t, film(c->width_mm));
+    text_add(t, "\n            token projection = \"perspective\"\n            float verticalAperture = ");
+    add_number(t, film(c->height_mm));
+    text_add(t, "\n            matrix4d xformOp:transform");
+    if (moves(c)) {
+        text_add(t, ".timeSamples = {\n");
+        for (size_t i = 0; i < c->n_keys; i++) {
+            text_add(t, "                %d: ", c->key[i].frame);
+            add_matrix(t, c->key[i].to_world);
+            text_add(t, ",\n");
+        }
+        text_add(t, "            }\n");
+    } else {
+        text_add(t, " = ");
+        add_matrix(t, c->key[0].to_world);
+        text_add(t, "\n");
+    }
+    text_add(t, "            uniform token[] xformOpOrder = [\"xformOp:transform\"]\n        }\n");
+}
+
+/* Two names may become the same one: the later is numbered. */
+static void add_cameras(struct text *t, const struct usd_sequence *s)
+{
+    text_add(t, "\n    def Scope \"cameras\"\n    {");
+    for (size_t i = 0; i < s->n_cameras; i++) {
+        char name[IDENTIFIER], other[IDENTIFIER], numbered[IDENTIFIER + 24];
+        size_t same = 0;
+        identifier(s->camera[i].name, name);
+        for (size_t j = 0; j < i; j++) {
+            identifier(s->camera[j].name, other);
+            same += strcmp(name, other) == 0;
+        }
+        snprintf(numbered, sizeof numbered, same ? "%s__%zu" : "%s", name, same + 1);
+        add_camera(t, &s->camera[i], numbered);
+    }
+    text_add(t, "    }\n");
+}
+
+static void add_head(struct text *t, const struct usd_sequence *s, const char *root)
+{
+    text_add(t, "#usda 1.0\n(\n    defaultPrim = \"%s\"\n    doc = ", root);
+    char doc[160];
+    snprintf(doc, sizeof doc, "hoodoo %s: %.100s", hoodoo_version, s->name);
+    add_quoted(t, doc);
+    text_add(t, "\n    endTimeCode = %d\n    framesPerSecond = ", s->last);
+    add_number(t, s->fps);
+    text_add(t, "\n    metersPerUnit = 1\n    startTimeCode = %d\n    timeCodesPerSecond = ", s->first);
+    add_number(t, s->fps);
+    text_add(t, "\n    upAxis = \"%s\"\n)\n", s->up == OUTPUT_UP_Y ? "Y" : "Z");
+}
+
+void usd_stage(const struct usd_sequence *s, struct text *t)
+{
+    char root[IDENTIFIER];
+    identifier(s->name, root);
+    add_head(t, s, root);
+    text_add(t, "\ndef Xform \"%s\" (\n    kind = \"component\"\n)\n{", root);
+    if (s->n_volumes && s->n_fields)
+        add_volume(t, s, root);
+    if (s->n_points)
+        add_points(t, s);
+    if (s->n_cameras)
+        add_cameras(t, s);
+    text_add(t, "}\n");
+}
+
+void usd_clips(const struct usd_sequence *s, struct text *t)
+{
+    add_head(t, s, "points");
+    text_add(t, "\ndef Points \"points\"\n{\n");
+    add_declarations(t, "    ");
+    text_add(t, "}\n");
+}

@@ -1,0 +1,64 @@
+/* USD of a sequence: a stage as text, and the rock's surface as points in crate files. Written by hand: USD's
+ * own library is no part of hoodoo.
+ *
+ * NAME.usda          the stage (usd_stage): the volumes' VDBs as OpenVDBAsset fields, the points as value
+ *                    clips, the cameras
+ * points/NAME.1001.usdc      one frame's surface particles (usd_points), as a Points prim </points>
+ * points/NAME.clips.usda     what these files may hold (usd_clips): USD's manifest of the clips
+ *
+ * Units     Metres: metersPerUnit is 1. Axes are the files' (output.up). USD measures film in tenths of the
+ *           scene's unit, so focal lengths and apertures are in decimetres; widths of points are diameters.
+ * Bytes     Equal input gives equal bytes.
+ * Source    openusd.org: "USD Specification" of .usda; usdVol and usdGeom schemas; crate files as
+ *           pxr/usd/usd/crateFile.cpp reads them, version 0.8.0, which USD from 19.03 on can.
+ */
+#ifndef HOODOO_USD_H
+#define HOODOO_USD_H
+
+#include "base/text.h"
+#include "output/vdb.h"
+#include "particles/rock.h"
+
+/* A camera at one frame. Axes of the files. */
+struct usd_key {
+    int frame;
+    double to_world[16]; /* row vectors times matrix; the camera looks along -z, y is up */
+    double focal_mm;
+};
+
+struct usd_camera {
+    const char *name; /* made a prim's name: other characters than letters and digits become _ */
+    double width_mm, height_mm;
+    size_t n_keys; /* ascending frames; what is alike in all is written once */
+    const struct usd_key *key;
+};
+
+/* A grid of the volumes. */
+struct usd_field {
+    char name[64];
+    enum grid_class kind;
+    bool vector;
+};
+
+struct usd_sequence {
+    const char *name;
+    int first, last; /* frames of the job */
+    double fps;
+    int up; /* OUTPUT_UP_* */
+    size_t n_fields, n_volumes, n_points, n_cameras;
+    const struct usd_field *field;
+    double low[3], high[3];   /* m: the box of all fields, in the files' axes */
+    const int *volumes_frame; /* those there are, ascending */
+    const int *points_frame;
+    const struct usd_camera *camera;
+};
+
+void usd_stage(const struct usd_sequence *s, struct text *out);
+void usd_clips(const struct usd_sequence *s, struct text *out);
+
+/* The particles with a normal: positions, normals, widths, ids, the layer's colour, and as primvars stress,
+ * von_mises, viability and layer. out->bytes is freed with free(). E_OUTPUT: more than a file can number. */
+MUST_USE status usd_points(const struct rock *rock, const struct vdb_options *options, double fps,
+                           struct vdb_bytes *out);
+
+#endif

@@ -1,0 +1,141 @@
+/* Receivers: columns as bits, spans, pits, basins joined by their lowest passes (Boruvka), and the pits'
+ * receivers turned round. */
+#include <assert.h>
+
+#include "base/random.h"
+#include "water/internal.h"
+
+uint32_t water_random(const struct water_routing *how, int shift[3])
+{
+    uint32_t random = random_hash(how->seed, (uint32_t)how->frame, (uint32_t)how->step, RANDOM_WATER);
+    uint32_t bits = random_hash(random, 0, 0, RANDOM_SHIFT);
+    for (int a = 0; a < 3; a++)
+        shift[a] = how->unshifted ? 0 : (int)(bits >> (8 * a) & 1);
+    return random;
+}
+
+struct water_params water_params(const struct water *w, size_t n)
+{
+    return (struct water_params){.n = (uint)n,
+                                 .vx = (uint)w->voxels[0],
+                                 .vy = (uint)w->voxels[1],
+                                 .vz = (uint)w->voxels[2],
+                                 .sx = (uint)w->shift[0],
+                                 .sy = (uint)w->shift[1],
+                                 .sz = (uint)w->shift[2],
+                                 .cx = (uint)w->cells[0],
+                                 .cy = (uint)w->cells[1],
+                                 .cz = (uint)w->cells[2],
+                                 .words = (uint)w->words,
+                                 .nodes = (uint)w->n_nodes,
+                                 .basins = (uint)w->n_basins,
+                                 .leak = w->leak,
+                                 .random = w->random,
+                                 .per_row = 1.0f / (float)w->cells[0],
+                                 .per_slab = 1.0f / (float)w->columns};
+}
+
+/* The spans of every column. */
+static status find_nodes(struct gpu *gpu, struct gpu_work *work, struct water *w, const struct particles *p)
+{
+    status st = OK;
+    size_t n_words = w->columns * w->words;
+    struct water_params k = water_params(w, n_words);
+    uint32_t n_nodes;
+    gpu_fill(gpu, w->first, 0);
+    k.n = (uint)(((size_t)w->cells[0] + 31) / 32 * (size_t)w->cells[1] * (size_t)w->cells[2]);
+    GPU_RUN(gpu, water_rows, k.n, k, p->start, w->rows);
+    k.n = (uint)n_words;
+    GPU_RUN(gpu, water_columns, n_words, k, w->rows, w->occupied, w->floors, w->first);
+    gpu_scan(gpu, work, w->first, n_words + 1);
+    TRY(gpu_download(gpu, w->first, n_words, &n_nodes, 1));
+    w->n_nodes = n_nodes;
+    TRY(water_reserve(gpu, w, w->n_nodes));
+    GPU_RUN(gpu, water_nodes, n_words, k, w->floors, w->first, w->node[WATER_CELL]);
+    k = water_params(w, w->n_nodes);
+    GPU_RUN(gpu, water_altitude, w->n_nodes, k, w->node[WATER_CELL], p->start, p->field[ROCK_viability],
+            w->node[WATER_Z]);
+done:
+    return st;
+}
+
+/* First receivers and passes; the basin of every span; *border: how many have passes to other basins, listed
+ * in the last scratch. */
+static status find_basins(struct gpu *gpu, struct gpu_work *work, struct water *w, size_t *n_border)
+{
+    status st = OK;
+    struct gpu_buffer **scratch = &w->node[WATER_SCRATCH];
+    struct gpu_buffer *root = scratch[0], *flags = scratch[1], *place = scratch[2], *list = scratch[3];
+    struct water_params k = water_params(w, w->n_nodes + 1);
+    GPU_RUN(gpu, water_receive, k.n, k, w->occupied, w->floors, w->first, w->node[WATER_CELL],
+            w->node[WATER_Z], w->pass, w->node[WATER_INITIAL], root);
+    TRY(gpu_double_pointers(gpu, work, root, place, w->n_nodes + 1));
+    k.n = (uint)w->n_nodes;
+    GPU_RUN(gpu, water_pit, k.n, k, root, flags);
+    TRY(gpu_compact(gpu, work, flags, place, list, w->n_nodes, &w->n_basins));
+    k = water_params(w, w->n_nodes);
+    GPU_RUN(gpu, water_basin, k.n, k, root, place, w->pass, w->node[WATER_BASIN], flags);
+    TRY(gpu_compact(gpu, work, flags, place, list, w->n_nodes, n_border));
+done:
+    return st;
+}
+
+/* Every component of basins drains over its lowest pass, until none has one that is not drained already. */
+static status join_basins(struct gpu *gpu, struct gpu_work *work, struct water *w, size_t n_border)
+{
+    status st = OK;
+    struct gpu_buffer **node = w->node, *border = node[WATER_SCRATCH + 3], *counts = gpu_work_words(work);
+    struct count_params n = {(uint)w->n_basins + 1};
+    struct water_params k = water_params(w, n_border), all = water_params(w, w->n_basins + 1);
+    uint32_t changed = n_border > 0;
+    GPU_RUN(gpu, gpu_iota, n.n, n, node[WATER_COMPONENT]);
+    gpu_fill(gpu, node[WATER_LOWEST], UINT32_MAX);
+    gpu_fill(gpu, node[WATER_PICK], UINT32_MAX);
+    for (int round = 0; changed; round++) {
+        if (round == 64) /* each at least halves the basins without a way out that have a pass */
+            return fail(E_NUMERIC, "water: %zu basins do not join: the device computes wrongly", w->n_basins);
+        gpu_fill(gpu, counts, 0);
+        GPU_RUN(gpu, water_lowest, n_border, k, border, w->pass, node[WATER_BASIN], node[WATER_COMPONENT],
+                node[WATER_Z], node[WATER_LOWEST]);
+        GPU_RUN(gpu, water_pick, n_border, k, border, w->pass, node[WATER_BASIN], node[WATER_COMPONENT],
+                node[WATER_Z], node[WATER_LOWEST], node[WATER_PICK]);
+        GPU_RUN(gpu, water_join, all.n, all, node[WATER_COMPONENT], node[WATER_PICK], w->pass,
+                node[WATER_BASIN], node[WATER_NEXT], node[WATER_FROM], node[WATER_TO], counts);
+        TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
+        if (changed) {
+            TRY(gpu_double_pointers(gpu, work, node[WATER_NEXT], node[WATER_SCRATCH], w->n_basins + 1));
+            GPU_RUN(gpu, water_merge, all.n, all, node[WATER_NEXT], node[WATER_COMPONENT], node[WATER_LOWEST],
+                    node[WATER_PICK]);
+        }
+    }
+done:
+    return st;
+}
+
+status water_route(struct gpu *gpu, struct gpu_work *work, struct water *w, const struct water_routing *how,
+                   struct particles *p)
+{
+    status st = OK;
+    size_t n_border = 0;
+    struct gpu_buffer **node = w->node;
+    w->random = water_random(how, w->shift);
+    w->leak = how->leak;
+    for (int a = 0; a < 3; a++)
+        w->cells[a] = w->voxels[a] / 2 + w->shift[a];
+    w->columns = (size_t)w->cells[0] * (size_t)w->cells[1];
+    w->words = ((size_t)w->cells[2] + 31) / 32;
+    w->n_basins = 0;
+    TRY(find_nodes(gpu, work, w, p));
+    TRY(find_basins(gpu, work, w, &n_border));
+    TRY(join_basins(gpu, work, w, n_border));
+    gpu_copy(gpu, w->node[WATER_FINAL], w->node[WATER_INITIAL], w->n_nodes + 1);
+    struct water_params k = water_params(w, w->n_basins);
+    GPU_RUN(gpu, water_carve, k.n, k, node[WATER_COMPONENT], node[WATER_FROM], node[WATER_TO],
+            node[WATER_INITIAL], node[WATER_FINAL]);
+    k.n = (uint)(w->columns * (size_t)w->cells[2]);
+    if (how->cells)
+        GPU_RUN(gpu, water_cells, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
+                node[WATER_FINAL], node[WATER_BASIN], node[WATER_COMPONENT], w->tag, w->z, w->receiver);
+done:
+    return st;
+}

@@ -1,0 +1,170 @@
+/* Speed of the air around the demo's rock: a step of 100,000 particles, and its heaviest pass next to the same
+ * in plain C. Seconds are of this machine at this moment; the ratio is what to compare. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "gpu/primitives.h"
+#include "particles/particles.h"
+#include "scene/scene.h"
+#include "wind/flow.h"
+
+enum { STEPS = 12, REPEATS = 7 };
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void check(status st)
+{
+    if (st == OK)
+        return;
+    fprintf(stderr, "bench: %s\n", status_message());
+    exit((int)st);
+}
+
+static void *copy(struct gpu *gpu, struct gpu_buffer *b, size_t n)
+{
+    void *memory = malloc(n * gpu_buffer_item(b));
+    if (!memory)
+        check(fail(E_MEMORY, "no memory for %zu items", n));
+    check(gpu_download(gpu, b, 0, memory, n));
+    return memory;
+}
+
+/* ---- the relaxation in plain C, over the same lists; vectors of 4, as the device has them */
+
+struct twin {
+    size_t n, slots;
+    const uint32_t *list;
+    const float (*of_step)[4], (*position)[4], (*push)[4];
+    const float *before;
+    float *after;
+};
+
+#pragma GCC push_options
+#pragma GCC optimize("O3", "fast-math")
+#if defined(__x86_64__)
+#pragma GCC target("avx2,fma")
+#endif
+static __attribute__((noinline)) void relax_in_c(const struct twin *t)
+{
+#pragma omp parallel for schedule(dynamic, 256)
+    for (size_t i = 0; i < t->n; i++) {
+        const float *x = t->position[i], *own = t->push[i];
+        float left = t->of_step[i][2];
+        size_t n = (size_t)t->of_step[i][3];
+        for (size_t s = 0; s < n; s++) {
+            size_t j = t->list[s * t->slots + i];
+            const float *o = t->position[j], *push = t->push[j];
+            float d[3] = {x[0] - o[0], x[1] - o[1], x[2] - o[2]};
+            float r = sqrtf(fmaxf(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], 1e-12f));
+            float q = r / FLOW_SUPPORT, p = fmaxf(1 - q, 0);
+            float slope = (1 / 3.14159265f) * (q <= 0.5f ? 4.5f * q - 3 : -3 * p * p / r);
+            left += o[3] * slope *
+                    (d[0] * (own[0] - push[0]) + d[1] * (own[1] - push[1]) + d[2] * (own[2] - push[2]));
+        }
+        float p = t->before[i] + 0.5f * t->of_step[i][1] * left;
+        t->after[i] = t->of_step[i][0] >= 0.8f ? p : fmaxf(p, 0);
+    }
+}
+#pragma GCC pop_options
+
+static void relax(struct gpu *gpu, const struct flow *f)
+{
+    struct flow_params k = {.n = f->state.n, .slots = (uint)f->slots, .full = 0.8f};
+    size_t n = k.n;
+    GPU_RUN(gpu, wind_flow_push, n, k, f->of_step, f->list, f->position[0], f->divergence_pressure[0],
+            f->push);
+    float *before = copy(gpu, f->divergence_pressure[0], n), *after = malloc(4 * n), *device = NULL;
+    uint32_t *list = copy(gpu, f->list, f->slots * FLOW_NEIGHBOURS);
+    float(*of_step)[4] = copy(gpu, f->of_step, n), (*position)[4] = copy(gpu, f->position[0], n),
+    (*push)[4] = copy(gpu, f->push, n);
+    struct twin twin = {n,
+                        f->slots,
+                        list,
+                        (const float(*)[4])of_step,
+                        (const float(*)[4])position,
+                        (const float(*)[4])push,
+                        before,
+                        after};
+    double seconds = INFINITY, plain = INFINITY, worst = 0, neighbours = 0;
+    if (!after)
+        check(fail(E_MEMORY, "no memory for %zu pressures", n));
+    for (int r = 0; r < REPEATS; r++) {
+        check(gpu_upload(gpu, f->divergence_pressure[0], 0, before, n));
+        double start = now();
+        GPU_RUN(gpu, wind_flow_relax, n, k, f->of_step, f->list, f->position[0], f->push,
+                f->divergence_pressure[0]);
+        check(gpu_wait(gpu));
+        seconds = fmin(seconds, now() - start);
+        start = now();
+        relax_in_c(&twin);
+        plain = fmin(plain, now() - start);
+    }
+    device = copy(gpu, f->divergence_pressure[0], n);
+    for (size_t i = 0; i < n; i++) {
+        worst = fmax(worst, fabs((double)device[i] - (double)after[i]));
+        neighbours += (double)of_step[i][3];
+    }
+    printf(
+        "  one relaxation, %.1f neighbours each: %.2f ms; in C %.2f ms: ratio %.2f (they differ by %.1g)\n",
+        neighbours / (double)n, 1e3 * seconds, 1e3 * plain, seconds / plain, worst);
+    void *memory[] = {before, after, device, list, of_step, position, push};
+    for (size_t i = 0; i < sizeof memory / sizeof *memory; i++)
+        free(memory[i]);
+}
+
+int main(int argc, char **argv)
+{
+    const char *sets[] = {"wind.flow.solver=sph", "wind.flow.spacing_m=1.8"};
+    const double direction[2] = {0.8, 0.6};
+    struct gpu *gpu = NULL;
+    struct gpu_work *work = NULL;
+    struct job *job = NULL;
+    struct particles particles;
+    struct rock rock;
+    struct flow flow;
+    double change, best = INFINITY;
+    int voxels[3];
+    (void)argc;
+    (void)argv;
+    check(job_load("jobs/demo.yaml", sets, 2, &job));
+    check(gpu_create(&(struct gpu_options){.device = "auto"}, &gpu));
+    check(scene_voxels(job, voxels));
+    check(scene_sample(job, &rock));
+    check(gpu_work_create(gpu, (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2] + 2, &work));
+    check(particles_create(gpu, work, &rock, STATE, voxels, job->domain.spacing_m, &particles));
+    check(particles_surface(gpu, work, &particles));
+    check(flow_create(gpu, job, voxels, &flow));
+    check(flow_change(gpu, &flow, &particles, &change));
+    check(flow_run(gpu, &flow, &particles, direction, 4)); /* compiles, and takes more iterations at first */
+    gpu_times_reset(gpu);
+    for (int r = 0; r < 3; r++) {
+        double start = now();
+        check(flow_run(gpu, &flow, &particles, direction, STEPS));
+        best = fmin(best, (now() - start) / STEPS);
+    }
+    double per = 1e5 / (double)flow.state.n;
+    printf("wind: a step of %u particles (%d + %d iterations): %.1f ms, %.1f ms per 100,000\n",
+           (unsigned)flow.state.n, flow.divergence_iterations, flow.density_iterations, 1e3 * best,
+           1e3 * best * per);
+    for (int k = 0; k < KERNELS; k++) {
+        const struct gpu_time *t = gpu_kernel_time(gpu, (enum gpu_kernel)k);
+        if (t->ns > 3 * STEPS * 1000000ULL)
+            printf("    %-24s %7.1f ms a step in %4.1f dispatches\n", t->name,
+                   1e-6 * (double)t->ns / (3 * STEPS), (double)t->dispatches / (3 * STEPS));
+    }
+    relax(gpu, &flow);
+    flow_destroy(gpu, &flow);
+    particles_destroy(gpu, &particles);
+    rock_free(&rock);
+    gpu_work_destroy(gpu, &work);
+    gpu_destroy(&gpu);
+    job_destroy(&job);
+    return 0;
+}

@@ -1,0 +1,156 @@
+"""submit --to local: dependencies, failures, stops, wedges, hostile names: and the files are those of `hoodoo run` alone."""
+
+import hashlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+
+HOODOO, TOP = os.environ["HOODOO"], os.environ["HOODOO_TOP"]
+PATIENCE = 180
+failures = 0
+
+
+def ok(good, name, *notes):
+    global failures
+    print("ok" if good else "not ok", name, flush=True)
+    if not good:
+        failures += 1
+        for note in notes:
+            for line in str(note).splitlines()[-60:]:
+                print("#", line, flush=True)
+    return good
+
+
+def hoodoo(*words, **more):
+    done = subprocess.run([HOODOO, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, timeout=PATIENCE, **more)
+    return done.returncode, done.stdout
+
+
+def tree(root):
+    found = {}
+    for folder, _, names in os.walk(root):
+        for name in names:
+            path = os.path.relpath(os.path.join(folder, name), root)
+            if path.startswith(("points", "volumes", "aov", "frames", "mesh", "job.yaml")) or path.endswith(".1012.ckpt"):
+                with open(os.path.join(root, path), "rb") as f:
+                    found[path] = hashlib.sha256(f.read()).hexdigest()
+    return found
+
+
+with open(os.path.join(TOP, "tests/restart/twelve.yaml")) as f:
+    text = f.read()
+FARM = "farm: {block_frames: 5, chunk_frames: 3, meshes: true, still_every: 11, turntable: 0, retries: 1}\n"
+with open("plain.yaml", "w") as f:
+    f.write(text + FARM)
+with open("wedges.csv", "w") as f:
+    f.write('seed,wind.speed_m_s\n3,"{1001: 9, 1012: 12}"\n4,8\n')
+with open("wedges.yaml", "w") as f:
+    f.write(text + FARM + "wedge: {csv: wedges.csv}\n")
+
+# Two wedges from a CSV file, on two workers.
+code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--workers", "2", "--out", "two")
+lines = [line.split("hoodoo: ")[-1] for line in said.splitlines()]
+ok(code == 0 and os.path.exists("two/twelve.wedges.png"), "two wedges on two workers, to the sheet across them", said)
+with open("two/farm/job.yaml") as f:
+    frozen = f.read()
+ok("wedges.csv" not in frozen and "{1001: 9, 1012: 12}" in frozen, "the job as submitted holds the CSV file's values", frozen[-800:])
+done = {line.split(":")[0] for line in lines if ": done in " in line}
+order = [line.split(":")[0] for line in lines if ": started by" in line or ": done in" in line]
+code, plan = hoodoo("plan", "wedges.yaml", "--json")
+tasks = {t["name"]: t for t in json.loads(plan)["tasks"]}
+ok(done == set(tasks), "every task of the plan was done", sorted(done ^ set(tasks)))
+bad = [(name, before) for name, t in tasks.items() for before in t["after"]
+       if order.index(name) < len(order) - 1 - order[::-1].index(before)]
+ok(not bad, "none before what it waits for", bad)
+for wedge in (1, 2):
+    hoodoo("run", "wedges.yaml", f"--wedge={wedge}", "--device", "cpu", "--out", f"alone{wedge}", "--progress", "none")
+    hoodoo("mesh", f"alone{wedge}")
+    here, there = tree(f"two/w000{wedge}"), tree(f"alone{wedge}")
+    ok(here == there and len(here) > 60, f"wedge {wedge}: the files of a run alone, byte for byte",
+       sorted(p for p in here.keys() | there.keys() if here.get(p) != there.get(p)))
+with open("two/w0002/run.json") as f:
+    run = json.load(f)
+ok(run["name"] == "twelve_w0002" and run["wedge"] == 2 and run["wedge_values"] == "seed=4, wind.speed_m_s=8", "a wedge knows its index and values", run)
+code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--workers", "2", "--out", "two")
+ok(code == 0 and "started" not in said, "the same command again has nothing to do", said)
+code, said = hoodoo("status", "two", "--json")
+status = json.loads(said)
+ok(code == 0 and status["tasks_done"] == status["task_count"] and [w["done"] for w in status["wedges"]] == [12, 12], "status says so", said)
+code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--out", "two", "--set", "wind.abrasion=0.9")
+ok(code == 7 and "holds another job" in said and "w0001" in said, "another job is refused the folder before anything starts", code, said)
+
+# A failure that passes, one that does not, and what it takes along.
+os.makedirs("fails")
+open("fails/mesh", "w").close()
+code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "1", "--out", "fails")
+ok(code == 4 and said.count("it will be tried again") >= 1 and "failed for good" in said and "Not a directory" in said and
+   "sim.1011-1012: done" in said and "\r" not in said, "a task that keeps failing is tried twice; the rest is done; the log says why", code, said)
+os.remove("fails/mesh")
+code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "1", "--out", "fails")
+ok(code == 0 and "sim." not in "".join(l for l in said.splitlines() if "started" in l) and len(os.listdir("fails/mesh")) == 24,
+   "with its cause gone the same command does what is left", code, said)
+
+
+# Stopped at any moment, by any signal, and gone on.
+def stop_after(out, frames, number, times=1, group=False):
+    child = subprocess.Popen([HOODOO, "submit", "plain.yaml", "--to", "local", "--workers", "2", "--out", out], stdout=subprocess.PIPE,
+                             stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, start_new_session=True)
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end and child.poll() is None:
+        if os.path.isdir(out + "/frames") and len([n for n in os.listdir(out + "/frames") if n.endswith(".json")]) >= frames:
+            break
+        time.sleep(0.002)
+    for _ in range(times):
+        (os.killpg if group else os.kill)(child.pid, number)
+    said = child.communicate(timeout=PATIENCE)[0]
+    return child.returncode, said
+
+
+alone = tree("fails")
+for frames, number, times in ((1, signal.SIGTERM, 1), (4, signal.SIGINT, 3), (7, signal.SIGUSR1, 1)):
+    code, said = stop_after("stopped", frames, number, times)
+    ok(code == 85 and "run the same command again" in said and not os.path.exists("stopped/lock"),
+       f"{signal.Signals(number).name} after {frames} frames: everything saved, exit 85", code, said)
+code, said = stop_after("stopped", 9, signal.SIGKILL)
+time.sleep(3)  # its children are told, and save
+left = [pid for pid in filter(str.isdigit, os.listdir("/proc")) if b"stopped" in open(f"/proc/{pid}/cmdline", "rb").read() and b"run\0" in open(f"/proc/{pid}/cmdline", "rb").read()]
+ok(code == -signal.SIGKILL and not left, "killed: its children do not stay", code, left)
+code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "2", "--out", "stopped")
+here = tree("stopped")
+ok(code == 0 and here == alone, "and the same command goes on, to the same bytes", code, sorted(p for p in here.keys() | alone.keys() if here.get(p) != alone.get(p)), said)
+with open("stopped/log/run.log") as f:
+    times = re.findall(r" frame (\d+), \d+/", f.read())
+ok(sorted(set(times)) == [str(n) for n in range(1001, 1013)] and len(times) <= 13, "no frame was written twice, but where it was killed", times)
+
+# Names that mean harm: two folders that are worked in, more that are only handed on.
+NAMES = ("it's $(touch pwned) `touch pwned`\nopenjd_env: A=B\n", "-rf é岩 ;touch pwned %j\\%A", "..", "two words", "{{Param.X}}", "*")
+for i, name in enumerate(NAMES):
+    out = os.path.join(f"names{i}", name, "deep")
+    few = ("--set", "frames=1001-1002", "--set", "farm.still_every=0", "--set", "farm.meshes=false")
+    if i < 2:
+        code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "1", "--out", out, *few)
+        ok(code == 0 and not [line for line in said.splitlines() if line.startswith("openjd_")] and len(os.listdir(os.path.join(out, "frames"))) == 2,
+           f"a folder called {name!r}", code, said)
+    code, said = hoodoo("submit", "plain.yaml", "--to", "slurm", "--dry-run", "--out", out, *few, "--", "--comment=$(touch pwned)")
+    ok(code == 0 and not [line for line in said.splitlines() if line.startswith("openjd_")], f"and for Slurm, {name!r}", said)
+ok(not any("pwned" in names for _, _, names in os.walk(".")), "nothing of a name was run")
+for value in ("../x", "a b", "$(touch pwned)", "a\nb", ""):
+    code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--set", f"name={json.dumps(value)}", "--dry-run")
+    ok(code == 2 and "not a name" in said or "is wanted" in said or "control" in said or "holds" in said, f"a job called {value!r} is refused", code, said)
+for wedge, word in (("[{key: name, values: [x]}]", "cannot differ"), ("[{key: nosuch, values: [1]}]", "unknown key"), ("[{key: seed, values: []}]", "without values"),
+                    ("[{key: seed, values: [1, 2]}, {key: fps, values: [1]}]", "zipped"), ("[{key: seed, values: [-5]}]", "out of range"),
+                    ("[{key: 'x=1; touch pwned', values: [1]}]", "")):
+    with open("bad.yaml", "w") as f:
+        f.write(text + f"wedge: {{over: {wedge}}}\n")
+    code, said = hoodoo("plan", "bad.yaml")
+    ok(code == 2 and word in said, f"wedge {wedge} is refused", code, said)
+for body, word in (("seed\n", "no line of values"), ("seed\n1,2\n", "more fields"), ("seed,fps\n1\n", "fewer fields"), ('seed\n"1\n', "past its line"), ('seed\n"1', "quote"), ("seed\n\x01\n", "control"), ("", "no line")):
+    with open("wedges.csv", "w") as f:
+        f.write(body)
+    code, said = hoodoo("plan", "wedges.yaml")
+    ok(code == 3 and word in said, f"a CSV file of {body!r} is refused", code, said)
+sys.exit(1 if failures else 0)

@@ -1,0 +1,557 @@
+/* Water's routing against a flood, Kruskal's tree and a serial sum, on porous rock and on scenes made by hand;
+ * what rain and sources amount to. */
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gpu/kernel_source.h"
+#include "physics/water_help.h"
+#include "tests/ref/flow_ref.h"
+
+struct routed {
+    struct water water;
+    struct flow_ref ref;
+    uint32_t *tag, *z, *receiver, *node_cell, *rain;
+};
+
+static void routed_free(struct bed *bed, struct routed *r)
+{
+    water_destroy(bed->gpu, &r->water);
+    flow_ref_free(&r->ref);
+    free(r->tag);
+    free(r->z);
+    free(r->receiver);
+    free(r->node_cell);
+    free(r->rain);
+}
+
+static uint32_t *download(struct gpu *gpu, const struct gpu_buffer *b, size_t n)
+{
+    uint32_t *data = calloc(n + 1, 4);
+    assert_non_null(data);
+    assert_ok(gpu_download(gpu, b, 0, data, n));
+    return data;
+}
+
+static struct routed route(struct bed *bed, const struct water_routing *how, const struct job *job)
+{
+    struct routed r = {0};
+    int shift[3];
+    uint32_t random = water_random(how, shift);
+    assert_ok(water_create(bed->gpu, job, bed->n, bed->h, &r.water));
+    assert_ok(water_route(bed->gpu, bed->work, &r.water, how, &bed->p));
+    assert_ok(water_discharge(bed->gpu, bed->work, &r.water, job, 1, &bed->p));
+    r.ref = flow_ref_route(&bed->rock, bed->n, bed->h, shift, random, how->leak);
+    r.tag = download(bed->gpu, r.water.tag, r.ref.n);
+    r.z = download(bed->gpu, r.water.z, r.ref.n);
+    r.receiver = download(bed->gpu, r.water.receiver, r.ref.n);
+    r.node_cell = download(bed->gpu, r.water.node[WATER_CELL], r.water.n_nodes);
+    r.rain = download(bed->gpu, r.water.node[WATER_RAIN], r.water.n_nodes);
+    return r;
+}
+
+struct tally {
+    size_t scenes, cells, surfaces, dead, turned, longest;
+};
+
+/* Every claim of water.h for one scene. */
+static void check_routing(struct bed *bed, const struct routed *r, bool leak, struct tally *t)
+{
+    const struct flow_ref *f = &r->ref;
+    uint32_t *level = flow_ref_levels(f, leak);
+    uint64_t in = (uint64_t)bed->n[0] * (uint64_t)bed->n[1], out = 0;
+    for (int a = 0; a < 3; a++)
+        assert_int_equal(r->water.cells[a], f->cells[a]);
+    for (size_t c = 0; c < f->n; c++) {
+        uint32_t kind = r->tag[c] & WATER_KIND;
+        bool open = kind == WATER_EMPTY || kind == WATER_SURF, dead = (r->tag[c] & WATER_DEAD) != 0;
+        assert_int_equal(r->tag[c], f->tag[c]);
+        assert_int_equal(r->z[c], f->z[c]);
+        assert_int_equal(r->receiver[c], f->receiver[c]); /* Kruskal's forest, to the bit */
+        t->turned += r->receiver[c] != f->initial[c];
+        t->surfaces += kind == WATER_SURF;
+        t->dead += dead && open;
+        if (open)
+            assert_int_equal(level[c] == UINT32_MAX, dead);
+        if (dead || kind == WATER_SOLID)
+            continue;
+        /* It gets out, over the lowest passes there are. */
+        uint32_t highest = f->altitude[c];
+        size_t at = c, hops = 0;
+        for (; !(r->tag[at] & WATER_OUT); at = r->receiver[at]) {
+            highest = f->altitude[at] > highest ? f->altitude[at] : highest;
+            assert_true(++hops <= f->n);
+        }
+        highest = f->altitude[at] > highest ? f->altitude[at] : highest;
+        t->longest = hops > t->longest ? hops : t->longest;
+        if (open)
+            assert_int_equal(highest, level[c]);
+    }
+    for (size_t i = 0; i < r->water.n_nodes; i++) {
+        uint32_t c = r->node_cell[i];
+        assert_int_equal(r->rain[i], f->rain[c]); /* the serial sum */
+        out += r->tag[c] & WATER_OUT ? r->rain[i] : 0;
+    }
+    assert_int_equal(out, in); /* what falls leaves */
+    t->scenes++;
+    t->cells += f->n;
+    free(level);
+}
+
+/* Holes of a few voxels, more or fewer, below a rough surface. */
+static float porous(const struct scene *s, int i, int j, int k)
+{
+    double share = 0.15 + 0.7 * unit(s->seed, 1), top = s->n[2] * (0.3 + 0.8 * unit(s->seed, 2));
+    int size = 1 + (int)(s->seed % 4);
+    uint32_t at = random_hash((uint32_t)(i / size), (uint32_t)(j / size), (uint32_t)(k / size), s->seed);
+    double rough = 3 * unit(random_hash((uint32_t)(i / 3), (uint32_t)(j / 3), 7, s->seed), 3);
+    if (random_float(at) > share || k > top + rough)
+        return 0;
+    return 0.05f + 0.95f * random_float(random_hash(at, (uint32_t)i, (uint32_t)j, (uint32_t)k));
+}
+
+static void porous_rock_drains_over_its_lowest_passes(void **state)
+{
+    struct gpu *gpu = open_gpu();
+    struct job job;
+    struct tally t = {0};
+    double year = 0.5;
+    (void)state;
+    job_of_rain(&job, &year);
+    for (uint32_t s = 0; s < 220; s++) {
+        struct scene scene = {.n = {10 + 2 * (int)(s % 13), 8 + 2 * (int)(s % 17), 4 + 2 * (int)(s % 11)},
+                              .seed = 1000 + s};
+        if (s % 55 == 54)
+            scene.n[2] = 140; /* columns of three words */
+        struct bed bed = bed_of(gpu, &scene, 0.5, porous);
+        for (int leak = 0; leak < 2; leak++) {
+            struct water_routing how = {
+                .seed = s, .frame = 1, .leak = leak, .unshifted = s % 5 == 0, .cells = true};
+            struct routed r = route(&bed, &how, &job);
+            check_routing(&bed, &r, leak, &t);
+            routed_free(&bed, &r);
+        }
+        bed_free(&bed);
+    }
+    gpu_destroy(&gpu);
+    print_message(
+        "# %zu scenes, %zu cells, %zu SURF, %zu in cavities, %zu receivers turned round, longest way "
+        "out %zu: levels, receivers and sums as the oracle's\n",
+        t.scenes, t.cells, t.surfaces, t.dead, t.turned, t.longest);
+    assert_true(t.scenes >= 400 && t.dead > 100 && t.turned > 1000 && t.longest > 20);
+}
+
+/* ---- by hand */
+
+static uint32_t cell_at(const struct routed *r, int x, int y, int z)
+{
+    return (uint32_t)((z * r->ref.cells[1] + y) * r->ref.cells[0] + x);
+}
+
+static struct routed by_hand(struct bed *bed, struct gpu *gpu, scene_fill *fill, bool leak,
+                             const struct job *job)
+{
+    struct scene scene = {.n = {24, 16, 24}};
+    struct water_routing how = {.seed = 5, .frame = 1, .leak = leak, .unshifted = true, .cells = true};
+    struct tally t = {0};
+    *bed = bed_of(gpu, &scene, 0.5, fill);
+    struct routed r = route(bed, &how, job);
+    check_routing(bed, &r, leak, &t);
+    return r;
+}
+
+/* A table on one leg. */
+static float overhang(const struct scene *s, int i, int j, int k)
+{
+    (void)s;
+    return k < 4 || (i >= 8 && i < 10 && j >= 6 && j < 10 && k < 14) ||
+           (i >= 6 && i < 18 && j >= 4 && j < 12 && k >= 12 && k < 16);
+}
+
+static void water_falls_off_an_overhang(void **state)
+{
+    struct gpu *gpu = open_gpu();
+    struct job job;
+    struct bed bed;
+    double year = 1;
+    uint64_t roof = 0, falls = 0;
+    (void)state;
+    job_of_rain(&job, &year);
+    struct routed r = by_hand(&bed, gpu, overhang, false, &job);
+    for (int y = 2; y < 6; y++)
+        for (int x = 3; x < 9; x++) {
+            uint32_t c = cell_at(&r, x, y, 7), to = r.receiver[c], beneath = cell_at(&r, x, y, 6);
+            int tx = (int)to % 12, ty = (int)to / 12 % 8, tz = (int)to / 96;
+            bool off = tx < 3 || tx > 8 || ty < 2 || ty > 5;
+            assert_int_equal(r.tag[c], WATER_SURF);
+            assert_int_equal(off, tz == 1); /* over the edge, and down to the ground's rock */
+            assert_true(off || tz == 7);
+            falls += off ? r.ref.rain[c] : 0;
+            roof += 4;
+            if (x == 4 && y > 2 && y < 5)
+                assert_int_equal(r.tag[beneath], WATER_SOLID); /* the leg's top is inside the table */
+            else
+                assert_int_equal(r.tag[beneath] & WATER_KIND, WATER_WALL); /* its underside drains grains */
+        }
+    print_message("# rain on the table %llu, falling off its edge %llu\n", (unsigned long long)roof,
+                  (unsigned long long)falls);
+    assert_int_equal(falls, roof);
+    routed_free(&bed, &r);
+    bed_free(&bed);
+    gpu_destroy(&gpu);
+}
+
+/* A tunnel along x whose floor falls by a voxel every four, through a block; its lower mouth at high x. */
+static float tunnel(const struct scene *s, int i, int j, int k)
+{
+    int bottom = 12 - i / 4;
+    (void)s;
+    return i >= 2 && i < 22 && k < 20 && !(j >= 6 && j < 10 && k >= bottom && k < bottom + 6);
+}
+
+static void a_tunnel_drains_through_its_lower_mouth(void **state)
+{
+    double frame = 1, year = 0, amount[2] = {3, 1e-8}, points[2][1][3] = {{{6, 4, 6.5}}, {{5, 1.2, 4}}};
+    struct job_source source[2] = {{0}};
+    struct gpu *gpu = open_gpu();
+    struct job job;
+    struct bed bed;
+    (void)state;
+    job_of_rain(&job, &year);
+    for (int i = 0; i < 2; i++) {
+        source[i].path_m = points[i];
+        source[i].n_path_m = 1;
+        source[i].m3_per_yr = (struct curve){.n = 1, .frame = &frame, .value = &amount[i]};
+    }
+    job.sources = source;
+    job.n_sources = 2; /* the second begins in rock */
+    struct routed r = {0};
+    struct water_routing how = {.seed = 5, .frame = 1, .unshifted = true, .cells = true};
+    struct scene scene = {.n = {24, 16, 24}};
+    bed = bed_of(gpu, &scene, 0.5, tunnel);
+    r = route(&bed, &how, &job);
+    uint32_t *spring = download(gpu, r.water.node[WATER_SPRING], r.water.n_nodes), *entry;
+    double out = 0, lower = 0;
+    for (size_t i = 0; i < r.water.n_nodes; i++) {
+        uint32_t c = r.node_cell[i];
+        if (!(r.tag[c] & WATER_OUT))
+            continue;
+        out += spring[i] * r.water.spring_unit;
+        if (c % 12 >= 10)
+            lower += spring[i] * r.water.spring_unit;
+    }
+    entry = download(gpu, r.water.entry, 4);
+    print_message(
+        "# 3 m3/yr in, %.10g out, of which %.10g through the lower mouth; a source in rock enters %.3g "
+        "cells away\n",
+        out, lower, sqrt(entry[3]));
+    assert_true(fabs(out - 3) < 1e-8 && fabs(lower - 3) < 1e-8);
+    assert_int_equal(entry[1], 0);
+    assert_true(spring[entry[2]] >= 1); /* nothing rounds to nothing */
+    /* Nearest of all open cells that are not at a side, by looking at each. */
+    uint32_t nearest = UINT32_MAX;
+    for (int z = 0; z < 12; z++)
+        for (int y = 1; y < 7; y++)
+            for (int x = 1; x < 11; x++) {
+                uint32_t kind = r.tag[cell_at(&r, x, y, z)];
+                uint32_t d = (uint32_t)((x - 5) * (x - 5) + (y - 1) * (y - 1) + (z - 4) * (z - 4));
+                if ((kind & WATER_KIND) <= WATER_SURF && !(kind & WATER_DEAD) && d < nearest)
+                    nearest = d;
+            }
+    assert_int_equal(entry[3], nearest);
+    free(spring);
+    free(entry);
+    routed_free(&bed, &r);
+    bed_free(&bed);
+    gpu_destroy(&gpu);
+}
+
+/* A block with a hollow of 4 x 2 x 3 cells below a roof one cell thick. */
+static float hollow(const struct scene *s, int i, int j, int k)
+{
+    (void)s;
+    return k < 16 && !(i >= 8 && i < 16 && j >= 6 && j < 10 && k >= 8 && k < 14);
+}
+
+static void a_closed_cavity_is_dead_unless_its_roof_leaks(void **state)
+{
+    struct gpu *gpu = open_gpu();
+    struct job job;
+    double year = 1;
+    (void)state;
+    job_of_rain(&job, &year);
+    for (int leak = 0; leak < 2; leak++) {
+        struct bed bed;
+        struct routed r = by_hand(&bed, gpu, hollow, leak, &job);
+        size_t dead = 0, dry = 0;
+        for (int z = 0; z < 12; z++)
+            for (int y = 0; y < 8; y++)
+                for (int x = 0; x < 12; x++) {
+                    uint32_t tag = r.tag[cell_at(&r, x, y, z)];
+                    bool inside = x >= 4 && x < 8 && y >= 3 && y < 5 && z >= 3 && z < 7;
+                    bool air = (tag & WATER_KIND) <= WATER_SURF;
+                    if (inside && air)
+                        dead += (tag & WATER_DEAD) != 0;
+                    else if (air)
+                        assert_false(tag & WATER_DEAD);
+                }
+        for (int x = 4; x < 8; x++)
+            for (int y = 3; y < 5; y++)
+                dry += r.ref.rain[cell_at(&r, x, y, 3)] == 0;
+        print_message("# leak %d: %zu dead cells in the hollow, %zu of 8 floors dry\n", leak, dead, dry);
+        assert_int_equal(dead, leak ? 0 : 32); /* 24 of air, 8 of floor */
+        assert_int_equal(dry, leak ? 0 : 8);
+        routed_free(&bed, &r);
+        bed_free(&bed);
+    }
+    gpu_destroy(&gpu);
+}
+
+/* ---- a plain heightfield */
+
+static float hill(const struct scene *s, int i, int j, int k)
+{
+    double x = (i + 0.5) / s->n[0], y = (j + 0.5) / s->n[1];
+    double height = s->n[2] * (0.3 + 0.45 * x + 0.15 * fabs(y - 0.4) - 0.1 * x * y);
+    return (float)fmin(1, fmax(0, height - k));
+}
+
+struct spot {
+    uint32_t z, c;
+};
+
+static int higher(const void *a, const void *b)
+{
+    const struct spot *p = a, *q = b;
+    return p->z < q->z ? 1 : p->z > q->z ? -1 : 0;
+}
+
+static void a_heightfield_drains_as_in_two_dimensions(void **state)
+{
+    struct gpu *gpu = open_gpu();
+    struct job job;
+    struct scene scene = {.n = {64, 48, 40}};
+    struct water_routing how = {.seed = 9, .frame = 3, .unshifted = true, .cells = true};
+    double year = 1;
+    size_t n = 0, nx = 32, ny = 24, lowered = 0;
+    (void)state;
+    job_of_rain(&job, &year);
+    struct bed bed = bed_of(gpu, &scene, 0.5, hill);
+    struct routed r = route(&bed, &how, &job);
+    struct spot *spot = calloc(nx * ny, sizeof *spot);
+    uint64_t *area = calloc(nx * ny, sizeof *area);
+    uint32_t *node_of = calloc(nx * ny, sizeof *node_of);
+    assert_non_null(spot);
+    assert_non_null(area);
+    assert_non_null(node_of);
+    assert_int_equal(r.water.n_nodes, nx * ny); /* one floor a column */
+    for (size_t i = 0; i < nx * ny; i++) {
+        uint32_t c = r.node_cell[i];
+        spot[n++] = (struct spot){r.z[c], c};
+        area[c % (nx * ny)] = 4;
+        node_of[c % (nx * ny)] = (uint32_t)i;
+    }
+    qsort(spot, n, sizeof *spot, higher);
+    for (size_t i = 0; i < n; i++) {
+        uint32_t c = spot[i].c, to = r.receiver[c], a = c % (uint32_t)(nx * ny), b = to % (uint32_t)(nx * ny);
+        uint32_t apart = a > b ? a - b : b - a;
+        if (r.tag[c] & WATER_OUT)
+            continue;
+        assert_true(apart == 1 || apart == nx);
+        lowered += r.z[to] < r.z[c];
+        area[b] += area[a]; /* from the highest down: done before b gives its own */
+    }
+    for (size_t a = 0; a < nx * ny; a++)
+        if (lowered == n - 2 * nx - 2 * (ny - 2))
+            assert_int_equal(area[a], r.rain[node_of[a]]);
+    print_message("# %zu of %zu receivers are lower neighbours; drainage areas as in two dimensions\n",
+                  lowered, n - 2 * nx - 2 * (ny - 2));
+    assert_int_equal(lowered, n - 2 * nx - 2 * (ny - 2)); /* the hill has no pits */
+    free(spot);
+    free(area);
+    free(node_of);
+    routed_free(&bed, &r);
+    bed_free(&bed);
+    gpu_destroy(&gpu);
+}
+
+/* ---- threads and kernel variants */
+
+struct setting {
+    const char *threads;
+    struct gpu_options options;
+};
+
+static void threads_and_variants_do_not_show(void **state)
+{
+    static const struct setting setting[] = {{"2", {.device = "auto"}},
+                                             {"0", {.device = "auto"}},
+                                             {"1", {.device = "auto"}},
+                                             {"2", {.device = "auto", .variant = VARIANT_STORAGE + 1}},
+                                             {"2", {.device = "auto", .variant = VARIANT_WIDE + 1}}};
+    const char *was = getenv("LP_NUM_THREADS");
+    char *kept = was ? strdup(was) : NULL;
+    struct scene scene = {.n = {60, 52, 48}, .seed = 1001};
+    struct water_routing how = {.seed = 2, .frame = 7, .step = 1, .cells = true};
+    struct routed first = {0};
+    struct bed first_bed = {0};
+    struct job job;
+    double year = 1;
+    (void)state;
+    job_of_rain(&job, &year);
+    for (size_t t = 0; t < sizeof setting / sizeof *setting; t++) {
+        struct gpu *gpu = NULL;
+        setenv("LP_NUM_THREADS", setting[t].threads, 1);
+        assert_ok(gpu_create(&setting[t].options, &gpu));
+        struct bed bed = bed_of(gpu, &scene, 0.25, porous);
+        struct routed r = route(&bed, &how, &job);
+        if (t == 0) {
+            print_message("# %zu cells, %zu spans, %zu basins; LP_NUM_THREADS 0, 1, 2, and other variants\n",
+                          r.ref.n, r.water.n_nodes, r.water.n_basins);
+            first = r;
+            first_bed = bed;
+            continue;
+        }
+        assert_int_equal(r.water.n_nodes, first.water.n_nodes);
+        assert_memory_equal(r.receiver, first.receiver, r.ref.n * 4);
+        assert_memory_equal(r.tag, first.tag, r.ref.n * 4);
+        assert_memory_equal(r.z, first.z, r.ref.n * 4);
+        assert_memory_equal(r.rain, first.rain, r.water.n_nodes * 4);
+        routed_free(&bed, &r);
+        bed_free(&bed);
+        gpu_destroy(&gpu);
+    }
+    struct gpu *gpu = first_bed.gpu;
+    routed_free(&first_bed, &first);
+    bed_free(&first_bed);
+    gpu_destroy(&gpu);
+    kept ? setenv("LP_NUM_THREADS", kept, 1) : unsetenv("LP_NUM_THREADS");
+    free(kept);
+}
+
+/* ---- the surface */
+
+/* Discharge at x by the floors around it, as shaders/water/discharge.glsl says. */
+static double discharge_by_hand(const struct routed *r, const double *at_cell, double cell, const double x[3])
+{
+    const struct flow_ref *f = &r->ref;
+    double c[3], sum = 0, weights = 0;
+    for (int a = 0; a < 3; a++)
+        c[a] = x[a] / cell + 0.5 * r->water.shift[a];
+    for (int s = 0; s < 4; s++) {
+        double low[2] = {floor(c[0] - 0.5), floor(c[1] - 0.5)};
+        int at[2] = {(int)low[0] + (s & 1), (int)low[1] + (s >> 1)}, z;
+        double wx = 1 - fabs(c[0] - 0.5 - at[0]), wy = 1 - fabs(c[1] - 0.5 - at[1]);
+        for (int a = 0; a < 2; a++)
+            at[a] = at[a] < 0 ? 0 : at[a] >= f->cells[a] ? f->cells[a] - 1 : at[a];
+        for (z = (int)c[2] + 1; z >= (int)c[2] - 1; z--)
+            if (z >= 0 && z < f->cells[2] && (r->tag[cell_at(r, at[0], at[1], z)] & WATER_KIND) <= WATER_SURF)
+                break;
+        if (z < (int)c[2] - 1 || z < 0)
+            continue;
+        while (z > 0 && (r->tag[cell_at(r, at[0], at[1], z)] & WATER_KIND) == WATER_EMPTY)
+            z--;
+        uint32_t to = cell_at(r, at[0], at[1], z);
+        if (fabs((r->tag[to] & WATER_KIND) == WATER_SURF ? r->z[to] / 65536.0 - c[2] : -c[2]) > 1.5)
+            continue;
+        sum += wx * wy * at_cell[to];
+        weights += wx * wy;
+    }
+    return weights > 0 ? sum / weights : 0;
+}
+
+static void discharge_and_shear_are_those_of_the_equations(void **state)
+{
+    double frame = 1, year = 0.7, rate = 0.4, threshold = 0.9, worst = 0, worst_shear = 0, most = 0;
+    size_t wet = 0, cut = 0, held = 0;
+    struct gpu *gpu = open_gpu();
+    struct job job;
+    struct scene scene = {.n = {48, 40, 32}};
+    struct water_routing how = {.seed = 4, .frame = 2, .cells = true};
+    const double kyr = 0.1;
+    (void)state;
+    job_of_rain(&job, &year);
+    job.rain.erosion = (struct curve){.n = 1, .frame = &frame, .value = &rate};
+    job.rain.threshold_Pa = (struct curve){.n = 1, .frame = &frame, .value = &threshold};
+    job.rain.shear_Pa = 0.5;
+    job.rain.steepest = 3;
+    struct bed bed = bed_of(gpu, &scene, 0.5, hill);
+    struct routed r = route(&bed, &how, &job);
+    size_t n = bed.p.n_surface;
+    float *erodibility = calloc(bed.p.n, 4), *before = calloc(n, 4), *after = calloc(n, 4);
+    double *at_cell = calloc(r.ref.n, sizeof *at_cell);
+    struct gpu_buffer *intensity = NULL;
+    assert_non_null(erodibility);
+    assert_non_null(before);
+    assert_non_null(after);
+    assert_non_null(at_cell);
+    for (size_t i = 0; i < bed.p.n; i++)
+        erodibility[i] = i % 7 == 0 ? 0 : i % 5 == 0 ? 40 : 0.2f;
+    for (size_t i = 0; i < n; i++)
+        before[i] = (float)unit((uint32_t)i, 5);
+    for (size_t i = 0; i < r.water.n_nodes; i++)
+        at_cell[r.node_cell[i]] = r.rain[i] * r.water.rain_unit;
+    assert_ok(gpu_buffer_create(gpu, "test", n, 4, &intensity));
+    assert_ok(gpu_upload(gpu, intensity, 0, before, n));
+    assert_ok(gpu_upload(gpu, bed.p.field[ROCK_erodibility], 0, erodibility, bed.p.n));
+    water_show(gpu, &r.water, &bed.p);
+    water_erode(gpu, &r.water, &job, 1, kyr, &bed.p, intensity);
+    struct rock rock;
+    uint32_t *surface = download(gpu, bed.p.surface, n);
+    assert_ok(gpu_download(gpu, intensity, 0, after, n));
+    assert_ok(particles_download(gpu, &bed.p, DERIVED, &rock));
+    for (size_t i = 0, s = 0; i < rock.n; i++) {
+        const float *N = &rock.N[4 * i];
+        double q = 0, x[3] = {(double)rock.P[4 * i], (double)rock.P[4 * i + 1], (double)rock.P[4 * i + 2]};
+        bool bare = s < n && surface[s] == i;
+        if (bare && N[2] > 0)
+            q = discharge_by_hand(&r, at_cell, 1, x);
+        worst = fmax(worst, fabs(q - (double)rock.discharge[i]) / fmax(q, 1));
+        most = fmax(most, q);
+        wet += q > 0;
+        if (!bare)
+            continue;
+        double slope = N[2] > 0 ? fmin(hypot((double)N[0], (double)N[1]) / (double)N[2], 3) : 0;
+        double F = rate * fmax(0, 0.5 * pow(q, 0.6) * pow(slope, 0.7) - threshold);
+        double limit = 2 * 0.5 / (kyr * (double)erodibility[i]);
+        if (erodibility[i] <= 0)
+            F = 0;
+        cut += F > 0;
+        held += F > limit;
+        F = fmin(F, limit);
+        worst_shear = fmax(worst_shear, fabs((double)(after[s] - before[s]) - F) / fmax(1, F));
+        s++;
+    }
+    print_message(
+        "# discharge to %.1f m3/yr on %zu particles differs by %.1g; F > 0 on %zu, held to the step on "
+        "%zu, differs by %.1g\n",
+        most, wet, worst, cut, held, worst_shear);
+    assert_true(worst < 1e-4 && worst_shear < 1e-4 && wet > 1000 && cut > 100 && held > 5 && cut > 2 * held);
+    rock_free(&rock);
+    gpu_buffer_destroy(gpu, &intensity);
+    free(surface);
+    free(erodibility);
+    free(before);
+    free(after);
+    free(at_cell);
+    routed_free(&bed, &r);
+    bed_free(&bed);
+    gpu_destroy(&gpu);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(porous_rock_drains_over_its_lowest_passes),
+        cmocka_unit_test(water_falls_off_an_overhang),
+        cmocka_unit_test(a_tunnel_drains_through_its_lower_mouth),
+        cmocka_unit_test(a_closed_cavity_is_dead_unless_its_roof_leaks),
+        cmocka_unit_test(a_heightfield_drains_as_in_two_dimensions),
+        cmocka_unit_test(threads_and_variants_do_not_show),
+        cmocka_unit_test(discharge_and_shear_are_those_of_the_equations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

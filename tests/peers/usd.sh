@@ -1,0 +1,22 @@
+#!/bin/sh
+# Pixar's USD opens a run's stage: metres, axes, time, volumes, points, cameras; for both up axes of files, and half done.
+set -u
+python=$HOODOO_TOP/build/venv-usd/bin/python
+job=$HOODOO_TOP/tests/peers/lib/usd.yaml
+for up in y z; do
+    "$HOODOO" run "$job" --frames 1001-1003 --set "output.up=$up" --out "out_$up" --progress none >log 2>&1 || {
+        echo "not ok a run with output.up $up"
+        sed 's/^/# /' log
+        exit 1
+    }
+    "$python" "$HOODOO_TOP/tests/peers/lib/in_usd.py" "out_$up" "$up" 1003
+done
+cp out_y/9-arches.usda before.usda
+"$HOODOO" run "$job" --out out_y --progress none >log 2>&1 || echo "not ok the rest of the run"
+"$python" "$HOODOO_TOP/tests/peers/lib/in_usd.py" out_y y 1005
+rm -r out_z
+"$HOODOO" run "$job" --out out_z --progress none >log 2>&1 || echo "not ok the run in one go"
+if cmp -s out_y/9-arches.usda out_z/9-arches.usda && ! cmp -s out_y/9-arches.usda before.usda; then echo "ok"; else echo "not ok"; fi | sed 's/$/ a run in two parts has the stage of one in one go/'
+cp out_y/9-arches.usda before.usda && rm out_y/9-arches.usda
+"$HOODOO" run "$job" --out out_y --progress none >log 2>&1
+if cmp -s out_y/9-arches.usda before.usda; then echo "ok"; else echo "not ok"; fi | sed 's/$/ a stage that was removed comes back without a frame made anew/'

@@ -1,0 +1,76 @@
+"""--repair: whatever is flipped, cut or removed, exactly that is made again, and the folder is what it was, byte for byte."""
+
+import os
+import random
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from twelve import *
+
+truth = Truth()
+draw = random.Random(int(os.environ.get("SEED", "5")))
+run("out")
+
+
+def flip(path):
+    """One bit, the size and the time as they were."""
+    path = os.path.join("out", path)
+    info = os.stat(path)
+    with open(path, "r+b") as file:
+        at = draw.randrange(info.st_size)
+        file.seek(at)
+        byte = file.read(1)[0]
+        file.seek(at)
+        file.write(bytes([byte ^ 1 << draw.randrange(8)]))
+    os.utime(path, ns=(info.st_atime_ns, info.st_mtime_ns))
+
+
+def cut(path):
+    path = os.path.join("out", path)
+    os.truncate(path, os.path.getsize(path) // 2)
+
+
+def remove(path):
+    os.remove(os.path.join("out", path))
+
+
+def inodes():
+    return {path: os.stat(os.path.join("out", path)).st_ino for path in tree("out")}
+
+
+def verify():
+    return subprocess.run([HOODOO, "verify", "out"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
+
+
+def repaired(name, damage, frames):
+    """`damage` is done; after --repair all is as it was, and files of other frames were not written again."""
+    before = inodes()
+    for what, path in damage:
+        what(path)
+    found = verify()
+    code, said = run("out", "--repair")
+    after = inodes()
+    again = {path for path in after if before.get(path) != after[path] and not path.startswith(("job", "run", "checkpoint/"))}
+    strangers = {path for path in again if not any(f".{frame}." in path for frame in frames)}
+    ok(found == 3 and code == 0 and truth.differences("out") == "" and not strangers and verify() == 0, name, found, code,
+       truth.differences("out"), strangers, said)
+    print(f"# {name}: {len(again)} files written again")
+
+
+ok(verify() == 0, "a whole folder verifies")
+code, said = run("out", "--repair")
+ok(code == 0 and "all 12 frames are done" in said, "and needs no repair", code, said)
+repaired("a bit of a volume", [(flip, "volumes/twelve.1011.vdb")], [1011])
+repaired("bits of points, a picture and a manifest", [(flip, "points/twelve.1003.vdb"), (flip, "aov/twelve.1007.exr"), (flip, "frames/twelve.1009.json")],
+         [1003, 1007, 1009])
+repaired("files cut and gone", [(cut, "aov/twelve.1012.exr"), (remove, "points/twelve.1001.vdb"), (remove, "frames/twelve.1005.json")], [1001, 1005, 1012])
+repaired("a bit of the last checkpoint", [(flip, "checkpoint/twelve.1012.ckpt")], [])
+repaired("a bit of each checkpoint, and a frame", [(flip, "checkpoint/twelve.1012.ckpt"), (flip, "checkpoint/twelve.1010.ckpt"), (flip, "aov/twelve.1006.exr")],
+         [1006])
+code, said = run("out", "--repair", "--frames", "1005-1006")
+ok(code == 0, "a range of frames alone", code, said)
+flip("volumes/twelve.1005.vdb")
+code, said = run("out", "--repair", "--frames", "1005-1006")
+ok(code == 0 and truth.differences("out") == "", "a block without a checkpoint before it is reached from the start", code, truth.differences("out"), said)
+finish()

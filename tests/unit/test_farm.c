@@ -1,0 +1,281 @@
+/* The graph of tasks, on random jobs: what any scheduler relies on. And what a task's command line and a shell make of
+ * names that mean harm. */
+#include "check.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "farm/command.h"
+
+enum { JOBS = 500, WEDGES = 4 };
+
+/* A number in low..high, a hash of which job it is for and what. */
+static int pick(int job, int what, int low, int high)
+{
+    uint32_t hash = random_hash((uint32_t)job, (uint32_t)what, 77, 1);
+    return low + (int)(hash % (uint32_t)(high - low + 1));
+}
+
+struct sample {
+    struct job job[WEDGES];
+    struct farm_wedge wedge[WEDGES];
+    size_t n;
+};
+
+static void make_sample(int seed, struct sample *s)
+{
+    memset(s, 0, sizeof *s);
+    s->n = (size_t)pick(seed, 1, 1, WEDGES);
+    for (size_t i = 0; i < s->n; i++) {
+        struct job *job = &s->job[i];
+        int first = pick(seed, 2, -20, 1200), step = pick(seed, 3, 1, 4);
+        job->name = (char *)(uintptr_t) "sample";
+        job->frames = (struct frame_range){first, first + step * pick(seed, 4, 0, 120), step};
+        job->output.vdb.every = pick(seed, 5, 1, 7);
+        job->checkpoint.keep = pick(seed, 6, 1, 4);
+        job->farm.block_frames = pick(seed, 7, 1, 60);
+        job->farm.chunk_frames = pick(seed, 8, 1, 20);
+        job->farm.meshes = pick(seed, 9, 0, 1);
+        job->farm.still_every = pick(seed, 10, 0, 5);
+        job->farm.turntable = pick(seed, 11, 0, 1) * 36;
+        job->wedge.index = s->n > 1 ? (int)i + 1 : 0;
+        s->wedge[i].job = job;
+        s->wedge[i].frame_seconds = 1.5;
+        s->wedge[i].estimate = (struct model_estimate){.n_particles = 1000,
+                                                       .device_bytes = 1000000,
+                                                       .host_bytes = 1000,
+                                                       .frame_bytes = 5000,
+                                                       .checkpoint_bytes = 3000};
+    }
+}
+
+static const struct job *job_of(const struct sample *s, const struct farm_task *t)
+{
+    return &s->job[t->wedge ? t->wedge - 1 : 0];
+}
+
+/* How many tasks of `kind` in `wedge` make `frame`; *which is the last of them. */
+static int made(const struct farm_graph *g, enum farm_kind kind, int wedge, int frame, size_t *which)
+{
+    int n = 0;
+    for (size_t i = 0; i < g->n; i++)
+        if (g->task[i].kind == kind && g->task[i].wedge == wedge && range_holds(g->task[i].frames, frame)) {
+            *which = i;
+            n++;
+        }
+    return n;
+}
+
+static bool waits_for(const struct farm_graph *g, size_t task, size_t other)
+{
+    for (size_t k = 0; k < g->task[task].n_after; k++) {
+        size_t before = g->after[g->task[task].after + k];
+        if (before == other || waits_for(g, before, other))
+            return true;
+    }
+    return false;
+}
+
+static void every_frame_is_made_exactly_once(void **state)
+{
+    (void)state;
+    size_t tasks = 0, frames = 0;
+    for (int seed = 0; seed < JOBS; seed++) {
+        struct sample s;
+        struct farm_graph g = {0};
+        make_sample(seed, &s);
+        assert_ok(graph_make(s.wedge, s.n, &g));
+        tasks += g.n;
+        for (size_t w = 0; w < s.n; w++) {
+            const struct job *job = &s.job[w];
+            int index = (int)job->wedge.index;
+            size_t sim = SIZE_MAX, other = SIZE_MAX;
+            for (int frame = job->frames.first - 3; frame <= job->frames.last + 3; frame++) {
+                bool own = range_holds(job->frames, frame);
+                frames += own;
+                assert_int_equal(made(&g, FARM_SIM, index, frame, &sim), own);
+                assert_int_equal(made(&g, FARM_MESH, index, frame, &other),
+                                 own && job->farm.meshes && graph_has_volumes(job, frame));
+                if (own && job->farm.meshes && graph_has_volumes(job, frame))
+                    assert_true(waits_for(&g, other, sim));
+                assert_int_equal(made(&g, FARM_STILL, index, frame, &other),
+                                 own && graph_has_still(job, frame));
+                if (own && graph_has_still(job, frame))
+                    assert_true(waits_for(&g, other, sim));
+            }
+        }
+        graph_free(&g);
+    }
+    print_message("# %d random jobs: %zu tasks, %zu frames\n", JOBS, tasks, frames);
+}
+
+static void tasks_stand_behind_what_they_wait_for(void **state)
+{
+    (void)state;
+    for (int seed = 0; seed < JOBS; seed++) {
+        struct sample s;
+        struct farm_graph g = {0};
+        size_t last_sim[WEDGES + 1];
+        make_sample(seed, &s);
+        assert_ok(graph_make(s.wedge, s.n, &g));
+        memset(last_sim, 0xff, sizeof last_sim);
+        for (size_t i = 0; i < g.n; i++) {
+            const struct farm_task *t = &g.task[i];
+            for (size_t k = 0; k < t->n_after; k++)
+                assert_true(g.after[t->after + k] < i); /* so there is no circle */
+            assert_true(range_count(t->frames) <=
+                        (size_t)(t->kind == FARM_SIM    ? job_of(&s, t)->farm.block_frames
+                                 : t->kind < FARM_SHEET ? job_of(&s, t)->farm.chunk_frames
+                                                        : 100000));
+            if (t->kind == FARM_SIM) {
+                /* A block waits for the one before it, and for nothing else. */
+                size_t before = last_sim[t->wedge];
+                assert_int_equal(t->n_after, before != SIZE_MAX);
+                if (before != SIZE_MAX) {
+                    assert_int_equal(g.after[t->after], before);
+                    assert_int_equal(g.task[before].frames.last + t->frames.step, t->frames.first);
+                }
+                last_sim[t->wedge] = i;
+            }
+            /* A finish waits for all it shows. */
+            for (size_t k = 0; k < g.n && t->kind == FARM_SHEET; k++)
+                if (g.task[k].kind == FARM_STILL && g.task[k].wedge == t->wedge)
+                    assert_true(waits_for(&g, i, k));
+            if (t->kind == FARM_TURNTABLE)
+                assert_true(waits_for(&g, i, last_sim[t->wedge]));
+            for (size_t k = 0; k < i; k++)
+                assert_string_not_equal(g.task[k].name, t->name);
+            assert_int_equal(strspn(t->name, "abcdefghijklmnopqrstuvwxyz0123456789.-"), strlen(t->name));
+        }
+        graph_free(&g);
+    }
+}
+
+static void longer_jobs_take_longer(void **state)
+{
+    (void)state;
+    for (int seed = 0; seed < JOBS; seed++) {
+        struct sample s;
+        struct farm_graph a = {0}, b = {0};
+        double seconds[2] = {0}, disk[2] = {0};
+        make_sample(seed, &s);
+        assert_ok(graph_make(s.wedge, s.n, &a));
+        for (size_t i = 0; i < s.n; i++) {
+            s.job[i].frames.last += s.job[i].frames.step * pick(seed, 20, 1, 50);
+            s.wedge[i].estimate.n_particles *= 2;
+        }
+        assert_ok(graph_make(s.wedge, s.n, &b));
+        for (size_t i = 0; i < a.n; i++) {
+            seconds[0] += a.task[i].seconds;
+            disk[0] += (double)a.task[i].disk_bytes;
+            /* Inside one graph: more frames, more time. */
+            for (size_t k = 0; k < i; k++)
+                if (a.task[k].kind == a.task[i].kind &&
+                    range_count(a.task[k].frames) > range_count(a.task[i].frames))
+                    assert_true(a.task[k].seconds > a.task[i].seconds);
+        }
+        for (size_t i = 0; i < b.n; i++) {
+            seconds[1] += b.task[i].seconds;
+            disk[1] += (double)b.task[i].disk_bytes;
+        }
+        assert_true(seconds[1] > seconds[0] && disk[1] > disk[0]);
+        graph_free(&a);
+        graph_free(&b);
+    }
+}
+
+static const char *const hostile[] = {
+    "plain",
+    "two words",
+    "it's",
+    "\"",
+    "$(touch pwned)",
+    "`touch pwned`",
+    "a\nopenjd_env: X=1",
+    "; touch pwned",
+    "../..",
+    "-rf",
+    "\\",
+    "%j%A",
+    "{{Param.X}}",
+    "\xc3\xa9\xe5\xb2\xa9",
+    "*",
+    "~",
+    "!!",
+    "&&touch pwned",
+    "#",
+    "'$(touch pwned)'",
+};
+
+static void a_shell_takes_quoted_words_as_they_are(void **state)
+{
+    (void)state;
+    struct text line = {0};
+    char got[4096] = "", want[4096] = "";
+    text_add(&line, "printf '%%s\\000'");
+    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++) {
+        text_add(&line, " ");
+        farm_quote(&line, hostile[i]);
+    }
+    assert_ok(text_status(&line));
+    FILE *f = popen(line.data, "r");
+    assert_non_null(f);
+    size_t n = fread(got, 1, sizeof got, f), at = 0;
+    assert_int_equal(pclose(f), 0);
+    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++) {
+        strcpy(want + at, hostile[i]);
+        at += strlen(hostile[i]) + 1;
+    }
+    assert_int_equal(n, at);
+    assert_memory_equal(got, want, at);
+    assert_int_not_equal(access("pwned", F_OK), 0);
+    text_free(&line);
+}
+
+static void paths_stay_single_words_of_a_command(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++) {
+        struct sample s;
+        struct farm f = {0};
+        struct farm_command *c;
+        assert_ok(memory_alloc(1, sizeof *c, "a command", &c));
+        make_sample(3, &s);
+        f.wedge = s.wedge;
+        f.n_wedges = s.n;
+        snprintf(f.root, sizeof f.root, "/x/%s", hostile[i]);
+        snprintf(f.hoodoo, sizeof f.hoodoo, "/bin/%s", hostile[i]);
+        assert_ok(graph_make(s.wedge, s.n, &f.graph));
+        for (size_t k = 0; k < f.graph.n; k++) {
+            bool root = false;
+            farm_command(&f, &f.graph.task[k], hostile[i], c);
+            assert_string_equal(c->argv[0], f.hoodoo);
+            for (size_t word = 1; word < c->n; word++) {
+                root |= strncmp(c->argv[word], f.root, strlen(f.root)) == 0;
+                /* No word but an option of ours begins with a dash. */
+                if (c->argv[word][0] == '-')
+                    assert_memory_equal(c->argv[word], "--", 2);
+            }
+            assert_true(root);
+            assert_null(c->argv[c->n]);
+        }
+        graph_free(&f.graph);
+        free(c);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_frame_is_made_exactly_once),
+        cmocka_unit_test(tasks_stand_behind_what_they_wait_for),
+        cmocka_unit_test(longer_jobs_take_longer),
+        cmocka_unit_test(a_shell_takes_quoted_words_as_they_are),
+        cmocka_unit_test(paths_stay_single_words_of_a_command),
+    };
+    return cmocka_run_group_tests_name("farm", tests, NULL, NULL);
+}
