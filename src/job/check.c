@@ -101,6 +101,44 @@ static status check_paint(const struct yaml *map, const struct job_paint *p)
     return OK;
 }
 
+static status check_material(const struct yaml *map, const struct job_material *m)
+{
+    if (m->repose_deg < 0 && m->repose_deg != -1)
+        return yaml_fail(place(map, "repose_deg"), NULL, "negative (0 to 90, or -1 for its own)");
+    if (strcmp(m->name, "air") == 0)
+        return yaml_fail(map, NULL, "air is not a material to change");
+    return OK;
+}
+
+/* What each tool needs. */
+static status check_operation(const struct yaml *map, const struct job_operation *op)
+{
+    if (op->n_points_m == 0 && op->tool != TOOL_NOISE)
+        return yaml_fail(place(map, "points_m"), NULL,
+                         "this tool needs at least one point [x, y, z, radius]");
+    for (size_t i = 0; i < op->n_points_m; i++)
+        if (!(op->points_m[i][3] > 0))
+            return yaml_fail(yaml_item(yaml_get(map, "points_m"), i), NULL, "a radius of %g m (above 0)",
+                             op->points_m[i][3]);
+    for (size_t i = 0; i < op->n_arcs; i++)
+        for (int end = 0; end < 2; end++) {
+            double at = op->arcs[i][end];
+            if (at != floor(at) || at >= (double)op->n_points_m || op->arcs[i][0] == op->arcs[i][1])
+                return yaml_fail(yaml_item(yaml_get(map, "arcs"), i), NULL,
+                                 "[%g, %g] does not join two of the %zu points, which count from 0",
+                                 op->arcs[i][0], op->arcs[i][1], op->n_points_m);
+        }
+    if (op->n_profile && op->n_profile < 3)
+        return yaml_fail(yaml_get(map, "profile"), NULL, "%zu points close no curve (at least 3)",
+                         op->n_profile);
+    if (op->n_end_profile && op->n_end_profile != op->n_profile)
+        return yaml_fail(yaml_get(map, "end_profile"), NULL, "%zu points, and profile has %zu",
+                         op->n_end_profile, op->n_profile);
+    if (op->tool == TOOL_SWEEP && op->n_points_m < 2)
+        return yaml_fail(place(map, "points_m"), NULL, "a sweep needs at least two points");
+    return OK;
+}
+
 status check_section(enum job_section_id section, const struct yaml *map, const void *base)
 {
     switch (section) {
@@ -129,6 +167,10 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
         return check_wind(map, base);
     case SECTION_camera:
         return check_camera(map, base);
+    case SECTION_material:
+        return check_material(map, base);
+    case SECTION_operation:
+        return check_operation(map, base);
     default:
         return OK;
     }
