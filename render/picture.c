@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "model/terrain.h"
 #include "output/folder.h"
 
 /* More shows as flat facets in raking light. */
@@ -85,11 +86,20 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     struct vdb_mesh mesh = {0};
     struct camera *camera = NULL;
     struct text text = {0};
+    bool terrain = p->job->model == MODEL_ARCHES;
+    struct pile_tile tile = {0};
+    struct rock rocks = {0};
     struct scene scene = {.job = p->job, .frame = frame, .mesh = &mesh, .preset = p->preset};
     const struct job_camera *own = chosen_camera(p);
     volumes_path(p, frame, volumes);
     snprintf(full, sizeof full, "%s/%s", p->root, volumes);
-    TRY(vdb_mesh_read(full, ADAPTIVITY, scene_values, SCENE_VALUES, SCENE_VALUES, &mesh));
+    TRY(vdb_mesh_read(full, terrain ? 0 : ADAPTIVITY, scene_values, SCENE_VALUES, SCENE_VALUES, &mesh));
+    if (terrain && p->job->arches.piles.rock_m > 0) {
+        TRY(terrain_tile(p->job, &tile));
+        TRY(folder_path(full, p->root, p->job->name, FILE_ROCKS, frame, NULL));
+        TRY(vdb_points_read(full, &rocks));
+        scene.rocks = (struct scene_rocks){&tile, &rocks};
+    }
     TRY(scene_bounds(&scene));
     TRY(memory_alloc((size_t)(views ? views : 1), sizeof *camera, "cameras", &camera));
     size_of(p, own, views > 0, width, height);
@@ -105,6 +115,8 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     TRY(atomic_file_write(full, text.data, text.size));
 done:
     text_free(&text);
+    pile_tile_destroy(&tile);
+    rock_free(&rocks);
     free(camera);
     vdb_mesh_free(&mesh);
     return st;

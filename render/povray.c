@@ -15,8 +15,10 @@
 #include "job/palette.h"
 #include "render/scene_parts.h"
 
-const char *const scene_values[SCENE_VALUES] = {
-    [SCENE_VEGETATION] = "vegetation", [SCENE_DEPOSIT] = "deposit"};
+const char *const scene_values[SCENE_VALUES] = {[SCENE_VEGETATION] = "vegetation",
+                                                [SCENE_DEPOSIT] = "deposit",
+                                                [SCENE_BEDROCK] = "bedrock",
+                                                [SCENE_SAND] = "sand"};
 
 status scene_bounds(struct scene *s)
 {
@@ -101,6 +103,41 @@ static void add_strata(struct text *out, const struct scene *s)
     text_add(out, "}\n");
 }
 
+static bool is_terrain(const struct scene *s)
+{
+    return s->job->model == MODEL_ARCHES;
+}
+
+/* terrain.inc's textures: quarters of sand, then of the axes. */
+enum { QUARTERS = 4, AXIS_SHARES = 15 };
+
+static void add_textures(struct text *out)
+{
+    text_add(out, "}\ntexture_list { %d", (QUARTERS + 1) * AXIS_SHARES);
+    for (int sand = 0; sand <= QUARTERS; sand++)
+        for (int axes = 0; axes < AXIS_SHARES; axes++)
+            text_add(out, ",\ntexture { Ground[%d][%d] }", sand, axes);
+}
+
+/* Shares of the axes by the normal, to the power of 8 (Arches 6), and of sand in what shows. */
+static int texture_of(const struct vdb_mesh *m, uint32_t vertex)
+{
+    const float *n = m->normal + 3 * (size_t)vertex;
+    double power[3], sum = 1e-30, bedrock = (double)m->value[SCENE_BEDROCK * m->n_vertices + vertex];
+    double sand = (double)m->value[SCENE_SAND * m->n_vertices + vertex];
+    for (int a = 0; a < 3; a++) {
+        power[a] = pow(fabs((double)n[a]), 8);
+        sum += power[a];
+    }
+    int x = (int)lrint(QUARTERS * power[0] / sum), y = (int)lrint(QUARTERS * power[1] / sum);
+    y = y > QUARTERS - x ? QUARTERS - x : y;
+    int before = 0;
+    for (int k = 0; k < x; k++)
+        before += QUARTERS + 1 - k;
+    int share = (int)lrint(QUARTERS * (sand > 0 ? sand / (sand + bedrock) : 0));
+    return (share > QUARTERS ? QUARTERS : share) * AXIS_SHARES + before + y;
+}
+
 /* Which texture of the list a vertex has: rock, scree, or plants by their cover. */
 static int ground_of(const struct vdb_mesh *m, size_t vertex)
 {
@@ -127,10 +164,12 @@ static void add_mesh(struct text *out, const struct scene *s)
         const float *v = m->normal + 3 * i;
         text_add(out, ",\n<%.3f,%.3f,%.3f>", (double)v[0], (double)v[1], (double)v[2]);
     }
-    bool bare = true;
+    bool bare = !is_terrain(s);
     for (size_t i = 0; i < m->n_vertices && bare; i++)
         bare = ground_of(m, i) == 0;
-    if (!bare)
+    if (is_terrain(s))
+        add_textures(out);
+    else if (!bare)
         text_add(out, "}\n"
                       "texture_list { 5, texture { Sandstone }, texture { Talus }, texture { Plants[0] }, "
                       "texture { Plants[1] }, texture { Plants[2] }");
@@ -138,10 +177,53 @@ static void add_mesh(struct text *out, const struct scene *s)
     for (size_t i = 0; i < m->n_triangles; i++) {
         const uint32_t *t = m->triangle + 3 * i;
         text_add(out, ",\n<%u,%u,%u>", t[0], t[1], t[2]);
-        if (!bare)
+        if (is_terrain(s))
+            text_add(out, ",%d,%d,%d", texture_of(m, t[0]), texture_of(m, t[1]), texture_of(m, t[2]));
+        else if (!bare)
             text_add(out, ",%d,%d,%d", ground_of(m, t[0]), ground_of(m, t[1]), ground_of(m, t[2]));
     }
     text_add(out, "}\n%s}\n\n", bare ? "texture { Sandstone }\n" : "");
+}
+
+/* Every shape of rock that is used, once; then where they lie. */
+static status add_rocks(struct text *out, const struct scene *s)
+{
+    const struct pile_tile *tile = s->rocks.tile;
+    const struct rock *at = s->rocks.at;
+    int digits = (int)fmax(0, ceil(log10(200 / tile->radius)));
+    for (size_t k = 0; k < tile->n; k++) {
+        const struct pile_rock *r = &tile->rock[k];
+        text_add(out, "#declare Rock_%zu = mesh2 {\nvertex_vectors { %zu", k, r->n_vertices);
+        for (size_t i = 0; i < r->n_vertices; i++)
+            text_add(out, ",\n<%.*f,%.*f,%.*f>", digits, (double)r->vertex[3 * i], digits,
+                     (double)r->vertex[3 * i + 1], digits, (double)r->vertex[3 * i + 2]);
+        text_add(out, "}\nnormal_vectors { %zu", r->n_vertices);
+        for (size_t i = 0; i < r->n_vertices; i++)
+            text_add(out, ",\n<%.3f,%.3f,%.3f>", (double)r->normal[3 * i], (double)r->normal[3 * i + 1],
+                     (double)r->normal[3 * i + 2]);
+        text_add(out, "}\nface_indices { %zu", tile->n_triangles);
+        for (size_t i = 0; i < tile->n_triangles; i++)
+            text_add(out, ",\n<%u,%u,%u>", tile->triangle[3 * i], tile->triangle[3 * i + 1],
+                     tile->triangle[3 * i + 2]);
+        text_add(out, "}\n}\n");
+    }
+    for (size_t i = 0; i < at->n; i++) {
+        if (at->layer[i] >= tile->n)
+            return fail(E_INPUT, "frame %d: rock %zu is of shape %u, and there are %zu", s->frame, i,
+                        (unsigned)at->layer[i], tile->n);
+        text_add(out, "object { Rock_%u texture { Rubble } translate <%.*f,%.*f,%.*f> }\n",
+                 (unsigned)at->layer[i], digits, (double)at->P[4 * i], digits, (double)at->P[4 * i + 1],
+                 digits, (double)at->P[4 * i + 2]);
+    }
+    return OK;
+}
+
+static void add_color(struct text *out, const char *name, const struct job *job, size_t layer)
+{
+    float rgb[3];
+    palette_color(job, layer, rgb);
+    text_add(out, "#declare %s = <%.4f, %.4f, %.4f>;\n", name, (double)rgb[0], (double)rgb[1],
+             (double)rgb[2]);
 }
 
 static void add_part(struct text *out, const char *const *line)
@@ -176,9 +258,16 @@ status scene_write(const struct scene *s, struct text *out)
     add_strata(out, s);
     add_part(out, scene_sandstone);
     add_part(out, scene_scree);
+    if (is_terrain(s)) {
+        add_color(out, "Sand_Color", s->job, s->job->n_strata);
+        add_color(out, "Rock_Color", s->job, s->job->n_strata + 1);
+        text_add(out, "#declare Rubble_Radius = %.9g;\n", s->rocks.tile ? s->rocks.tile->radius : 1.0);
+        add_part(out, scene_terrain);
+    }
     add_mesh(out, s);
     add_part(out, scene_light);
     add_part(out, scene_sky);
     text_add(out, "object { Rock }\n");
-    return text_status(out);
+    status st = s->rocks.tile ? add_rocks(out, s) : OK;
+    return st == OK ? text_status(out) : st;
 }

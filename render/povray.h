@@ -5,17 +5,25 @@
 #include "base/text.h"
 #include "field/camera.h"
 #include "output/vdb.h"
+#include "piles/piles.h"
 
 enum preset { PRESET_DRAFT, PRESET_PREVIEW, PRESET_FINAL };
 
+/* Rocks in piles: the tile's shapes, and where they lie. */
+struct scene_rocks {
+    const struct pile_tile *tile;
+    const struct rock *at; /* P, and in `layer` which of the tile */
+};
+
 /* The values the mesh comes with, 0 where a job has none. */
-enum { SCENE_VEGETATION, SCENE_DEPOSIT, SCENE_VALUES };
+enum { SCENE_VEGETATION, SCENE_DEPOSIT, SCENE_BEDROCK, SCENE_SAND, SCENE_VALUES };
 extern const char *const scene_values[SCENE_VALUES];
 
 struct scene {
     const struct job *job;
     int frame;
-    const struct vdb_mesh *mesh;
+    const struct vdb_mesh *mesh; /* model arches: with the values bedrock and sand */
+    struct scene_rocks rocks;    /* tile NULL: none */
     double low[3], high[3];      /* m: the mesh's bounds */
     const struct camera *camera; /* one a view: povray's Declare=View=2 takes the third */
     size_t n_cameras;            /* >= 1 */

@@ -7,6 +7,7 @@
 extern const char *const scene_light[];     /* lens, sun, skylight */
 extern const char *const scene_sky[];       /* sky, haze, sand */
 extern const char *const scene_sandstone[]; /* the rock's texture */
+extern const char *const scene_terrain[];   /* textures of ground and rubble, for model arches */
 extern const char *const scene_scree[];     /* textures of deposits and of plants on them */
 
 #endif

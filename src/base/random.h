@@ -17,6 +17,7 @@ enum random_purpose {
     RANDOM_WATER = 4,
     RANDOM_DEPOSIT = 5,
     RANDOM_PLANTS = 6,
+    RANDOM_PILES = 7,
     RANDOM_PAINT = 20
 };
 

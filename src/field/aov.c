@@ -67,11 +67,11 @@ status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struc
     TRY(gpu_buffer_create(gpu, "picture weather", n_pixels, 16, &a->weather));
     TRY(gpu_buffer_create(gpu, "picture ids", 3 * n_pixels, 4, &a->ids));
     TRY(gpu_buffer_create(gpu, "still air", 1, 16, &a->still));
-    TRY(gpu_buffer_create(gpu, "palette", job->n_strata, 16, &a->palette));
-    TRY(memory_alloc(job->n_strata, sizeof *palette, "the palette", &palette));
-    for (size_t i = 0; i < job->n_strata; i++)
+    TRY(gpu_buffer_create(gpu, "palette", palette_size(job), 16, &a->palette));
+    TRY(memory_alloc(palette_size(job), sizeof *palette, "the palette", &palette));
+    for (size_t i = 0; i < palette_size(job); i++)
         palette_color(job, i, palette[i]);
-    TRY(gpu_upload(gpu, a->palette, 0, palette, job->n_strata));
+    TRY(gpu_upload(gpu, a->palette, 0, palette, palette_size(job)));
 done:
     free(palette);
     if (st != OK)

@@ -65,11 +65,10 @@ static struct field_params params_of(const struct field *f, const struct particl
     };
 }
 
-void field_build(struct gpu *gpu, struct field *f, struct particles *p)
+/* Means and distance, from the share. */
+static void finish(struct gpu *gpu, struct field *f, struct particles *p)
 {
     struct field_params k = params_of(f, p);
-    particles_fill(gpu, p);
-    GPU_RUN(gpu, field_share, k.n, k, p->fill, f->share);
     GPU_RUN(gpu, field_means, k.n, k, p->start, p->field[ROCK_stress], p->field[ROCK_von_mises],
             p->field[ROCK_viability], p->field[ROCK_phase], f->share, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->share, f->distance);
@@ -78,6 +77,22 @@ void field_build(struct gpu *gpu, struct field *f, struct particles *p)
         GPU_RUN(gpu, field_distance, k.n, k, f->distance, f->other);
         GPU_RUN(gpu, field_distance, k.n, k, f->other, f->distance);
     }
+}
+
+void field_build(struct gpu *gpu, struct field *f, struct particles *p)
+{
+    struct field_params k = params_of(f, p);
+    particles_fill(gpu, p);
+    GPU_RUN(gpu, field_share, k.n, k, p->fill, f->share);
+    finish(gpu, f, p);
+}
+
+status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, const float *share)
+{
+    status st = gpu_upload(gpu, f->share, 0, share, sample_count(f));
+    if (st == OK)
+        finish(gpu, f, p);
+    return st;
 }
 
 /* `other` is free once the distances are there. */

@@ -32,6 +32,10 @@ void field_destroy(struct gpu *gpu, struct field *f);
 /* From the particles, whose stress must be current. Records only. */
 void field_build(struct gpu *gpu, struct field *f, struct particles *p);
 
+/* The same from a rock's share that is known at every sample (host memory, 0..1; 1/2 on the surface); the
+ * particles only say what lies near it. Waits. */
+MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, const float *share);
+
 /* The field of a frame that was written: surface, stress, von_mises, viability and deposit from its grids, what
  * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
 MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);

@@ -101,6 +101,44 @@ static status check_paint(const struct yaml *map, const struct job_paint *p)
     return OK;
 }
 
+static status check_material(const struct yaml *map, const struct job_material *m)
+{
+    if (m->repose_deg < 0 && m->repose_deg != -1)
+        return yaml_fail(place(map, "repose_deg"), NULL, "negative (0 to 90, or -1 for its own)");
+    if (strcmp(m->name, "air") == 0)
+        return yaml_fail(map, NULL, "air is not a material to change");
+    return OK;
+}
+
+/* What each tool needs. */
+static status check_operation(const struct yaml *map, const struct job_operation *op)
+{
+    if (op->n_points_m == 0 && op->tool != TOOL_NOISE)
+        return yaml_fail(place(map, "points_m"), NULL,
+                         "this tool needs at least one point [x, y, z, radius]");
+    for (size_t i = 0; i < op->n_points_m; i++)
+        if (!(op->points_m[i][3] > 0))
+            return yaml_fail(yaml_item(yaml_get(map, "points_m"), i), NULL, "a radius of %g m (above 0)",
+                             op->points_m[i][3]);
+    for (size_t i = 0; i < op->n_arcs; i++)
+        for (int end = 0; end < 2; end++) {
+            double at = op->arcs[i][end];
+            if (at != floor(at) || at >= (double)op->n_points_m || op->arcs[i][0] == op->arcs[i][1])
+                return yaml_fail(yaml_item(yaml_get(map, "arcs"), i), NULL,
+                                 "[%g, %g] does not join two of the %zu points, which count from 0",
+                                 op->arcs[i][0], op->arcs[i][1], op->n_points_m);
+        }
+    if (op->n_profile && op->n_profile < 3)
+        return yaml_fail(yaml_get(map, "profile"), NULL, "%zu points close no curve (at least 3)",
+                         op->n_profile);
+    if (op->n_end_profile && op->n_end_profile != op->n_profile)
+        return yaml_fail(yaml_get(map, "end_profile"), NULL, "%zu points, and profile has %zu",
+                         op->n_end_profile, op->n_profile);
+    if (op->tool == TOOL_SWEEP && op->n_points_m < 2)
+        return yaml_fail(place(map, "points_m"), NULL, "a sweep needs at least two points");
+    return OK;
+}
+
 status check_section(enum job_section_id section, const struct yaml *map, const void *base)
 {
     switch (section) {
@@ -129,6 +167,10 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
         return check_wind(map, base);
     case SECTION_camera:
         return check_camera(map, base);
+    case SECTION_material:
+        return check_material(map, base);
+    case SECTION_operation:
+        return check_operation(map, base);
     default:
         return OK;
     }
@@ -143,6 +185,25 @@ static status check_strata(const struct yaml *root, const struct job *job)
                 place(yaml_item(list, i), "to_m"), NULL,
                 "%g m is not above the layer below, which reaches to %g m (strata are listed bottom up)",
                 job->strata[i].to_m, job->strata[i - 1].to_m);
+    return OK;
+}
+
+static status check_farm_cameras(const struct yaml *root, const struct job *job)
+{
+    const struct yaml *farm = yaml_get(root, "farm"), *list = farm ? yaml_get(farm, "cameras") : NULL;
+    for (size_t i = 0; i < job->farm.n_cameras; i++) {
+        bool found = false;
+        for (size_t k = 0; k < job->n_cameras; k++)
+            found |= strcmp(job->farm.cameras[i], job->cameras[k].name) == 0;
+        if (!found)
+            return yaml_fail(yaml_item(list, i), NULL, "no camera '%s' in cameras", job->farm.cameras[i]);
+        /* With one AOV camera its pictures carry no camera's name, so the names cannot clash. */
+        for (size_t k = 0; k < job->output.aov.n_cameras && job->output.aov.n_cameras > 1; k++)
+            if (strcmp(job->farm.cameras[i], job->output.aov.cameras[k]) == 0)
+                return yaml_fail(yaml_item(list, i), NULL,
+                                 "camera '%s' is one of output.aov.cameras: the run makes its pictures",
+                                 job->farm.cameras[i]);
+    }
     return OK;
 }
 
@@ -276,6 +337,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_edits(root, job));
     TRY(check_wedge(root, &job->wedge));
     TRY(check_aov_layers(root, job));
+    TRY(check_farm_cameras(root, job));
 done:
     return st;
 }

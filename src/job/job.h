@@ -37,7 +37,8 @@ enum job_shape {
     SHAPE_MESH,
     SHAPE_HEIGHTFIELD,
     SHAPE_JOINTMAP,
-    SHAPE_STROKE
+    SHAPE_STROKE,
+    SHAPE_STACKS
 };
 
 /* What an edit sets. */
@@ -106,12 +107,18 @@ struct job_node {
         struct job_heightfield heightfield;
         struct job_jointmap jointmap;
         struct job_stroke stroke;
+        struct job_stacks stacks;
         struct job_group group; /* operators */
     } u;
 };
 
 enum { WEDGE_ZIP, WEDGE_CROSS };
-enum { MODEL_ARENITE, MODEL_GOBLINS };
+enum { MODEL_ARENITE, MODEL_GOBLINS, MODEL_ARCHES };
+enum { TOOL_SCULPT, TOOL_SWEEP, TOOL_DEPOSIT, TOOL_ERODE, TOOL_FILL, TOOL_NOISE };
+enum { MODE_CARVE, MODE_ADD };
+enum { DEPTH_SURFACE, DEPTH_DEEP };
+enum { EDGES_CLOSED, EDGES_OPEN };
+enum { STACKS_LAST, STACKS_ALL, STACKS_NONE };
 enum { FLOW_SPH, FLOW_UNIFORM };
 enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
 enum { STRESS_PCG, STRESS_MPM };

@@ -7,4 +7,7 @@
 /* Linear Rec. 709, 0..1. */
 void palette_color(const struct job *job, size_t layer, float rgb[3]);
 
+/* How many there are: the strata, and with model arches sand, rock, water and the job's further materials. */
+size_t palette_size(const struct job *job);
+
 #endif

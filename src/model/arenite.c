@@ -600,6 +600,8 @@ static status begin(struct model *m)
     TRY(scene_sample(m->whole, &rock));
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
     TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
+    for (size_t i = 0; i < rock.n && !m->deposits; i++)
+        m->deposits = rock.phase[i] == PHASE_DEPOSIT; /* a scene of stacks has loose ground */
     TRY(create_particles(m, &rock));
     TRY(count_rock(m));
     if (m->collapse.shot)

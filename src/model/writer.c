@@ -44,13 +44,27 @@ done:
     return st;
 }
 
+/* The same, into a folder that not every job has. */
+static status put_beside(const char *root, const char *name, enum folder_file kind, int frame,
+                         struct vdb_bytes *file, struct manifest *manifest)
+{
+    status st = OK;
+    char path[4096], folder[4096];
+    TRY(folder_path(path, root, name, kind, frame, NULL));
+    snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(path, '/') - path), path);
+    TRY(folder_make(folder));
+    TRY(put(root, path, file, manifest));
+done:
+    return st;
+}
+
 static status put_vdbs(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame,
                        struct manifest *manifest)
 {
     status st = OK;
     char path[4096];
     struct vdb_bytes file = {0};
-    size_t n_layers = job->n_strata;
+    size_t n_layers = palette_size(job);
     float(*color)[3] = NULL;
     struct vdb_options options = {
         .up = job->output.up,
@@ -80,6 +94,14 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
     TRY(vdb_volumes(&frame->grids, &options, &file));
     TRY(folder_path(path, root, job->name, FILE_VOLUMES, frame->number, NULL));
     TRY(put(root, path, &file, manifest));
+    if (frame->rocks.wanted) {
+        options.identity = identity(job_hash, frame->number, FILE_ROCKS);
+        options.instances = true;
+        options.points = VDB_POINTS_ALL;
+        options.spacing = job->arches.piles.rock_m;
+        TRY(vdb_points(&frame->rocks.at, &options, &file));
+        TRY(put_beside(root, job->name, FILE_ROCKS, frame->number, &file, manifest));
+    }
 done:
     free(file.bytes);
     free(color);
@@ -129,6 +151,12 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
     if (vdbs)
         TRY(put_vdbs(job, job_hash, root, frame, &manifest));
     TRY(put_images(job, job_hash, root, frame, &manifest));
+    if (frame->stacks.bytes) {
+        struct vdb_bytes copy = {.size = frame->stacks.size};
+        TRY(memory_alloc(copy.size, 1, "terrain", &copy.bytes));
+        memcpy(copy.bytes, frame->stacks.bytes, copy.size);
+        TRY(put_beside(root, job->name, FILE_STACKS, frame->number, &copy, &manifest));
+    }
     TRY(manifest_write(root, job->name, &manifest));
 done:
     manifest_free(&manifest);

@@ -20,10 +20,12 @@ static const struct {
     [FILE_MANIFEST] = {"frames", "json"},
     [FILE_CHECKPOINT] = {"checkpoint", "ckpt"},
     [FILE_MESH] = {"mesh", "ply"},
+    [FILE_ROCKS] = {"rocks", "vdb"},
+    [FILE_STACKS] = {"stacks", "stacks"},
     [FILE_USD] = {"points", "usdc"},
 };
 
-/* Made by the verbs that fill them: mesh, preview, turntable, report, log. */
+/* Made by who fills them: rocks and stacks by the writer, the others by their verbs: mesh, preview, turntable, report, log. */
 static const enum folder_file always[] = {FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST,
                                           FILE_CHECKPOINT};
 

@@ -10,7 +10,17 @@
 #include "base/text.h"
 #include "particles/frame.h"
 
-enum folder_file { FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST, FILE_CHECKPOINT, FILE_MESH, FILE_USD };
+enum folder_file {
+    FILE_POINTS,
+    FILE_VOLUMES,
+    FILE_AOV,
+    FILE_MANIFEST,
+    FILE_CHECKPOINT,
+    FILE_MESH,
+    FILE_USD,
+    FILE_ROCKS,
+    FILE_STACKS
+};
 
 /* root/points/NAME.1001.vdb and so on: `root` is the output folder, `name` the job's. Frames are written with
  * at least four digits. `camera`: FILE_AOV only, put in the name (NAME.CAMERA.1001.exr) when the job has more

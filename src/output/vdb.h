@@ -25,6 +25,7 @@ struct vdb_options {
     int codec;               /* VDB_CODEC_* */
     bool half;               /* volumes only; never for points */
     int points;              /* VDB_POINTS_* */
+    bool instances;          /* points: with `orient` (no turn) and `variant` (the layer), pscale 1 */
     int frame;               /* metadata */
     double spacing;          /* m: pscale is half of it; surface particles are those with a normal */
     uint64_t identity;       /* of run, frame and kind of file */

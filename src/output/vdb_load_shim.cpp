@@ -22,9 +22,10 @@ using openvdb::points::PointDataGrid;
 
 const struct {
     const char *name, *unit;
-} known[] = {{"surface", "m"},    {"density", ""},   {"stress", "Pa"},
-             {"von_mises", "Pa"}, {"viability", ""}, {"discharge", "m3/yr"},
-             {"vegetation", ""},  {"deposit", ""},   {"vel", "m/s"}};
+} known[] = {{"surface", "m"},  {"density", ""},        {"stress", "Pa"},   {"von_mises", "Pa"},
+             {"viability", ""}, {"discharge", "m3/yr"}, {"vegetation", ""}, {"deposit", ""},
+             {"vel", "m/s"},    {"bedrock", ""},        {"sand", ""},       {"rock", ""},
+             {"water", ""}};
 
 /* A dense array's worth of voxels is more than a file of this size can mean. */
 void check_size(size_t voxels, size_t components)

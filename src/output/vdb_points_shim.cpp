@@ -19,6 +19,7 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::points::AttributeSet;
 using openvdb::points::PointDataGrid;
+using quaternion = openvdb::math::Quat<float>; /* x, y, z, w */
 using leaf_node = openvdb::points::PointDataTree::LeafNodeType;
 using descriptor = AttributeSet::Descriptor;
 
@@ -99,7 +100,7 @@ bool sort_into_leaves(const rock &r, const vdb_options &options, const placement
 
 /* An attribute of the file: how its value for particle i is made. All values equal in a leaf are stored once.
  */
-enum attribute_kind { CONSTANT, FLOAT, INT, VECTOR, COLOR };
+enum attribute_kind { CONSTANT, FLOAT, INT, VECTOR, COLOR, ORIENT };
 struct attribute {
     std::string name;
     attribute_kind kind;
@@ -129,10 +130,14 @@ class leaf_maker
     leaf_maker(const rock &r, const vdb_options &options, const placement &at)
         : at_(at), options_(options), layer_(r.layer)
     {
-        pscale_ = float(options.spacing / 2);
+        pscale_ = options.instances ? 1 : float(options.spacing / 2);
         attributes_.push_back({"pscale", CONSTANT, &pscale_});
         attributes_.push_back({"v", r.v ? VECTOR : CONSTANT, r.v});
-        if (layer_ && options.color && options.n_colors)
+        if (options.instances) {
+            attributes_.push_back({"orient", ORIENT, nullptr});
+            attributes_.push_back({"variant", INT, layer_});
+        }
+        if (layer_ && options.color && options.n_colors && !options.instances)
             attributes_.push_back({"Cd", COLOR, nullptr});
         for (int f = 0; f < ROCK_FIELDS; f++) {
             const rock_field_info &info = rock_field_table[f];
@@ -148,10 +153,11 @@ class leaf_maker
         position_ = descriptor::create(vec3::attributeType());
         all_ = position_;
         for (const attribute &a : attributes_)
-            all_ = all_->duplicateAppend(a.name, a.kind == INT ? TypedAttributeArray<int32_t>::attributeType()
-                                                 : a.kind == FLOAT || a.from == &pscale_
-                                                     ? TypedAttributeArray<float>::attributeType()
-                                                     : vec3::attributeType());
+            all_ = all_->duplicateAppend(
+                a.name, a.kind == ORIENT ? TypedAttributeArray<quaternion>::attributeType()
+                        : a.kind == INT  ? TypedAttributeArray<int32_t>::attributeType()
+                        : a.kind == FLOAT || a.from == &pscale_ ? TypedAttributeArray<float>::attributeType()
+                                                                : vec3::attributeType());
     }
 
     leaf_node *make(const Coord &origin, const uint32_t *particle, size_t n) const
@@ -209,6 +215,9 @@ class leaf_maker
             fill<Vec3f>(array, order, [real, this](uint32_t i) {
                 return vdb::file_from_sim(Vec3f(real[4 * i], real[4 * i + 1], real[4 * i + 2]), at_.y_up);
             });
+            break;
+        case ORIENT:
+            openvdb::points::TypedAttributeArray<quaternion>::collapse(&array, quaternion(0, 0, 0, 1));
             break;
         case COLOR:
             fill<Vec3f>(array, order, [this](uint32_t i) {

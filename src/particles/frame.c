@@ -15,6 +15,8 @@ void aov_image_free(struct aov_image *image)
 void frame_free(struct frame *frame)
 {
     rock_free(&frame->rock);
+    rock_free(&frame->rocks.at);
+    free(frame->stacks.bytes);
     for (size_t g = 0; g < frame->grids.n_grids; g++)
         free(frame->grids.grid[g].value);
     for (size_t i = 0; i < frame->n_images; i++)

@@ -3,6 +3,7 @@
 #ifndef HOODOO_FRAME_H
 #define HOODOO_FRAME_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -70,11 +71,26 @@ struct ledger {
     uint64_t start, rock, deposit, fallen, left;
 };
 
+/* Rocks to be put where the frame has piles of them: P, id, and in `layer` which of the tile's rocks. n = 0:
+ * none are asked for. */
+struct frame_rocks {
+    bool wanted;
+    struct rock at;
+};
+
+/* A file's bytes that a model made itself; NULL: none. */
+struct frame_bytes {
+    void *bytes;
+    size_t size;
+};
+
 struct frame {
     int number;
     double years; /* since the first frame */
     struct rock rock;
     struct frame_grids grids;
+    struct frame_rocks rocks;
+    struct frame_bytes stacks; /* arches: the terrain itself */
     size_t n_images;
     struct aov_image *image;
     struct ledger ledger;

@@ -118,7 +118,7 @@ struct paint_values paint_at(const struct paint_set *set, const double x[3], dou
     for (size_t i = 0; i < set->n; i++) {
         const struct job_paint *e = &set->entry[i];
         const struct place *place = &set->place[i];
-        struct solid_point p = e->shape ? solid_at(place->shape, x) : (struct solid_point){0, 0};
+        struct solid_point p = e->shape ? solid_at(place->shape, x) : (struct solid_point){0};
         double edge = cover(p.distance, e->falloff_m), w = edge;
         if (w > 0 && e->image)
             w *= projection_at(place->image, x);

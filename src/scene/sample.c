@@ -72,6 +72,7 @@ static void paint_particle(const struct sampler *s, struct rock *rock, size_t p)
     rock_position(rock, p, x);
     struct paint_values paint = paint_at(s->paint, x, 0);
     rock->viability[p] = (float)(paint.viability * (double)rock->viability[p]);
+    rock->phase[p] = solid_at(s->solid, x).loose ? 1 : 0;
     rock->layer[p] = (uint32_t)job_layer_at(s->job, x[2]);
     rock->rate_factor[p] = (float)sampler_rate_factor(s, rock->layer[p], x, &paint);
     rock->interlock_factor[p] = (float)paint.interlock;

@@ -31,8 +31,8 @@ void solid_bounds(const struct solid *solid, double min[3], double max[3]);
 
 /* Overlapping parts of a union: inert if any part that holds the point is; outside, as the nearest part. */
 struct solid_point {
-    double distance; /* m, negative inside: exact in sign (0: inside), in size exact or a lower bound */
-    int inert;
+    double distance;  /* m, negative inside: exact in sign (0: inside), in size exact or a lower bound */
+    int inert, loose; /* loose: it lies there as a deposit; found as inert is */
 };
 struct solid_point solid_at(const struct solid *solid, const double x[3]);
 

@@ -76,10 +76,22 @@ double shape_distance(const struct shape *shape, const double x[3])
     case SHAPE_STROKE:
         d = stroke_distance(shape->u.stroke, p);
         break;
+    case SHAPE_STACKS:
+        d = terrain_shape_distance(shape->u.terrain, p);
+        break;
     case SHAPE_MESH:
         break;
     }
     return d * shape->place.shrink;
+}
+
+bool shape_loose(const struct shape *shape, const double x[3])
+{
+    double p[3];
+    if (shape->kind != SHAPE_STACKS)
+        return false;
+    placement_apply(shape->place.local_from_world, x, p);
+    return terrain_shape_loose(shape->u.terrain, p);
 }
 
 /* ---- shapes from the job */
@@ -204,6 +216,14 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         placement_box(place, lo, hi, s->min, s->max);
         break;
     }
+    case SHAPE_STACKS: {
+        const double origin[3] = {0, 0, 0};
+        double size[3];
+        TRY(terrain_shape_create(&node->u.stacks, reach / place->shrink, &s->u.terrain));
+        terrain_shape_size(s->u.terrain, size);
+        placement_box(place, origin, size, s->min, s->max);
+        break;
+    }
     }
 done:
     return st;
@@ -219,4 +239,6 @@ void shape_deinit(struct shape *shape)
         jointmap_destroy(&shape->u.jointmap);
     if (shape->kind == SHAPE_STROKE)
         stroke_destroy(&shape->u.stroke);
+    if (shape->kind == SHAPE_STACKS)
+        terrain_shape_destroy(&shape->u.terrain);
 }

@@ -7,6 +7,7 @@
 #include "scene/mesh_shim.h"
 #include "scene/placement.h"
 #include "scene/stroke.h"
+#include "scene/terrain.h"
 
 struct shape {
     enum job_shape kind;
@@ -25,6 +26,7 @@ struct shape {
         struct heightfield *heightfield;
         struct jointmap *jointmap;
         struct stroke *stroke;
+        struct terrain_shape *terrain;
     } u;
 };
 
@@ -35,5 +37,8 @@ void shape_deinit(struct shape *shape);
 
 /* m, negative inside; the sign is exact, the size exact or less. */
 double shape_distance(const struct shape *shape, const double x[3]);
+
+/* Is the shape loose material at x? */
+bool shape_loose(const struct shape *shape, const double x[3]);
 
 #endif

@@ -113,10 +113,13 @@ static struct solid_point at_union(const struct solid *s, const double x[3])
         if (beyond(s->child[i], x, fmax(p.distance, 0)))
             continue;
         struct solid_point c = solid_at(s->child[i], x);
-        if (c.distance <= 0 && p.distance <= 0)
+        if (c.distance <= 0 && p.distance <= 0) {
             p.inert |= c.inert;
-        else if (c.distance < p.distance)
+            p.loose &= c.loose; /* rock around it holds it */
+        } else if (c.distance < p.distance) {
             p.inert = c.inert;
+            p.loose = c.loose;
+        }
         p.distance = fmin(p.distance, c.distance);
     }
     return p;
@@ -125,7 +128,8 @@ static struct solid_point at_union(const struct solid *s, const double x[3])
 struct solid_point solid_at(const struct solid *s, const double x[3])
 {
     if (s->kind == NODE_SHAPE)
-        return (struct solid_point){shape_distance(&s->shape, x), s->shape.place.inert};
+        return (struct solid_point){shape_distance(&s->shape, x), s->shape.place.inert,
+                                    shape_loose(&s->shape, x)};
     if (s->kind == NODE_UNION)
         return at_union(s, x);
     struct solid_point p = solid_at(s->child[0], x);

@@ -90,7 +90,7 @@ def other(name, *edits):
 
 code, said = run("whole")
 truth = tree("whole", *FILES)
-ok(code == 0 and len(truth) == 40, "a run with edits", code, said)
+ok(code == 0 and all(f"frames/edits.{f}.json" in truth for f in FRAMES), "a run with edits", code, said)
 books = [ledger("whole", frame) for frame in FRAMES]
 ok(all(b["start"] == b["rock"] + b["deposit"] + b["fallen"] + b["left"] for b in books), "its ledger is exact in every frame", books)
 ok([books[i]["start"] > books[i - 1]["start"] for i in range(1, 10)] == [f == 1004 for f in range(1002, 1011)],
@@ -175,10 +175,20 @@ with open("again/checkpoint/new.from.ckpt", "r+b") as file:
 code, said = hoodoo("verify", "again")
 ok(code == INPUT and "new.from.ckpt" in said, "verify reads the copy, too", code, said)
 
+# ---- branched into processes the original did not have: air that flows, deposits
+
+job = other("air", ("frames: 1001-1010", "frames: 1001-1008"))
+more = ("--from", "every@1004", "--set", "wind.flow.solver=sph", "--set", "wind.flow.spacing_m=2", "--set", "deposition.viability=0.3")
+code, said = run("air", *more, job=job)
+first, _ = run("parts", *more, "--frames", "1004-1006", job=job)
+second, _ = run("parts", *more, job=job)
+ok(code == 0 and "it begins anew" in said and ledger("air", 1008, "air")["deposit"] > 0, "a branch may turn on flowing air and deposits", said)
+ok(first == 0 and second == 0 and tree("parts", *FILES) == tree("air", *FILES), "and goes on from pieces with the same bytes", second)
+
 # ---- refused
 
 
-def refused(name, want, *options, job=job, says=""):
+def refused(name, want, *options, job="new.yaml", says=""):
     shutil.rmtree("no", ignore_errors=True)
     code, said = run("no", *options, job=job)
     ok(code == want and last(said).startswith("hoodoo: ") and says in last(said) and not os.path.exists("no/job.yaml"), f"refused: {name}", code, said)

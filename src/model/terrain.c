@@ -1,0 +1,197 @@
+#include "model/terrain.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/image.h"
+#include "scene/scene.h"
+#include "stacks/along.h"
+
+status terrain_materials(const struct job *job, struct material table[MATERIALS_MAX], int *n)
+{
+    static const struct material own[MATERIALS_OWN] = {[MATERIAL_AIR] = {"air", 90, 0, {0}},
+                                                       [MATERIAL_BEDROCK] = {"bedrock", 90, 1, {0}},
+                                                       [MATERIAL_SAND] = {"sand", 32, 1, {0}},
+                                                       [MATERIAL_ROCK] = {"rock", 42, 1, {0}},
+                                                       [MATERIAL_WATER] = {"water", 0, 0, {0}}};
+    memcpy(table, own, sizeof own);
+    *n = MATERIALS_OWN;
+    for (size_t i = 0; i < job->arches.n_materials; i++) {
+        const struct job_material *from = &job->arches.materials[i];
+        int m = MATERIAL_BEDROCK;
+        while (m < *n && strcmp(table[m].name, from->name) != 0)
+            m++;
+        if (m == MATERIALS_MAX)
+            return fail(E_USAGE, "arches.materials: more than %d materials", MATERIALS_MAX - 1);
+        if (m == *n) {
+            table[(*n)++] = (struct material){.repose_deg = 35};
+            snprintf(table[m].name, sizeof table[m].name, "%s", from->name);
+        }
+        /* Bedrock does not slide, and water finds its level otherwise. */
+        if (from->repose_deg >= 0 && m != MATERIAL_WATER && m != MATERIAL_BEDROCK)
+            table[m].repose_deg = from->repose_deg;
+        table[m].erodibility = from->erodibility;
+    }
+    return OK;
+}
+
+static double cell_of(const struct job *job)
+{
+    return job->arches.cell_m > 0 ? job->arches.cell_m : job->domain.spacing_m;
+}
+
+status terrain_create(const struct job *job, struct stacks *out)
+{
+    int n[2];
+    double cell = cell_of(job);
+    for (int a = 0; a < 2; a++)
+        n[a] = (int)fmin(fmax(round(job->domain.size_m[a] / cell), 1), STACKS_MOST);
+    return stacks_create(n, cell, job->domain.size_m[2], out);
+}
+
+/* ---- the start */
+
+struct start {
+    const struct stacks *s;
+    const struct solid *solid;
+    double height;
+    const float *image; /* of a cover, top row first */
+    size_t width, rows;
+    double thickness;
+    uint32_t material;
+};
+
+struct line {
+    const struct solid *solid;
+    double at[2];
+};
+
+static double depth_in_solid(void *user, double z, double *skip)
+{
+    const struct line *l = user;
+    const double x[3] = {l->at[0], l->at[1], z};
+    double d = solid_at(l->solid, x).distance;
+    *skip = fabs(d);
+    return -d;
+}
+
+static status fill_column(void *user, int i, int j, struct column *c)
+{
+    status st = OK;
+    const struct start *start = user;
+    struct intervals in = {0};
+    double cell = start->s->cell;
+    struct line line = {start->solid, {(i + 0.5) * cell, (j + 0.5) * cell}};
+    TRY(intervals_find(0, start->height, cell / 4, NULL, false, depth_in_solid, &line, &in));
+    for (size_t k = 0; k < in.n; k++)
+        TRY(column_put(c, stacks_quanta(start->s, in.at[k].lo), stacks_quanta(start->s, in.at[k].hi),
+                       MATERIAL_BEDROCK));
+done:
+    free(in.at);
+    return st;
+}
+
+static status cover_column(void *user, int i, int j, struct column *c)
+{
+    const struct start *start = user;
+    double u = (i + 0.5) / start->s->n[0] * (double)start->width - 0.5;
+    double v = (1 - (j + 0.5) / start->s->n[1]) * (double)start->rows - 0.5;
+    double x = fmin(fmax(u, 0), (double)start->width - 1), y = fmin(fmax(v, 0), (double)start->rows - 1);
+    size_t a = (size_t)x, b = (size_t)y;
+    size_t right = a + 1 < start->width ? 1 : 0, down = b + 1 < start->rows ? start->width : 0;
+    const float *p = start->image + b * start->width + a;
+    double above = (double)p[0] + (x - (double)a) * (double)(p[right] - p[0]);
+    double below = (double)p[down] + (x - (double)a) * (double)(p[down + right] - p[down]);
+    double thick = start->thickness * (above + (y - (double)b) * (below - above));
+    uint32_t top = c->n ? layer_top(c->layer[c->n - 1]) : 0, amount = stacks_quanta(start->s, thick);
+    return column_put(c, top, amount < STACK_TOP - top ? top + amount : (uint32_t)STACK_TOP, start->material);
+}
+
+static status cover(const struct job_cover *job, const struct material *table, int n_materials,
+                    struct stacks *s)
+{
+    status st = OK;
+    float *image = NULL;
+    struct start start = {.s = s, .thickness = job->thickness_m};
+    while (start.material < (uint32_t)n_materials && strcmp(table[start.material].name, job->material) != 0)
+        start.material++;
+    if (start.material == MATERIAL_AIR || start.material == (uint32_t)n_materials)
+        return fail(E_USAGE, "arches.covers: no material '%.64s'", job->material);
+    TRY(image_read(job->file, &start.width, &start.rows, &image));
+    start.image = image;
+    TRY(stacks_edit(s, (const int[]){0, 0}, s->n, cover_column, &start));
+done:
+    free(image);
+    return st;
+}
+
+status terrain_begin(const struct job *job, const struct material *table, int n_materials, struct stacks *s)
+{
+    status st = OK;
+    struct solid *solid = NULL;
+    struct start start = {.s = s, .height = job->domain.size_m[2]};
+    TRY(solid_create(job->scene, s->cell / 2, 4 * s->cell, &solid));
+    start.solid = solid;
+    TRY(stacks_edit(s, (const int[]){0, 0}, s->n, fill_column, &start));
+    for (size_t i = 0; i < job->arches.n_covers; i++)
+        TRY(cover(&job->arches.covers[i], table, n_materials, s));
+    if (stacks_layers(s) == 0)
+        st =
+            fail(E_USAGE, "scene: nothing of it is in the domain: move the shapes, or enlarge domain.size_m");
+done:
+    solid_destroy(&solid);
+    return st;
+}
+
+void terrain_ledger(const struct stacks *s, const struct material *table, int n_materials, uint64_t *solid,
+                    uint64_t *loose)
+{
+    uint64_t amount[MATERIALS_MAX];
+    stacks_amounts(s, amount);
+    *solid = *loose = 0;
+    for (int m = MATERIAL_BEDROCK; m < n_materials; m++)
+        if (m != MATERIAL_WATER)
+            *(table[m].repose_deg >= 90 ? solid : loose) += amount[m];
+}
+
+/* ---- rocks */
+
+status terrain_tile(const struct job *job, struct pile_tile *out)
+{
+    const struct job_piles *p = &job->arches.piles;
+    struct pile_options options = {.radius = p->rock_m,
+                                   .rocks = (size_t)p->rocks,
+                                   .erosion = p->erosion,
+                                   .contacts = (size_t)p->contacts,
+                                   .detail = 3,
+                                   .seed = (uint32_t)job->seed};
+    *out = (struct pile_tile){0};
+    return p->rock_m > 0 ? pile_tile_create(&options, out) : OK;
+}
+
+static size_t rock_layers(void *user, double x, double y, double (*span)[2], size_t most)
+{
+    const struct stacks *s = user;
+    size_t n, found = 0;
+    int i = (int)(x / s->cell), j = (int)(y / s->cell);
+    const uint32_t *layer =
+        stacks_column(s, i < s->n[0] ? i : s->n[0] - 1, j < s->n[1] ? j : s->n[1] - 1, &n);
+    for (size_t k = 0; k < n && found < most; k++)
+        if (layer_material(layer[k]) == MATERIAL_ROCK) {
+            span[found][0] = k ? layer_top(layer[k - 1]) * s->quantum : 0;
+            span[found++][1] = layer_top(layer[k]) * s->quantum;
+        }
+    return found;
+}
+
+status terrain_rocks(const struct job *job, const struct stacks *s, const struct pile_tile *tile,
+                     struct pile_place **out, size_t *n)
+{
+    struct stacks read = *s; /* the callback's argument is not const */
+    *out = NULL;
+    *n = 0;
+    return tile->n ? pile_place_all(tile, job->domain.size_m, rock_layers, &read, out, n) : OK;
+}

@@ -1,0 +1,51 @@
+/* Arches' terrain between its job and its frames: how it begins, and what of it a frame shows. */
+#ifndef HOODOO_TERRAIN_H
+#define HOODOO_TERRAIN_H
+
+#include "job/job.h"
+#include "particles/frame.h"
+#include "piles/piles.h"
+#include "stacks/stacks.h"
+
+/* The job's materials, by the number layers have them. E_USAGE: too many. */
+MUST_USE status terrain_materials(const struct job *job, struct material table[MATERIALS_MAX], int *n);
+
+/* The job's stacks, empty. */
+MUST_USE status terrain_create(const struct job *job, struct stacks *out);
+
+/* The scene as bedrock, and the covers on it. */
+MUST_USE status terrain_begin(const struct job *job, const struct material *table, int n_materials,
+                              struct stacks *s);
+
+/* Everything solid or loose, in quanta. */
+void terrain_ledger(const struct stacks *s, const struct material *table, int n_materials, uint64_t *solid,
+                    uint64_t *loose);
+
+/* What of a frame is sampled from the stacks, on the lattice that the surface field has (field.h): n samples
+ * on each axis from `origin`, `voxel` apart. */
+struct terrain_view {
+    const struct job *job;
+    const struct stacks *stacks;
+    int n_materials;
+    int n[3];
+    double origin[3], voxel;
+    float *share;     /* [samples]: of ground, 1/2 on the surface */
+    float *ratio[4];  /* [samples]: bedrock, sand, rock, water in what shows there */
+    struct rock rock; /* one particle for every voxel at the surface */
+};
+
+/* Fills share, ratio and rock; the caller frees them with terrain_view_free(). */
+MUST_USE status terrain_look(struct terrain_view *v);
+void terrain_view_free(struct terrain_view *v);
+
+/* The heights and thicknesses of the layers as a picture from above, one pixel a stack: named "stacks". */
+MUST_USE status terrain_map(const struct stacks *s, int n_materials, struct aov_image *out);
+
+/* The tile of rocks that the job's piles are made of; n = 0 if it has none. */
+MUST_USE status terrain_tile(const struct job *job, struct pile_tile *out);
+
+/* The rocks where the stacks have rock layers. */
+MUST_USE status terrain_rocks(const struct job *job, const struct stacks *s, const struct pile_tile *tile,
+                              struct pile_place **out, size_t *n);
+
+#endif

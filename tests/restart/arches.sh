@@ -1,0 +1,78 @@
+#!/bin/sh
+# Arches in pieces: frames run in several goes, with slides under way at the cuts, are byte for byte those of one go,
+# and the ledger balances; a terrain is a scene for Arenite, its loose material deposits.
+set -u
+cat >job.yaml <<'JOB'
+hoodoo: 1
+name: terrain
+model: arches
+frames: 1-8
+domain: {size_m: [16, 12, 10], spacing_m: 0.5}
+scene: {box: {min_m: [0, 0, 0], max_m: [16, 12, 7]}}
+arches:
+  sweeps: 4
+  piles: {rock_m: 0.4, rocks: 20}
+  maps: true
+  materials: {gravel: {repose_deg: 38, color: [0.2, 0.2, 0.25]}}
+  operations:
+    - {tool: noise, frames: 1, strength: 0.8, scale_m: 4}
+    - {tool: sweep, frames: 1-4, points_m: [[-1, 6, 4, 2], [8, 5, 4, 2.5], [17, 7, 4, 2]], roughness: 0.2}
+    - {tool: erode, frames: 2-6, points_m: [[4, 6, 6, 2], [11, 6, 6, 2]], rocks: 0.7}
+    - {tool: deposit, frames: 3, material: gravel, points_m: [[8, 6, 9, 3]], thickness_m: 2}
+    - {tool: fill, frames: 5, points_m: [[8, 6, 4, 1]], level_m: 2.5}
+cameras: {main: {orbit: {target_m: [8, 6, 4], distance_m: 30}, resolution: [64, 64]}}
+output: {aov: {cameras: [main]}}
+checkpoint: {every: 3}
+JOB
+say() {
+    [ "$1" = 0 ] && echo "ok - $2" || echo "not ok - $2"
+}
+"$HOODOO" run job.yaml --out whole --progress none >log 2>&1
+say $? "in one go"
+"$HOODOO" run job.yaml --out again --progress none >>log 2>&1
+say $? "once more"
+"$HOODOO" run job.yaml --out pieces --frames 1-4 --progress none >>log 2>&1 &&
+    "$HOODOO" run job.yaml --out pieces --frames 5-6 --progress none >>log 2>&1 &&
+    "$HOODOO" run job.yaml --out pieces --progress none >>log 2>&1
+say $? "in three pieces"
+for other in again pieces; do
+    for folder in points volumes rocks stacks aov frames; do
+        diff -r whole/$folder $other/$folder >>log 2>&1
+        say $? "$other: $folder has the same bytes"
+    done
+done
+"$HOODOO" verify pieces >>log 2>&1
+say $? "and verifies"
+python3 - <<'PY'
+import json, glob
+bad = 0
+for path in sorted(glob.glob("whole/frames/*.json")):
+    l = json.load(open(path))["ledger"]
+    bad += l["start"] != l["rock"] + l["deposit"] + l["fallen"] + l["left"]
+last = l
+print("not ok" if bad else "ok", "- every frame's ledger balances, to the quantum")
+print("ok" if last["deposit"] > 0 and last["left"] > 0 else "not ok", "- and something came loose")
+PY
+cat >further.yaml <<'JOB'
+hoodoo: 1
+name: further
+frames: 1-2
+clock: {years_per_frame: 1000}
+domain: {size_m: [16, 12, 10], spacing_m: 1}
+scene: {stacks: {file: whole/stacks/terrain.0008.stacks}}
+JOB
+"$HOODOO" run further.yaml --out further --progress none >>log 2>&1
+say $? "arenite weathers it"
+printf 'hoodoo.stck' >broken.stacks
+head -c 3000 /dev/urandom >>broken.stacks
+sed 's|whole/stacks/terrain.0008.stacks|broken.stacks|' further.yaml >broken.yaml
+"$HOODOO" run broken.yaml --out broken --progress none >>log 2>&1
+[ $? = 3 ]
+say $? "a damaged terrain is refused"
+"$HOODOO" mesh further --frames 2 >>log 2>&1 &&
+    sed -e 's/name: terrain/name: back/' -e 's/frames: 1-8/frames: 1/' -e '/- {tool/d' -e '/operations:/d' \
+        -e 's|scene: .*|scene: {mesh: {file: further/mesh/further.0002.ply, up: y}}|' job.yaml >back.yaml &&
+    "$HOODOO" run back.yaml --out back --progress none >>log 2>&1
+say $? "and what is left is terrain again"
+grep -q "^not ok" log && cat log
+exit 0
