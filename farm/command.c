@@ -46,6 +46,14 @@ void farm_command(const struct farm *f, const struct farm_task *t, const char *d
         add_made(c, "--frames=%s", frames);
         add(c, "--missing");
         break;
+    case FARM_AOV:
+        add(c, "aov");
+        add_made(c, "%s", root);
+        add_made(c, "--frames=%s", frames);
+        add(c, "--missing");
+        if (device)
+            add_made(c, "--device=%.200s", device);
+        break;
     case FARM_STILL:
         add(c, "preview");
         add_made(c, "%s", root);

@@ -12,7 +12,7 @@ struct farm_command {
     size_t n_words;
 };
 
-/* `device`: for --device of FARM_SIM, or NULL for none. */
+/* `device`: for --device of tasks that need one (graph_needs_device()), or NULL for none. */
 void farm_command(const struct farm *f, const struct farm_task *t, const char *device,
                   struct farm_command *out);
 

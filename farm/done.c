@@ -119,6 +119,13 @@ status farm_task_done(const struct farm *f, const struct farm_task *t, bool *don
             snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);
             *done = !graph_has_volumes(job, frame) || current(root, made, from);
             break;
+        case FARM_AOV:
+            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);
+            for (size_t i = 0; i < job->farm.n_cameras && *done; i++) {
+                snprintf(made, sizeof made, "aov/%s.%s.%04d.exr", name, job->farm.cameras[i], frame);
+                *done = !graph_has_volumes(job, frame) || current(root, made, from);
+            }
+            break;
         case FARM_STILL:
             snprintf(made, sizeof made, "preview/%s.%04d.png", name, frame);
             snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);

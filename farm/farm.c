@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "model/branch.h"
 
 static status set_paths(struct farm *f, const char *out)
 {
@@ -27,12 +28,33 @@ static status set_paths(struct farm *f, const char *out)
     return OK;
 }
 
-status farm_load(const char *path, const char *const *sets, size_t n_sets, int only, const char *out,
-                 struct farm *f)
+/* A branch's own frames, and with --from its checkpoint. */
+static status prepare(const struct farm *f, const char *from, struct job *job)
 {
     status st = OK;
+    char root[FARM_PATH + 16];
+    farm_root(f, (int)job->wedge.index, root);
+    if (from)
+        TRY(branch_from(job, from, root));
+    TRY(branch_prepare(job, root));
+done:
+    return st;
+}
+
+status farm_load(const char *path, const char *const *given, size_t n_given, const char *from, int only,
+                 const char *out, struct farm *f)
+{
+    status st = OK;
+    const char **sets = NULL;
+    size_t n_sets = n_given;
+    TRY(memory_alloc(n_given + 1, sizeof *sets, "the job", &sets));
+    if (n_given)
+        memcpy(sets, given, n_given * sizeof *sets);
+    if (from)
+        sets[n_sets++] = BRANCH_SET;
     TRY(job_load(path, sets, n_sets, &f->base));
     TRY(set_paths(f, out));
+    TRY(prepare(f, from, f->base));
     size_t n = job_wedges(f->base);
     if (only && n == 0) {
         st = fail(E_USAGE, "--wedge %d: the job has no wedges", only);
@@ -46,9 +68,11 @@ status farm_load(const char *path, const char *const *sets, size_t n_sets, int o
             TRY(job_load_wedge(path, sets, n_sets, f->base, only ? only : (int)i + 1, &w->job));
         else
             TRY(job_load(path, sets, n_sets, &w->job));
+        TRY(prepare(f, from, w->job));
         TRY(model_of(w->job)->estimate(w->job, &w->estimate));
     }
 done:
+    free(sets);
     return st;
 }
 
@@ -103,8 +127,8 @@ static status check_owner(const struct farm *f, const struct job *job)
     if (access(path, F_OK) != 0)
         return OK;
     TRY(job_hash(job, &ours));
-    if (job_load(path, NULL, 0, &theirs) != OK || job_hash(theirs, &hash) != OK || hash != ours ||
-        strcmp(theirs->name, job->name) != 0)
+    if (job_load(path, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, root) != OK ||
+        job_hash(theirs, &hash) != OK || hash != ours || strcmp(theirs->name, job->name) != 0)
         st = fail(E_CHECKPOINT,
                   "%s holds another job (%s differs in what is simulated); use another --out, or remove the "
                   "folder",

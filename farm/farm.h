@@ -24,10 +24,10 @@ struct farm {
     struct farm_graph graph;
 };
 
-/* Loads the job and its wedges and estimates them. `only`: 0, or the one wedge that is meant. `out`: NULL for
+/* Loads the job and its wedges and estimates them. `from`: OUT@FRAME, or NULL. `only`: 0, or the one wedge that is meant. `out`: NULL for
  * out/NAME. frame_seconds are left to the caller, and so is farm_graph(). */
-MUST_USE status farm_load(const char *path, const char *const *sets, size_t n_sets, int only, const char *out,
-                          struct farm *f);
+MUST_USE status farm_load(const char *path, const char *const *sets, size_t n_sets, const char *from,
+                          int only, const char *out, struct farm *f);
 MUST_USE status farm_graph(struct farm *f);
 void farm_free(struct farm *f);
 

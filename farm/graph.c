@@ -7,14 +7,15 @@
 #include "base/memory.h"
 
 /* Seconds of one core, measured on jobs/demo.yaml's frames; they only tell a minute from an hour. */
-static const double MESH_S = 0.2, MESH_PARTICLE_S = 4e-6, STILL_S = 1.5, STILL_PARTICLE_S = 2e-6,
+static const double MESH_S = 0.2, AOV_S = 1, MESH_PARTICLE_S = 4e-6, STILL_S = 1.5, STILL_PARTICLE_S = 2e-6,
                     VIEW_S = 1.5, SHEET_S = 0.1;
 /* Bytes of a mesh for each particle of the surface, PLY and OBJ; of a picture. */
-enum { MESH_BYTES = 220, STILL_BYTES = 400000, VIEW_BYTES = 200000 };
+enum { MESH_BYTES = 220, AOV_BYTES = 4000000, STILL_BYTES = 400000, VIEW_BYTES = 200000 };
 
 const char *graph_kind(enum farm_kind kind)
 {
-    static const char *const names[FARM_KINDS] = {"sim", "derive", "preview", "finish", "finish", "finish"};
+    static const char *const names[FARM_KINDS] = {"sim",    "derive", "derive", "preview",
+                                                  "finish", "finish", "finish"};
     return names[kind];
 }
 
@@ -30,12 +31,18 @@ bool graph_has_still(const struct job *job, int frame)
     return (frame - job->frames.first) % job->farm.still_every == 0 || frame == job->frames.last;
 }
 
+bool graph_needs_device(enum farm_kind kind)
+{
+    return kind == FARM_SIM || kind == FARM_AOV;
+}
+
 /* ---- building */
 
 static status add_task(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind,
                        struct frame_range frames, struct farm_task **out)
 {
-    static const char *const names[FARM_KINDS] = {"sim", "mesh", "still", "sheet", "turntable", "wedges"};
+    static const char *const names[FARM_KINDS] = {"sim",   "mesh",      "aov",   "still",
+                                                  "sheet", "turntable", "wedges"};
     char wedge[16] = "", range[48];
     status st = memory_grow(&g->task, &g->capacity, g->n + 1, sizeof *g->task, "the tasks");
     if (st != OK)
@@ -90,6 +97,11 @@ static void estimate_task(struct farm_task *t, const struct farm_wedge *w, bool 
         t->seconds = n * (MESH_S + MESH_PARTICLE_S * particles);
         t->disk_bytes = (uint64_t)(n * bytes_of_meshes(w));
         break;
+    case FARM_AOV:
+        t->seconds = n * (double)w->job->farm.n_cameras * (AOV_S + MESH_PARTICLE_S * particles);
+        t->device_bytes = w->estimate.device_bytes;
+        t->disk_bytes = (uint64_t)n * w->job->farm.n_cameras * AOV_BYTES;
+        break;
     case FARM_STILL:
         t->seconds = n * (STILL_S + STILL_PARTICLE_S * particles);
         t->disk_bytes = (uint64_t)n * STILL_BYTES;
@@ -132,7 +144,7 @@ static status add_chunks(struct farm_graph *g, const struct farm_wedge *w, enum 
     status st = OK;
     struct farm_task *t;
     struct frame_range chunk;
-    bool (*wanted)(const struct job *, int) = kind == FARM_MESH ? graph_has_volumes : graph_has_still;
+    bool (*wanted)(const struct job *, int) = kind == FARM_STILL ? graph_has_still : graph_has_volumes;
     for (int frame = block.first; next_chunk(w->job, wanted, block, &frame, &chunk);) {
         TRY(add_task(g, w, kind, chunk, &t));
         estimate_task(t, w, false);
@@ -186,6 +198,8 @@ static status add_wedge(struct farm_graph *g, const struct farm_wedge *w, size_t
             TRY(add_after(g, before));
         if (w->job->farm.meshes)
             TRY(add_chunks(g, w, FARM_MESH, block, sim));
+        if (w->job->farm.n_cameras)
+            TRY(add_chunks(g, w, FARM_AOV, block, sim));
         TRY(add_chunks(g, w, FARM_STILL, block, sim));
     }
     TRY(add_finish(g, w, first, sim, sheet));

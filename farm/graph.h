@@ -1,12 +1,12 @@
 /* The tasks a job is cut into: one pure function from jobs to a graph.
  *
  *   sim        frames a-b simulated; block n+1 of a wedge goes on from block n's last checkpoint
- *   derive     meshes of some frames, once their block is done
+ *   derive     meshes and AOVs of some frames, once their block is done
  *   preview    stills of some frames, once their block is done
  *   finish     contact sheet, turntable, and a sheet across the wedges
  *
  * Order       A task stands behind all it waits for: the list can be worked off from its start.
- * Once        Every frame of a job is simulated by exactly one task; so is every mesh and still made.
+ * Once        Every frame of a job is simulated by exactly one task; so is every mesh, AOV and still made.
  * Wedges      Each has a graph of its own; they share the sheet across wedges alone.
  */
 #ifndef HOODOO_FARM_GRAPH_H
@@ -15,7 +15,16 @@
 #include "job/job.h"
 #include "model/model.h"
 
-enum farm_kind { FARM_SIM, FARM_MESH, FARM_STILL, FARM_SHEET, FARM_TURNTABLE, FARM_WEDGES, FARM_KINDS };
+enum farm_kind {
+    FARM_SIM,
+    FARM_MESH,
+    FARM_AOV,
+    FARM_STILL,
+    FARM_SHEET,
+    FARM_TURNTABLE,
+    FARM_WEDGES,
+    FARM_KINDS
+};
 
 /* One job of those that are submitted together: a wedge, or the only one. */
 struct farm_wedge {
@@ -47,6 +56,9 @@ void graph_free(struct farm_graph *graph);
 
 /* "sim", "derive", "preview" or "finish". */
 const char *graph_kind(enum farm_kind kind);
+
+/* Do tasks of this kind run on a Vulkan device? The others are for the CPU alone. */
+bool graph_needs_device(enum farm_kind kind);
 
 /* Does the job write volumes of this frame? What meshes and stills are made of. */
 bool graph_has_volumes(const struct job *job, int frame);

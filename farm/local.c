@@ -138,7 +138,7 @@ static status start(struct local *l, size_t task, int k)
     char log[FARM_PATH + 128], jobs[32], threads[32];
     TRY(memory_alloc(1, sizeof *command, "a command", &command));
     farm_command(l->farm, t, *w->device ? w->device : NULL, command);
-    if (t->kind != FARM_SIM && t->kind != FARM_MESH && t->kind != FARM_WEDGES) {
+    if (t->kind != FARM_SIM && t->kind != FARM_MESH && t->kind != FARM_AOV && t->kind != FARM_WEDGES) {
         snprintf(jobs, sizeof jobs, "--jobs=%d", w->threads);
         command->argv[command->n++] = jobs;
         command->argv[command->n] = NULL;
@@ -247,7 +247,7 @@ static status hand_out(struct local *l)
     const struct farm_graph *g = &l->farm->graph;
     for (int others = 0; others < 2; others++)
         for (size_t i = 0; i < g->n; i++) {
-            bool sim = g->task[i].kind == FARM_SIM, yes;
+            bool sim = graph_needs_device(g->task[i].kind), yes;
             if (l->task[i].state != WAITING || sim == (others == 1))
                 continue;
             TRY(ready(l, i, &yes));

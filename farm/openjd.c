@@ -218,12 +218,32 @@ static void step_name(const char *kind, struct frame_range frames, char out[64])
     snprintf(out, 64, "%s_%s", kind, range_text(frames, range));
 }
 
-/* A block, and the meshes of its frames. */
+/* What is derived from a block's volumes, in chunks of frames. */
+static void put_derived(const struct farm *f, const char *kind, const char *verb, struct frame_range frames,
+                        struct frame_range made, const char *block, struct text *t)
+{
+    bool device = strcmp(verb, "aov") == 0;
+    char name[64], list[64];
+    step_name(kind, frames, name);
+    snprintf(list, sizeof list, "%d-%d", made.first, made.last);
+    put_step(f,
+             &(struct step){.name = name,
+                            .after = block,
+                            .frames = list,
+                            .chunk = f->wedge[0].job->farm.chunk_frames,
+                            .gpu = device ? &f->wedge[0] : NULL,
+                            .args = {verb, "{{Param.OutDir}}", "", "--frames={{Task.Param.Frames}}",
+                                     "--missing", "--allow-none", "--progress=openjd",
+                                     device ? "--device={{Param.Device}}" : NULL, NULL}},
+             t);
+}
+
+/* A block, and the meshes and AOVs of its frames. */
 static void put_block(const struct farm *f, struct frame_range frames, const char *before, char name[64],
                       struct text *t)
 {
     const struct job *job = f->wedge[0].job;
-    char range[64], mesh[64], list[64];
+    char range[64];
     struct frame_range made = {0, 0, 0};
     step_name("Sim", frames, name);
     snprintf(range, sizeof range, "--frames=%s", name + 4);
@@ -236,8 +256,6 @@ static void put_block(const struct farm *f, struct frame_range frames, const cha
                                 "--device={{Param.Device}}", "--path-map={{Session.PathMappingRulesFile}}",
                                 "--progress=openjd", NULL}},
         t);
-    if (!job->farm.meshes)
-        return;
     for (int frame = frames.first; frame <= frames.last; frame += frames.step)
         if (graph_has_volumes(job, frame)) {
             made.first = made.step ? made.first : frame;
@@ -246,16 +264,10 @@ static void put_block(const struct farm *f, struct frame_range frames, const cha
         }
     if (!made.step)
         return;
-    step_name("Mesh", frames, mesh);
-    snprintf(list, sizeof list, "%d-%d", made.first, made.last);
-    put_step(f,
-             &(struct step){.name = mesh,
-                            .after = name,
-                            .frames = list,
-                            .chunk = job->farm.chunk_frames,
-                            .args = {"mesh", "{{Param.OutDir}}", "", "--frames={{Task.Param.Frames}}",
-                                     "--missing", "--allow-none", "--progress=openjd", NULL}},
-             t);
+    if (job->farm.meshes)
+        put_derived(f, "Mesh", "mesh", frames, made, name, t);
+    if (job->farm.n_cameras)
+        put_derived(f, "Aov", "aov", frames, made, name, t);
 }
 
 static void put_finish(const struct farm *f, const char *last_sim, struct text *t)
@@ -306,7 +318,7 @@ status openjd_template(const struct farm *f, const char *device, struct text *t)
     int wedge = (int)f->wedge[0].job->wedge.index, k = 0;
     json_object(t, NULL);
     json_text(t, "specificationVersion", "jobtemplate-2023-09");
-    if (has(f, FARM_MESH) || has(f, FARM_STILL)) {
+    if (has(f, FARM_MESH) || has(f, FARM_AOV) || has(f, FARM_STILL)) {
         json_array(t, "extensions");
         json_text(t, NULL, "TASK_CHUNKING");
         json_end_array(t);

@@ -174,7 +174,7 @@ static void words_of(const struct farm *f, const struct slurm_options *o, const 
     word(w, "--signal=B:USR1@180");
     word(w, "--nodes=1");
     word(w, "--ntasks=1");
-    if (task->kind == FARM_SIM)
+    if (graph_needs_device(task->kind))
         word(w, "--gres=gpu:1");
     if (b->n > 1) {
         t = made(w);
@@ -205,8 +205,9 @@ static status words_status(const struct words *w)
 /* Tasks that stand together, of one kind and wedge, and wait for the same ones. */
 static bool alike(const struct farm_graph *g, const struct farm_task *a, const struct farm_task *b)
 {
-    return a->kind == b->kind && a->wedge == b->wedge && (a->kind == FARM_MESH || a->kind == FARM_STILL) &&
-           a->n_after == 1 && b->n_after == 1 && g->after[a->after] == g->after[b->after];
+    return a->kind == b->kind && a->wedge == b->wedge &&
+           (a->kind == FARM_MESH || a->kind == FARM_AOV || a->kind == FARM_STILL) && a->n_after == 1 &&
+           b->n_after == 1 && g->after[a->after] == g->after[b->after];
 }
 
 /* `todo` is which tasks are left; the batch is the run of them from `first` on. */

@@ -89,7 +89,7 @@ status farm_status(const char *root, struct text *out)
     size_t n_done = 0;
     if (!job_path(root, path))
         return fail(E_INPUT, "%.100s...: the path is too long", root);
-    TRY(farm_load(path, NULL, 0, 0, root, &f));
+    TRY(farm_load(path, NULL, 0, NULL, 0, root, &f));
     TRY(farm_graph(&f));
     if (slurm_jobs(&f, &jobs) != OK)
         log_warn("what Slurm thinks is not known: %s", status_message());

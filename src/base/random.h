@@ -17,7 +17,8 @@ enum random_purpose {
     RANDOM_WATER = 4,
     RANDOM_DEPOSIT = 5,
     RANDOM_PLANTS = 6,
-    RANDOM_PILES = 7
+    RANDOM_PILES = 7,
+    RANDOM_PAINT = 20
 };
 
 /* 32 random bits; every argument moves all of them. Nest calls for more than four arguments. */

@@ -63,6 +63,9 @@ MUST_USE status checkpoint_describe(const char *path, struct text *out);
  * NAME.FRAME.keep file stay). */
 MUST_USE status checkpoint_save(const char *root, const char *name, const struct checkpoint *c, int keep);
 
+/* Has the checkpoint of a frame kept, whether it is there yet or not: puts a NAME.FRAME.keep file beside it. */
+MUST_USE status checkpoint_mark(const char *root, const char *name, int frame);
+
 /* The checkpoint frames of `name`, newest first; freed with free(). */
 MUST_USE status checkpoint_list(const char *root, const char *name, int **frames, size_t *n);
 

@@ -106,6 +106,20 @@ done:
     return st;
 }
 
+status checkpoint_mark(const char *root, const char *name, int frame)
+{
+    status st = OK;
+    char path[4096], folder[4096];
+    TRY(checkpoint_path(path, root, name, frame, "keep"));
+    if (access(path, F_OK) == 0)
+        goto done;
+    snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(path, '/') - path), path);
+    TRY(folder_make(folder));
+    TRY(atomic_file_write(path, "", 0));
+done:
+    return st;
+}
+
 status checkpoint_save(const char *root, const char *name, const struct checkpoint *c, int keep)
 {
     status st = OK;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
@@ -15,14 +16,15 @@
 #include "cli/signals.h"
 #include "field/field.h"
 #include "model/air.h"
+#include "model/branch.h"
 #include "output/exr.h"
 #include "output/folder.h"
 #include "output/vdb.h"
 #include "scene/scene.h"
 
 struct shot {
-    const char *root;
-    char name[256];
+    char root[4096], name[256];
+    bool missing; /* only what is not there */
     struct job *job;
     uint64_t job_hash;
     const struct job_camera **camera;
@@ -122,13 +124,30 @@ done:
     return st;
 }
 
+/* Is the camera's picture there, no older than the frame's volumes? */
+static bool current(const struct shot *s, int frame, const char *camera)
+{
+    char path[4096];
+    struct stat from, made;
+    return folder_path(path, s->root, s->name, FILE_VOLUMES, frame, NULL) == OK && stat(path, &from) == 0 &&
+           folder_path(path, s->root, s->name, FILE_AOV, frame, camera) == OK && stat(path, &made) == 0 &&
+           made.st_mtim.tv_sec >= from.st_mtim.tv_sec;
+}
+
 static status shoot(struct shot *s, int frame)
 {
     status st = OK;
     struct loaded l = {0};
     struct aov_image image = {0};
+    size_t todo = 0;
+    for (size_t c = 0; c < s->n_cameras; c++)
+        todo += !s->missing || !current(s, frame, s->camera[c]->name);
+    if (todo == 0)
+        return OK;
     TRY(load(s, frame, &l));
     for (size_t c = 0; c < s->n_cameras; c++) {
+        if (s->missing && current(s, frame, s->camera[c]->name))
+            continue;
         TRY(aov_render(s->gpu, &s->aov, s->job, s->camera[c], frame, &s->field, &l.particles,
                        l.air.velocity ? &l.air : NULL, &image));
         TRY(write_picture(s, frame, &image));
@@ -142,9 +161,12 @@ done:
 
 /* ---- the verb */
 
-static status choose_cameras(struct shot *s, const struct words *asked)
+/* Those asked for, else the farm's, else all. */
+static status choose_cameras(struct shot *s, const struct words *given)
 {
     status st = OK;
+    struct words asked_here = {(const char **)s->job->farm.cameras, s->job->farm.n_cameras, 0};
+    const struct words *asked = given->n ? given : &asked_here;
     TRY(memory_alloc(s->job->n_cameras, sizeof *s->camera, "cameras", &s->camera));
     for (size_t i = 0; i < s->job->n_cameras; i++) {
         bool wanted = asked->n == 0;
@@ -216,27 +238,38 @@ status cli_aov(int argc, char **argv)
     char path[4700];
     int *frames = NULL;
     size_t n = 0;
-    bool help = false;
+    int wedge = 0;
+    bool help = false, allow_none = false;
     const struct option options[] = {
         OPTION_FRAMES(&c),
         OPTION_DEVICE(&c),
         OPTION_SET(&c),
         OPTION_PROGRESS(&c),
         {"camera", "NAME", OPTION_WORDS, &cameras,
-         "of the job, or of --set 'cameras.NAME={...}'; repeatable (default: all)"},
+         "of the job, or of --set 'cameras.NAME={...}'; repeatable (default: farm.cameras, or all)"},
+        {"missing", NULL, OPTION_FLAG, &s.missing,
+         "only pictures that are not there, or older than their volumes"},
+        {"allow-none", NULL, OPTION_FLAG, &allow_none, "frames without volumes are no error"},
+        OPTION_WEDGE(&wedge),
     };
     TRY(options_parse(&usage_aov, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    s.root = operands.word[0];
+    TRY(wedge_folder(operands.word[0], wedge, s.root));
     TRY(folder_open(s.root, s.name));
     snprintf(path, sizeof path, "%.4096s/job.yaml", s.root);
     TRY(job_load(path, NULL, 0, &s.job));
+    TRY(branch_prepare_own(s.job, s.root));
     TRY(job_hash(s.job, &s.job_hash));
     job_destroy(&s.job);
     TRY(job_load(path, c.sets.word, c.sets.n, &s.job));
     TRY(choose_cameras(&s, &cameras));
-    TRY(volume_frames(s.root, s.name, c.frames, &frames, &n));
+    st = volume_frames(s.root, s.name, c.frames, &frames, &n);
+    if (st == E_INPUT && allow_none)
+        st = OK;
+    TRY(st);
+    if (n == 0)
+        goto done;
     TRY(prepare(&s, c.device));
     signals_install();
     progress_begin(&progress, (enum progress_style)c.progress, frames_shown(frames, n), 0);

@@ -111,7 +111,9 @@ void common_free(struct common *c);
 #define OPTION_FROM(c)                                                                                       \
     {                                                                                                        \
         "from", "OUT@FRAME", OPTION_TEXT, &(c)->from,                                                        \
-            "start from another run's checkpoint; the job may differ"                                        \
+            "a branch: begin with another run's checkpoint of that frame (kept by its checkpoint.mark); "    \
+            "the job "                                                                                       \
+            "may differ in all but domain and number of strata"                                              \
     }
 #define OPTION_WEDGE(number)                                                                                 \
     {                                                                                                        \

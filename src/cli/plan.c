@@ -73,7 +73,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     json_text(t, "model", model_of(job)->name);
     json_text(t, "frames", range_text(job->frames, frames));
     json_integer(t, "frame_count", (int64_t)n_frames);
-    json_number(t, "years", (job->frames.last - job->frames.first) * job->clock.years_per_frame);
+    json_number(t, "years", job_years(job, job->frames.first, job->frames.last));
     json_integer(t, "particles", (int64_t)e.n_particles);
     json_object(t, "voxels");
     json_integer(t, "x", e.voxels[0]);
@@ -110,12 +110,12 @@ status cli_plan(int argc, char **argv)
     struct text t = {0};
     bool help = false;
     int wedge = 0;
-    const struct option options[] = {OPTION_OUT(&c), OPTION_DEVICE(&c), OPTION_SET(&c), OPTION_WEDGE(&wedge),
-                                     OPTION_JSON(&c)};
+    const struct option options[] = {OPTION_OUT(&c),       OPTION_DEVICE(&c), OPTION_SET(&c),
+                                     OPTION_WEDGE(&wedge), OPTION_FROM(&c),   OPTION_JSON(&c)};
     TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(farm_load(operands.word[0], c.sets.word, c.sets.n, wedge, c.out, &farm));
+    TRY(farm_load(operands.word[0], c.sets.word, c.sets.n, c.from, wedge, c.out, &farm));
     TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
     TRY(answer(&farm, gpu, !c.json, &t));
     TRY(words_print(&t, c.json));

@@ -7,6 +7,7 @@
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
+#include "model/branch.h"
 #include "output/folder.h"
 
 struct shown {
@@ -56,6 +57,7 @@ status cli_run(int argc, char **argv)
         OPTION_PROGRESS(&c),
         OPTION_RESUME(&c),
         OPTION_WEDGE(&wedge),
+        OPTION_FROM(&c),
         {"farm", "DIR", OPTION_TEXT, &farm, "the output folder, or with --wedge the wedge's folder in it"},
         {"path-map", "FILE", OPTION_TEXT, &path_map,
          "where the job's input files are here: an OpenJD session's rules"},
@@ -64,6 +66,8 @@ status cli_run(int argc, char **argv)
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
+    if (c.from)
+        TRY(words_add(&c.sets, BRANCH_SET));
     TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
     snprintf(folder, sizeof folder, "out/%s", job->name);
     if (wedge) {
@@ -83,6 +87,8 @@ status cli_run(int argc, char **argv)
         st = fail(E_USAGE, "--out: the path is too long");
         goto done;
     }
+    if (c.from)
+        TRY(branch_from(job, c.from, root));
     TRY(folder_prepare(root));
     snprintf(path, sizeof path, "%s/log/run.log", root);
     TRY(log_open(path));

@@ -218,6 +218,7 @@ status cli_submit(int argc, char **argv)
         {"workers", "N", OPTION_INT, &w.workers, "local: this many workers that share the CPU"},
         OPTION_DEVICE(&w.common),
         OPTION_SET(&w.common),
+        OPTION_FROM(&w.common),
         OPTION_WEDGE(&w.wedge),
         OPTION_PROGRESS(&w.common),
         OPTION_JSON(&w.common),
@@ -230,7 +231,8 @@ status cli_submit(int argc, char **argv)
         st = fail(E_USAGE, "submit: --to is missing: --to local, --to slurm or --to openjd");
         goto done;
     }
-    TRY(farm_load(operands.word[0], w.common.sets.word, w.common.sets.n, w.wedge, w.common.out, &farm));
+    TRY(farm_load(operands.word[0], w.common.sets.word, w.common.sets.n, w.common.from, w.wedge, w.common.out,
+                  &farm));
     for (size_t i = 0; i < farm.n_wedges; i++) {
         farm_root(&farm, (int)farm.wedge[i].job->wedge.index, root);
         farm.wedge[i].frame_seconds = farm_frame_seconds(root, farm.wedge[i].job->name);

@@ -9,6 +9,7 @@
 #include "checkpoint/checkpoint.h"
 #include "cli/cli.h"
 #include "cli/words.h"
+#include "model/branch.h"
 #include "output/exr.h"
 #include "output/folder.h"
 #include "output/vdb.h"
@@ -135,26 +136,34 @@ done:
     return st;
 }
 
+static status verify_checkpoint(struct search *s, const char *path, const int *frame)
+{
+    struct checkpoint c;
+    status st = checkpoint_read_index(path, &c);
+    s->n_files++;
+    s->n_checkpoints++;
+    if (st == E_MEMORY)
+        return st;
+    if (st != OK || (frame && c.frame != *frame))
+        found(s, false, path + strlen(s->root) + 1, st != OK ? status_message() : "it is another frame's");
+    return OK;
+}
+
+/* And the one a branch began with. */
 static status verify_checkpoints(struct search *s)
 {
     status st = OK;
     int *frames = NULL;
     size_t n;
     char path[4096];
-    struct checkpoint c;
     TRY(checkpoint_list(s->root, s->name, &frames, &n));
     for (size_t i = 0; i < n; i++) {
         TRY(folder_path(path, s->root, s->name, FILE_CHECKPOINT, frames[i], NULL));
-        s->n_files++;
-        s->n_checkpoints++;
-        st = checkpoint_read_index(path, &c);
-        if (st == E_MEMORY)
-            goto done;
-        if (st != OK || c.frame != frames[i])
-            found(s, false, path + strlen(s->root) + 1,
-                  st != OK ? status_message() : "it is another frame's");
-        st = OK;
+        TRY(verify_checkpoint(s, path, &frames[i]));
     }
+    TRY(branch_copy(path, s->root, s->name));
+    if (access(path, F_OK) == 0)
+        TRY(verify_checkpoint(s, path, NULL));
 done:
     free(frames);
     return st;

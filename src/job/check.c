@@ -5,6 +5,9 @@
 #include "base/nearest.h"
 #include "job/parse.h"
 
+/* Each may be a job of its own. */
+enum { EDITS = 256 };
+
 /* The place of `key` where it is given, else of the mapping that lacks it. */
 static const struct yaml *place(const struct yaml *map, const char *key)
 {
@@ -73,6 +76,31 @@ static status check_camera(const struct yaml *map, const struct job_camera *c)
     return OK;
 }
 
+static status check_image(const struct yaml *map, const struct job_image *i)
+{
+    status st = OK;
+    double along = 0;
+    TRY(check_direction(map, "right_m", i->right_m));
+    TRY(check_direction(map, "up_m", i->up_m));
+    for (int a = 0; a < 3; a++)
+        along += i->right_m[a] * i->up_m[a];
+    if (fabs(along) > 1e-6 * length(i->right_m) * length(i->up_m))
+        st = yaml_fail(place(map, "up_m"), NULL, "not at a right angle to right_m");
+done:
+    return st;
+}
+
+static status check_paint(const struct yaml *map, const struct job_paint *p)
+{
+    if (!p->shape && !p->image && !p->noise)
+        return yaml_fail(map, NULL, "neither shape nor image nor noise says where to paint");
+    if (p->falloff_m > 0 && !p->shape)
+        return yaml_fail(place(map, "falloff_m"), NULL, "only a shape has a falloff, and there is none");
+    if (p->vegetation < 0 && p->vegetation != -1)
+        return yaml_fail(place(map, "vegetation"), NULL, "negative (0 to 1, or -1 to leave it)");
+    return OK;
+}
+
 static status check_material(const struct yaml *map, const struct job_material *m)
 {
     if (m->repose_deg < 0 && m->repose_deg != -1)
@@ -123,6 +151,14 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
     case SECTION_jointmap:
         return check_corners(map, ((const struct job_jointmap *)base)->min_m,
                              ((const struct job_jointmap *)base)->max_m);
+    case SECTION_stroke:
+        if (((const struct job_stroke *)base)->n_path_m == 0)
+            return yaml_fail(place(map, "path_m"), NULL, "no point: a stroke has at least one");
+        return OK;
+    case SECTION_image:
+        return check_image(map, base);
+    case SECTION_paint:
+        return check_paint(map, base);
     case SECTION_cylinder:
         return check_cylinder(map, base);
     case SECTION_plane:
@@ -152,9 +188,30 @@ static status check_strata(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+static status check_farm_cameras(const struct yaml *root, const struct job *job)
+{
+    const struct yaml *farm = yaml_get(root, "farm"), *list = farm ? yaml_get(farm, "cameras") : NULL;
+    for (size_t i = 0; i < job->farm.n_cameras; i++) {
+        bool found = false;
+        for (size_t k = 0; k < job->n_cameras; k++)
+            found |= strcmp(job->farm.cameras[i], job->cameras[k].name) == 0;
+        if (!found)
+            return yaml_fail(yaml_item(list, i), NULL, "no camera '%s' in cameras", job->farm.cameras[i]);
+        /* With one AOV camera its pictures carry no camera's name, so the names cannot clash. */
+        for (size_t k = 0; k < job->output.aov.n_cameras && job->output.aov.n_cameras > 1; k++)
+            if (strcmp(job->farm.cameras[i], job->output.aov.cameras[k]) == 0)
+                return yaml_fail(yaml_item(list, i), NULL,
+                                 "camera '%s' is one of output.aov.cameras: the run makes its pictures",
+                                 job->farm.cameras[i]);
+    }
+    return OK;
+}
+
 static status check_aov_layers(const struct yaml *root, const struct job *job)
 {
     const struct job_aov *aov = &job->output.aov;
+    if (aov->n_layers == 0)
+        return OK;
     const struct yaml *list = yaml_get(yaml_get(yaml_get(root, "output"), "aov"), "layers");
     for (size_t i = 0; i < aov->n_layers; i++) {
         bool found = false;
@@ -192,6 +249,44 @@ static status check_aov_cameras(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+static status check_sources(const struct yaml *root, const struct job *job)
+{
+    const struct yaml *list = yaml_get(root, "sources");
+    for (size_t i = 0; i < job->n_sources; i++)
+        if (job->sources[i].bed_m > 0 && job->sources[i].n_path_m == 0)
+            return yaml_fail(place(yaml_item(list, i), "bed_m"), NULL,
+                             "a bed along path_m, which has no points");
+    return OK;
+}
+
+static status check_edits(const struct yaml *root, const struct job *job)
+{
+    const struct yaml *list = yaml_get(root, "edits");
+    if (job->n_edits > EDITS)
+        return yaml_fail(list, NULL, "%zu edits (at most %d)", job->n_edits, EDITS);
+    for (size_t i = 0; i < job->n_edits; i++) {
+        const struct job_edit *e = &job->edits[i];
+        const struct yaml *item = yaml_item(list, i);
+        if (job->model != MODEL_ARENITE)
+            return yaml_fail(list, NULL, "only model: arenite has edits");
+        if (i && e->frame < e[-1].frame)
+            return yaml_fail(place(item, "frame"), NULL,
+                             "frame %lld is before the edit above it, of frame %lld", (long long)e->frame,
+                             (long long)e[-1].frame);
+        if (e->frame < job->frames.first && !*job->from)
+            return yaml_fail(place(item, "frame"), NULL, "frame %lld is before the job's first, %d",
+                             (long long)e->frame, job->frames.first);
+        if (!e->carve && !e->n_add && !e->n_paint && !e->set.n)
+            return yaml_fail(item, NULL, "changes nothing: give it carve, add, paint or set");
+        for (size_t k = 0; k < e->n_add; k++)
+            if (e->add[k].layer >= (long long)job->n_strata)
+                return yaml_fail(place(yaml_item(yaml_get(item, "add"), k), "layer"), NULL,
+                                 "%lld is not one of the %zu strata (0 is the lowest, -1: by height)",
+                                 (long long)e->add[k].layer, job->n_strata);
+    }
+    return OK;
+}
+
 /* Lists that are zipped must end together. */
 static status check_wedge(const struct yaml *root, const struct job_wedge *wedge)
 {
@@ -215,8 +310,11 @@ status check_job(const struct yaml *root, const struct job *job)
     status st = OK;
     TRY(check_strata(root, job));
     TRY(check_aov_cameras(root, job));
+    TRY(check_sources(root, job));
+    TRY(check_edits(root, job));
     TRY(check_wedge(root, &job->wedge));
     TRY(check_aov_layers(root, job));
+    TRY(check_farm_cameras(root, job));
 done:
     return st;
 }

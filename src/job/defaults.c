@@ -94,6 +94,9 @@ status read_default(const struct job_key *key, const struct yaml *map, const cha
     case KEY_NAMES:
     case KEY_TEXTS:
     case KEY_NODE:
+    case KEY_MAYBE:
+    case KEY_RANGES:
+    case KEY_SETS:
         break; /* zeroed: none */
     }
     return OK;

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 
 #include "base/memory.h"
-#include "job/table.h"
+#include "job/parse.h"
 
 /* Walks the job once for both uses: its canonical form, or the files it reads. */
 struct walk {
@@ -38,6 +38,13 @@ static void put_text(struct walk *w, const char *s)
     text_add_bytes(&w->canonical, s, strlen(s) + 1);
 }
 
+static void put_range(struct walk *w, struct frame_range range)
+{
+    put_number(w, range.first);
+    put_number(w, range.last);
+    put_number(w, range.step);
+}
+
 /* A curve that never changes is a number, however it is written. */
 static void put_curve(struct walk *w, const struct curve *c, size_t width)
 {
@@ -57,6 +64,9 @@ static status walk_input(struct walk *w, const char *path)
 {
     struct job_input input = {.path = path};
     struct stat info;
+    put_count(w, *path != 0);
+    if (!*path)
+        return OK;
     if (stat(path, &info) != 0)
         return fail(E_INPUT, "%s: %s: %s", w->path, path, strerror(errno));
     if (!S_ISREG(info.st_mode))
@@ -81,6 +91,7 @@ static status walk_input(struct walk *w, const char *path)
 }
 
 static status walk_section(struct walk *w, enum job_section_id section, const void *base);
+static status walk_key(struct walk *w, const struct job_key *key, const void *base);
 
 /* Adds ".name" to the path; returns its length before, for path_back(). */
 static size_t path_add(struct walk *w, const char *name)
@@ -104,6 +115,9 @@ static void path_back(struct walk *w, size_t n)
 
 static status walk_node(struct walk *w, const struct job_node *node)
 {
+    put_count(w, node != NULL);
+    if (!node)
+        return OK;
     bool shape = node->kind == NODE_SHAPE;
     enum job_section_id section = node_section(node);
     const char *name = shape ? job_sections[section].name : node_operators[node->kind];
@@ -138,13 +152,28 @@ done:
     return st;
 }
 
+/* Whatever was set, and however it was written: the job that came of it. What no edit changes is hashed
+ * already. */
+static status walk_sets(struct walk *w, const struct job_sets *sets)
+{
+    const struct job_section *s = &job_sections[SECTION_job];
+    status st = OK;
+    put_count(w, sets->n);
+    for (size_t i = 0; sets->n && i < s->n; i++)
+        if (job_settable(s->key[i].name))
+            TRY(walk_key(w, &s->key[i], sets->job));
+done:
+    return st;
+}
+
 static status walk_key(struct walk *w, const struct job_key *key, const void *base)
 {
     const void *member = key_member(key, base);
-    struct frame_range range;
+    const struct frame_range *ranges;
     const char *item;
     char **names;
     const double *points;
+    const void *child;
     size_t n;
     switch (key->type) {
     case KEY_TEXT:
@@ -176,16 +205,19 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
             put_number(w, ((const double *)member)[i]);
         break;
     case KEY_RANGE:
-        range = *(const struct frame_range *)member;
-        put_number(w, range.first);
-        put_number(w, range.last);
-        put_number(w, range.step);
+        put_range(w, *(const struct frame_range *)member);
         break;
     case KEY_POINTS:
         points = key_items(key, base, &n);
         put_count(w, n);
         for (size_t i = 0; i < n * key->n; i++)
             put_number(w, points[i]);
+        break;
+    case KEY_RANGES:
+        ranges = key_items(key, base, &n);
+        put_count(w, n);
+        for (size_t i = 0; i < n; i++)
+            put_range(w, ranges[i]);
         break;
     case KEY_NAMES:
     case KEY_TEXTS:
@@ -196,6 +228,12 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
         break;
     case KEY_SUB:
         return walk_section(w, (enum job_section_id)key->child, member);
+    case KEY_MAYBE:
+        child = *(void *const *)member;
+        put_count(w, child != NULL);
+        return child ? walk_section(w, (enum job_section_id)key->child, child) : OK;
+    case KEY_SETS:
+        return walk_sets(w, member);
     case KEY_LIST:
     case KEY_MAP:
         return walk_items(w, key, base);

@@ -50,7 +50,17 @@ void free_section(enum job_section_id section, void *base)
         case KEY_NODE:
             free_node(*(struct job_node **)member);
             break;
+        case KEY_MAYBE:
+            items = *(char **)member;
+            if (items)
+                free_section((enum job_section_id)key->child, items);
+            free(items);
+            break;
+        case KEY_SETS:
+            free_sets(member);
+            break;
         case KEY_POINTS:
+        case KEY_RANGES:
             free(key_items(key, base, &n));
             break;
         case KEY_NAMES:
@@ -95,6 +105,37 @@ static status folder_of(const char *path, char **out)
         st = fail(E_INPUT, "%s: %s", path, strerror(errno));
     free(copy);
     return st;
+}
+
+const struct job *job_at(const struct job *job, int frame)
+{
+    const struct job *now = job;
+    for (size_t i = 0; i < job->n_edits && job->edits[i].frame <= frame; i++)
+        if (job->edits[i].set.job)
+            now = job->edits[i].set.job;
+    return now;
+}
+
+bool job_marks(const struct job *job, int frame)
+{
+    for (size_t i = 0; i < job->checkpoint.n_mark; i++)
+        if (range_holds(job->checkpoint.mark[i], frame))
+            return true;
+    return false;
+}
+
+double job_years(const struct job *job, int from, int to)
+{
+    double years = 0;
+    for (size_t i = 0; i < job->n_edits && from < to; i++) {
+        int before = (int)job->edits[i].frame - 1;
+        if (before > from) {
+            int last = before < to ? before : to;
+            years += (last - from) * job_at(job, last)->clock.years_per_frame;
+            from = last;
+        }
+    }
+    return years + (to - from) * job_at(job, to)->clock.years_per_frame;
 }
 
 const char *const aov_layer_names[AOV_LAYER_COUNT] = {
@@ -145,6 +186,7 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     TRY(read_section(SECTION_job, root, NULL, folder, job));
     TRY(read_default_layer(root, job));
     TRY(check_job(root, job));
+    TRY(read_edited_jobs(&tree, root, folder, job));
     TRY(read_wedge_csv(folder, job));
     *out = job;
     job = NULL;

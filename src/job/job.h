@@ -37,7 +37,20 @@ enum job_shape {
     SHAPE_MESH,
     SHAPE_HEIGHTFIELD,
     SHAPE_JOINTMAP,
+    SHAPE_STROKE,
     SHAPE_STACKS
+};
+
+/* What an edit sets. */
+struct job_set {
+    char *path, *value; /* "wind.speed_m_s"; the value as one line of YAML */
+};
+
+struct job_sets {
+    struct job_set *item;
+    size_t n;
+    struct job
+        *job; /* the job as it is from this edit on, all earlier ones counted; NULL if it sets nothing */
 };
 
 /* The top section is the job itself: struct job, not struct job_job. */
@@ -63,7 +76,13 @@ enum job_shape {
     struct job_##child *key;                                                                                 \
     size_t n_##key;
 #define MAP(section, key, child, meaning) LIST(section, key, child, meaning)
+#define MAYBE(section, key, child, meaning) struct job_##child *key;
 #define NODE(section, key, meaning) struct job_node *key;
+#define MAYBE_NODE(section, key, meaning) struct job_node *key;
+#define RANGES(section, key, use, meaning)                                                                   \
+    struct frame_range *key;                                                                                 \
+    size_t n_##key;
+#define SETS(section, key, meaning) struct job_sets key;
 #define POINTS(section, key, use, unit, n, min, max, meaning, source)                                        \
     double(*key)[n];                                                                                         \
     size_t n_##key;
@@ -87,6 +106,7 @@ struct job_node {
         struct job_mesh mesh;
         struct job_heightfield heightfield;
         struct job_jointmap jointmap;
+        struct job_stroke stroke;
         struct job_stacks stacks;
         struct job_group group; /* operators */
     } u;
@@ -155,6 +175,15 @@ MUST_USE status job_load_wedge(const char *path, const char *const *sets, size_t
 /* The job as run: YAML with every key, its value and, as a comment, its unit and meaning. Loading it again
  * gives an equal job. */
 MUST_USE status job_resolved(const struct job *job, struct text *out);
+
+/* The job as it is in a frame: with what the edits up to it set. Lives as long as `job`. */
+const struct job *job_at(const struct job *job, int frame);
+
+/* Whether checkpoint.mark holds the frame. */
+bool job_marks(const struct job *job, int frame);
+
+/* Years that pass from frame `from` to frame `to`, >= it. */
+double job_years(const struct job *job, int from, int to);
 
 /* The index of the stratum at a height, m. */
 size_t job_layer_at(const struct job *job, double z);

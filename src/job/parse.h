@@ -11,6 +11,22 @@
  * with the rest. */
 MUST_USE status job_set(struct yaml_tree *tree, struct yaml *root, const char *set);
 
+/* Applies one item of an edit's `set`, whose key is a key path, in the same way. E_USAGE, at the item, for keys
+ * that an edit cannot change. */
+MUST_USE status job_set_edit(struct yaml_tree *tree, struct yaml *root, const struct yaml *value);
+
+/* May an edit change what is under this key of the job? */
+bool job_settable(const char *top);
+
+/* The settings of an edit, as texts; and after the job is read and checked, the job from each edit on. */
+MUST_USE status read_sets(const struct yaml *map, struct job_sets *out);
+MUST_USE status read_edited_jobs(struct yaml_tree *tree, struct yaml *root, const char *folder,
+                                 struct job *job);
+void free_sets(struct job_sets *sets);
+
+/* YAML text in double quotes. */
+void put_quoted(struct text *t, const char *s);
+
 /* Fills the struct of `section` from a mapping, defaults included. `name` is the mapping's own key where it
  * names the struct (MAP), else NULL. `folder` is where relative INPUT files are. */
 MUST_USE status read_section(enum job_section_id section, const struct yaml *map, const char *name,

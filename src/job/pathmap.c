@@ -77,6 +77,9 @@ static status map_section(const struct rules *rules, enum job_section_id section
             st = map_path(rules, member);
         } else if (key->type == KEY_SUB) {
             st = map_section(rules, (enum job_section_id)key->child, member);
+        } else if (key->type == KEY_MAYBE) {
+            void *child = *(void **)member;
+            st = child ? map_section(rules, (enum job_section_id)key->child, child) : OK;
         } else if (key->type == KEY_NODE) {
             st = *(struct job_node **)member ? map_node(rules, *(struct job_node **)member) : OK;
         } else if (key->type == KEY_LIST || key->type == KEY_MAP) {

@@ -46,11 +46,23 @@ static status read_list(const struct job_key *key, const struct yaml *v, const c
     return st;
 }
 
+static status read_maybe(const struct job_key *key, const struct yaml *v, const char *folder, void *base)
+{
+    void *child = NULL;
+    status st = memory_alloc(1, job_sections[key->child].size, key->name, &child);
+    if (st != OK)
+        return st;
+    memcpy(key_member(key, base), &child, sizeof child);
+    return read_section((enum job_section_id)key->child, v, NULL, folder, child);
+}
+
 static status read_key(const struct job_key *key, const struct yaml *v, const char *folder, void *base)
 {
     switch (key->type) {
     case KEY_SUB:
         return read_section((enum job_section_id)key->child, v, NULL, folder, key_member(key, base));
+    case KEY_MAYBE:
+        return read_maybe(key, v, folder, base);
     case KEY_LIST:
     case KEY_MAP:
         return read_list(key, v, folder, base);

@@ -98,6 +98,12 @@ static const char *type_name(const struct job_key *key)
         return "list of points";
     case KEY_NAMES:
         return "list of names";
+    case KEY_MAYBE:
+        return "mapping";
+    case KEY_RANGES:
+        return "list of frame ranges";
+    case KEY_SETS:
+        return "mapping of key paths";
     case KEY_TEXTS:
         return "list of values";
     }
@@ -134,13 +140,16 @@ static void put_default(struct text *t, const struct job_key *key)
     case KEY_LIST:
     case KEY_POINTS:
     case KEY_NAMES:
+    case KEY_RANGES:
     case KEY_TEXTS:
         text_add(t, "`[]`");
         break;
     case KEY_MAP:
+    case KEY_SETS:
         text_add(t, "`{}`");
         break;
     case KEY_SUB:
+    case KEY_MAYBE:
     case KEY_NODE:
         break;
     }
@@ -181,31 +190,38 @@ static void put_table(struct text *t, enum job_section_id section, const char *t
             put_row(t, &s->key[i]);
 }
 
-/* The section's table, then those inside it. `path` is where it stands in a job: "wind.deflation". */
-static void put_tables(struct text *t, enum job_section_id section, const char *path, bool named)
+/* The section's table, then those inside it. `path` is where it stands in a job: "wind.deflation"; first[id] is
+ * where a section stood first. */
+static void put_tables(struct text *t, enum job_section_id section, const char *path, bool named,
+                       char (*first)[256])
 {
     const struct job_section *s = &job_sections[section];
     char title[300];
+    if (*first[section]) {
+        text_add(t, "\n## `%s`\n\nThe keys of `%s`.\n", path, first[section]);
+        return;
+    }
+    snprintf(first[section], sizeof first[section], "%s", path);
     snprintf(title, sizeof title, path[0] ? "`%s`" : "The job", path);
     put_table(t, section, title, true, named);
     for (size_t i = 0; i < s->n; i++) {
         const struct job_key *key = &s->key[i];
-        if (key->type != KEY_SUB && key->type != KEY_LIST && key->type != KEY_MAP)
+        if (key->type != KEY_SUB && key->type != KEY_MAYBE && key->type != KEY_LIST && key->type != KEY_MAP)
             continue;
         char inner[256];
         snprintf(inner, sizeof inner, "%s%s%s%s", path, path[0] ? "." : "", key->name,
                  key->type == KEY_LIST  ? ".N"
                  : key->type == KEY_MAP ? ".NAME"
                                         : "");
-        put_tables(t, (enum job_section_id)key->child, inner, key->type == KEY_MAP);
+        put_tables(t, (enum job_section_id)key->child, inner, key->type == KEY_MAP, first);
     }
 }
 
 status job_reference(struct text *out)
 {
-    char title[100];
+    char title[100], first[JOB_SECTIONS][256] = {0};
     text_add(out, "%s", intro);
-    put_tables(out, SECTION_job, "", false);
+    put_tables(out, SECTION_job, "", false, first);
     for (int i = 0; i < SHAPES; i++) {
         snprintf(title, sizeof title, "Shape `%s`", job_sections[i].name);
         put_table(out, (enum job_section_id)i, title, false, false);

@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "job/table.h"
+#include "job/parse.h"
 
 /* Where the next line goes: `indent` spaces, and a dash before the first line of a list's item. */
 struct page {
@@ -23,7 +23,7 @@ static void end_line(struct page *p, const char *unit, const char *meaning)
     text_add(p->out, "  # %s%s%s\n", unit, unit[0] ? "; " : "", meaning);
 }
 
-static void put_quoted(struct text *t, const char *s)
+void put_quoted(struct text *t, const char *s)
 {
     text_add(t, "\"");
     for (; *s; s++) {
@@ -54,6 +54,17 @@ static void put_vec(struct text *t, const double *v, size_t n)
     for (size_t i = 0; i < n; i++)
         text_add(t, "%s%s", i ? ", " : "[", key_number(v[i], number));
     text_add(t, "]");
+}
+
+static void put_sets(struct text *t, const struct job_sets *sets)
+{
+    text_add(t, "{");
+    for (size_t i = 0; i < sets->n; i++) {
+        text_add(t, i ? ", " : "");
+        put_quoted(t, sets->item[i].path);
+        text_add(t, ": %s", sets->item[i].value);
+    }
+    text_add(t, "}");
 }
 
 static void put_curve_value(struct text *t, const struct job_key *key, const struct curve *c, size_t i)
@@ -89,6 +100,7 @@ static void put_value(struct text *t, const struct job_key *key, const void *bas
     const char *item;
     char **names;
     const double *points;
+    const struct frame_range *ranges;
     switch (key->type) {
     case KEY_TEXT:
     case KEY_NAME:
@@ -127,6 +139,16 @@ static void put_value(struct text *t, const struct job_key *key, const void *bas
         }
         text_add(t, "]");
         break;
+    case KEY_RANGES:
+        ranges = key_items(key, base, &n);
+        text_add(t, "[");
+        for (size_t i = 0; i < n; i++)
+            text_add(t, "%s%s", i ? ", " : "", range_text(ranges[i], number));
+        text_add(t, "]");
+        break;
+    case KEY_SETS:
+        put_sets(t, member);
+        break;
     case KEY_NAMES:
     case KEY_TEXTS:
         names = key_items(key, base, &n);
@@ -138,6 +160,7 @@ static void put_value(struct text *t, const struct job_key *key, const void *bas
         text_add(t, "]");
         break;
     case KEY_SUB:
+    case KEY_MAYBE:
     case KEY_LIST:
     case KEY_MAP:
     case KEY_NODE:
@@ -197,17 +220,21 @@ static void put_section(struct page *p, enum job_section_id section, const void 
     const struct job_section *s = &job_sections[section];
     for (size_t i = 0; i < s->n; i++) {
         const struct job_key *key = &s->key[i];
-        if (named && key->type == KEY_NAME)
+        const void *member = key_member(key, base);
+        bool maybe = key->type == KEY_MAYBE, node = key->type == KEY_NODE;
+        if (maybe || node)
+            member = *(void *const *)member;
+        if ((named && key->type == KEY_NAME) || !member)
             continue;
         begin_line(p);
         text_add(p->out, "%s:", key->name);
-        if (key->type == KEY_SUB || key->type == KEY_NODE) {
+        if (key->type == KEY_SUB || maybe || node) {
             end_line(p, "", key->meaning);
             p->indent += 2;
-            if (key->type == KEY_SUB)
-                put_section(p, (enum job_section_id)key->child, key_member(key, base), false);
+            if (node)
+                put_node(p, member);
             else
-                put_node(p, *(struct job_node *const *)key_member(key, base));
+                put_section(p, (enum job_section_id)key->child, member, false);
             p->indent -= 2;
         } else if (key->type == KEY_LIST || key->type == KEY_MAP) {
             put_items(p, key, base);

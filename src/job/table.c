@@ -53,6 +53,12 @@
         .offset_n = offsetof(struct job_##s_, n_##key_))
 #define LIST(s_, key_, child_, meaning_) ITEMS(s_, key_, KEY_LIST, SECTION_##child_, meaning_)
 #define MAP(s_, key_, child_, meaning_) ITEMS(s_, key_, KEY_MAP, SECTION_##child_, meaning_)
+#define MAYBE(s_, key_, child_, meaning_)                                                                    \
+    ROW(s_, key_, KEY_MAYBE, SIM, "", meaning_, "", .child = SECTION_##child_)
+#define MAYBE_NODE(s_, key_, meaning_) ROW(s_, key_, KEY_NODE, SIM, "", meaning_, "", .preset = "")
+#define RANGES(s_, key_, use_, meaning_)                                                                     \
+    ROW(s_, key_, KEY_RANGES, use_, "", meaning_, "", .offset_n = offsetof(struct job_##s_, n_##key_))
+#define SETS(s_, key_, meaning_) ROW(s_, key_, KEY_SETS, SIM, "", meaning_, "", .preset = "")
 #define NODE(s_, key_, meaning_) ROW(s_, key_, KEY_NODE, SIM, "", meaning_, "", .preset = NULL)
 #define POINTS(s_, key_, use_, unit_, width_, min_, max_, meaning_, source_)                                 \
     ROW(s_, key_, KEY_POINTS, use_, unit_, meaning_, source_, .n = width_, .min = min_, .max = max_,         \
@@ -95,6 +101,7 @@ bool key_required(const struct job_key *key)
     case KEY_RANGE:
     case KEY_CHOICE:
     case KEY_VEC:
+    case KEY_NODE:
     case KEY_TRACK:
         return key->preset == NULL;
     case KEY_NUM:
@@ -102,13 +109,14 @@ bool key_required(const struct job_key *key)
     case KEY_INT:
     case KEY_BOOL:
         return isnan(key->number);
-    case KEY_NODE:
-        return true;
     case KEY_SUB:
     case KEY_LIST:
     case KEY_MAP:
     case KEY_POINTS:
     case KEY_NAMES:
+    case KEY_MAYBE:
+    case KEY_RANGES:
+    case KEY_SETS:
     case KEY_TEXTS:
         break;
     }
@@ -117,7 +125,7 @@ bool key_required(const struct job_key *key)
 
 bool key_simulates(const struct job_key *key)
 {
-    if (key->type != KEY_SUB && key->type != KEY_LIST && key->type != KEY_MAP)
+    if (key->type != KEY_SUB && key->type != KEY_MAYBE && key->type != KEY_LIST && key->type != KEY_MAP)
         return key->use == SIM;
     const struct job_section *child = &job_sections[key->child];
     for (size_t i = 0; i < child->n; i++)
@@ -198,6 +206,9 @@ const char *key_allowed(const struct job_key *key, char out[256])
     case KEY_MAP:
     case KEY_NODE:
     case KEY_NAMES:
+    case KEY_MAYBE:
+    case KEY_RANGES:
+    case KEY_SETS:
     case KEY_TEXTS:
         break;
     }

@@ -230,11 +230,13 @@ static status read_name(const struct yaml *v, char **out)
     return memory_strdup(v->text, out);
 }
 
-static status read_input(const struct yaml *v, const char *folder, char **out)
+static status read_input(const struct job_key *key, const struct yaml *v, const char *folder, char **out)
 {
     status st = check_text(v);
     if (st != OK)
         return st;
+    if (!*v->text && key->preset && !*key->preset)
+        return memory_strdup("", out);
     if (!*v->text || strchr(v->text, '\n'))
         return yaml_fail(v, NULL, "a file name is wanted");
     if (*v->text == '/')
@@ -260,6 +262,24 @@ static status read_points(const struct job_key *key, const struct yaml *v, void 
     key_set_items(key, base, point, v->n);
     for (const struct yaml *item = v->first; item && st == OK; item = item->next, point += key->n)
         st = read_vec(key, item, point);
+    return st;
+}
+
+static status read_ranges(const struct job_key *key, const struct yaml *v, void *base)
+{
+    struct frame_range *range = NULL;
+    if (v->kind != YAML_LIST)
+        return yaml_fail(v, NULL,
+                         "%s, but a list of frames is wanted ([] for none), such as [1040, 1050-1100x10]",
+                         yaml_what(v));
+    if (v->n > NAMES)
+        return yaml_fail(v, NULL, "%zu frame ranges (at most %d)", v->n, NAMES);
+    status st = memory_alloc(v->n, sizeof *range, key->name, &range);
+    if (st != OK)
+        return st;
+    key_set_items(key, base, range, v->n);
+    for (const struct yaml *item = v->first; item && st == OK; item = item->next)
+        st = read_range(item, range++);
     return st;
 }
 
@@ -341,7 +361,7 @@ status read_value(const struct job_key *key, const struct yaml *v, const char *f
     case KEY_NAME:
         return read_name(v, member);
     case KEY_INPUT:
-        return read_input(v, folder, member);
+        return read_input(key, v, folder, member);
     case KEY_NUM:
         return read_number(key, v, member);
     case KEY_INT:
@@ -364,9 +384,14 @@ status read_value(const struct job_key *key, const struct yaml *v, const char *f
         return read_points(key, v, base);
     case KEY_NAMES:
         return read_names(key, v, base);
+    case KEY_RANGES:
+        return read_ranges(key, v, base);
+    case KEY_SETS:
+        return read_sets(v, member);
     case KEY_TEXTS:
         return read_texts(key, v, base);
     case KEY_SUB:
+    case KEY_MAYBE:
     case KEY_LIST:
     case KEY_MAP:
     case KEY_NODE:

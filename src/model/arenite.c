@@ -3,8 +3,8 @@
  *
  * One frame, as DESIGN 3 lists it:
  *
- *   plants -> wind -> water -> viability -> eroded particles, deposits -> unsupported blocks -> surface, normals
- *   -> stress -> erodibility
+ *   edits -> plants -> wind -> water -> viability -> eroded particles, deposits -> unsupported blocks
+ *   -> surface, normals -> stress -> erodibility
  *
  * all but the first once or more, until the frame's years have passed; output() then adds the surface field and
  * the pictures.
@@ -23,6 +23,7 @@
 #include "field/aov.h"
 #include "field/field.h"
 #include "model/air.h"
+#include "model/edits.h"
 #include "model/model.h"
 #include "model/sections.h"
 #include "particles/particles.h"
@@ -38,8 +39,10 @@ static const double WATER_STEP = 1.5;
 
 struct model {
     struct gpu *gpu;
-    const struct job *job;
+    const struct job *whole; /* as loaded */
+    const struct job *job;   /* as the edits up to this frame have it */
     int frame;
+    double years;        /* since the first frame */
     double start_volume; /* m3 */
     struct ledger ledger;
     struct gpu_work *work;
@@ -51,7 +54,7 @@ struct model {
     bool told; /* that water is held back */
     struct deposit deposit;
     struct blocks blocks;
-    bool deposits, plants; /* does the job ever have any? */
+    bool deposits, plants; /* does the run ever have any? */
     struct field field;
     struct aov aov;
 };
@@ -145,10 +148,61 @@ done:
     return st;
 }
 
+/* What lasts from frame to frame and depends on the number of particles. */
+static status create_particles(struct model *m, const struct rock *rock)
+{
+    status st = OK;
+    int voxels[3];
+    TRY(scene_voxels(m->job, voxels));
+    TRY(particles_create(m->gpu, m->work, rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
+    TRY(erosion_create(m->gpu, m->job, m->particles.n_max, &m->erosion));
+done:
+    return st;
+}
+
+static void destroy_particles(struct model *m)
+{
+    erosion_destroy(m->gpu, &m->erosion);
+    particles_destroy(m->gpu, &m->particles);
+}
+
+static struct elastic_options elastic_options(const struct job *job)
+{
+    return (struct elastic_options){
+        .lambda = 1e9 * job->rock.lame_GPa,
+        .mu = 1e9 * job->rock.shear_GPa,
+        .density = job->rock.density_kg_m3,
+        .gravity = job->rock.gravity_m_s2,
+        .tolerance = job->stress.tolerance,
+        .max_iterations = (int)job->stress.max_iterations,
+    };
+}
+
 /* Does anything in the job need to know where water runs? */
 static bool routes(const struct job *job)
 {
     return water_ever_flows(job) || deposit_wanted(job);
+}
+
+/* Does the job want that, now or once edited? */
+static bool ever(const struct job *job, bool (*wanted)(const struct job *))
+{
+    bool any = wanted(job);
+    for (size_t i = 0; i < job->n_edits && !any; i++)
+        any = job->edits[i].set.job && wanted(job->edits[i].set.job);
+    return any;
+}
+
+/* For the job as it is now. */
+static status create_water(struct model *m)
+{
+    status st = OK;
+    int voxels[3];
+    TRY(scene_voxels(m->job, voxels));
+    if (routes(m->job))
+        TRY(water_create(m->gpu, m->job, voxels, m->job->domain.spacing_m, &m->water));
+done:
+    return st;
 }
 
 /* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
@@ -187,6 +241,33 @@ done:
     return st;
 }
 
+/* A frame's edits: what they set and what they do to the rock. */
+static status edit(struct model *m)
+{
+    status st = OK;
+    struct rock rock = {0};
+    enum edits_kind kind = edits_of(m->whole, m->frame);
+    m->job = job_at(m->whole, m->frame);
+    if (kind == EDITS_NONE)
+        return OK;
+    gpu_stage(m->gpu, "edits");
+    m->elastic.options = elastic_options(m->job);
+    water_destroy(m->gpu, &m->water);
+    TRY(create_water(m));
+    if (kind == EDITS_ROCK) {
+        TRY(particles_download(m->gpu, &m->particles, STATE, &rock));
+        TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
+        destroy_particles(m);
+        TRY(create_particles(m, &rock));
+        TRY(count_rock(m));
+        TRY(remove_unsupported(m));
+    }
+    TRY(settle(m, false));
+done:
+    rock_free(&rock);
+    return st;
+}
+
 /* One step of up to *kyr. */
 static status erode(struct model *m, int step, double least, double *kyr)
 {
@@ -213,6 +294,8 @@ static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
+    TRY(edit(m));
+    m->years += m->job->clock.years_per_frame;
     if (m->plants) {
         gpu_stage(m->gpu, "plants");
         plants_grow(m->gpu, m->job, m->frame, &m->particles);
@@ -275,14 +358,15 @@ done:
 }
 
 /* Which values of the surface this job can have. */
-static size_t skin_fields(const struct job *job, enum rock_field out[3])
+static size_t skin_fields(const struct model *m, enum rock_field out[3])
 {
+    const struct job *job = m->job;
     size_t n = 0;
     if (water_ever_flows(job))
         out[n++] = ROCK_discharge;
-    if (plants_wanted(job))
+    if (m->plants)
         out[n++] = ROCK_vegetation;
-    if (deposit_wanted(job))
+    if (m->deposits)
         out[n++] = ROCK_phase;
     return n;
 }
@@ -292,10 +376,10 @@ static status output(struct model *m, struct frame *out)
     status st = OK;
     const struct job *job = m->job;
     enum rock_field skin[3];
-    size_t n_skin = skin_fields(job, skin);
+    size_t n_skin = skin_fields(m, skin);
     struct aov_air air = {0};
     *out = (struct frame){.number = m->frame,
-                          .years = (m->frame - job->frames.first) * job->clock.years_per_frame,
+                          .years = m->years,
                           .ledger = m->ledger,
                           .stress_iterations = m->elastic.iterations};
     TRY(show_water(m));
@@ -318,12 +402,33 @@ done:
 
 /* ---- the state */
 
+/* What the displacement depends on beside the rock's shape. */
+enum { ELASTICITY = 4 };
+
+static void elasticity(const struct model *m, double out[ELASTICITY])
+{
+    const struct elastic_options *e = &m->elastic.options;
+    const double numbers[ELASTICITY] = {e->lambda, e->mu, e->density, e->gravity};
+    memcpy(out, numbers, sizeof numbers);
+}
+
+/* What air has to have in common with a checkpoint's to go on from it. */
+enum { AIR_BOX = 4 };
+
+static void air_box(const struct flow *air, double out[AIR_BOX])
+{
+    const double numbers[AIR_BOX] = {air->spacing, air->box[0], air->box[1], air->box[2]};
+    memcpy(out, numbers, sizeof numbers);
+}
+
 static status save_air(struct model *m, struct checkpoint *out)
 {
     status st = OK;
     void *data;
     struct flow *air = &m->wind.flow;
     struct flow_array array[FLOW_ARRAYS];
+    TRY(section_add(out, "air box", 8, AIR_BOX, &data));
+    air_box(air, data);
     TRY(section_add(out, "air", 8, sizeof air->state / 8, &data));
     memcpy(data, &air->state, sizeof air->state);
     flow_arrays(air, array);
@@ -335,10 +440,17 @@ done:
     return st;
 }
 
+/* A branch whose air is of another size than the checkpoint's, or that has none yet, begins with still air. */
 static status restore_air(struct model *m, const struct checkpoint *c)
 {
     status st = OK;
-    const struct checkpoint_section *s;
+    const struct checkpoint_section *s = checkpoint_find(c, "air box", 8);
+    double box[AIR_BOX];
+    air_box(&m->wind.flow, box);
+    if (!s || s->n != AIR_BOX || memcmp(s->data, box, sizeof box) != 0) {
+        log_info("frame %d: the checkpoint has no air of this size: it begins anew", c->frame);
+        return OK;
+    }
     struct flow *air = &m->wind.flow;
     struct flow_array array[FLOW_ARRAYS];
     TRY(section_find(c, "air", 8, sizeof air->state / 8, &s));
@@ -361,8 +473,8 @@ static status save(struct model *m, struct checkpoint *out)
     status st = OK;
     void *data;
     size_t n = m->particles.n, nodes = elastic_nodes(&m->elastic);
-    *out = (struct checkpoint){.frame = m->frame,
-                               .years = (m->frame - m->job->frames.first) * m->job->clock.years_per_frame};
+    *out = (struct checkpoint){.frame = m->frame, .years = m->years};
+    TRY(section_add_domain(out, m->job));
     for (int f = 0; f < ROCK_FIELDS; f++) {
         if (rock_field_table[f].keep != STATE)
             continue;
@@ -378,6 +490,10 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->start_volume, sizeof m->start_volume);
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &m->elastic.iterations, 4);
+    TRY(section_add(out, "elasticity", 8, ELASTICITY, &data));
+    elasticity(m, data);
+    TRY(section_add(out, "processes", 8, 2, &data));
+    memcpy(data, (const double[]){m->deposits, m->plants}, 2 * sizeof(double));
     if (m->wind.flows)
         TRY(save_air(m, out));
 done:
@@ -386,11 +502,17 @@ done:
     return st;
 }
 
-static status restore(struct model *m, const struct checkpoint *c, const int voxels[3])
+/* *settled: the displacement is that of this job's rock. A branch may have changed what it depends on. */
+static status restore(struct model *m, const struct checkpoint *c, bool *settled)
 {
     status st = OK;
     struct rock rock = {0};
     const struct checkpoint_section *s;
+    double now[ELASTICITY];
+    TRY(section_check_domain(c, m->job));
+    elasticity(m, now);
+    TRY(section_find(c, "elasticity", 8, ELASTICITY, &s));
+    *settled = memcmp(s->data, now, sizeof now) == 0;
     TRY(section_find(c, "id", 4, 0, &s));
     rock.n = s->n;
     for (int f = 0; f < ROCK_FIELDS; f++) {
@@ -408,22 +530,27 @@ static status restore(struct model *m, const struct checkpoint *c, const int vox
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
     TRY(gpu_upload(m->gpu, m->elastic.u, 0, s->data, elastic_nodes(&m->elastic)));
+    TRY(section_find(c, "processes", 8, 2, &s));
+    m->deposits |= ((const double *)s->data)[0] != 0;
+    m->plants |= ((const double *)s->data)[1] != 0;
     if (m->wind.flows)
         TRY(restore_air(m, c));
-    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
-    m->frame = c->frame;
+    TRY(create_particles(m, &rock));
 done:
     return st;
 }
 
-static status begin(struct model *m, const int voxels[3])
+static status begin(struct model *m)
 {
     status st = OK;
     struct rock rock = {0};
-    TRY(scene_sample(m->job, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
-    m->frame = m->job->frames.first;
+    TRY(scene_sample(m->whole, &rock));
     m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
+    TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
+    for (size_t i = 0; i < rock.n && !m->deposits; i++)
+        m->deposits = rock.phase[i] == PHASE_DEPOSIT; /* a scene of stacks has loose ground */
+    TRY(create_particles(m, &rock));
+    TRY(count_rock(m));
     TRY(remove_unsupported(m));
     if (m->ledger.fallen)
         log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out",
@@ -446,10 +573,9 @@ static void destroy(struct model **handle)
     deposit_destroy(m->gpu, &m->deposit);
     blocks_destroy(m->gpu, &m->blocks);
     wind_destroy(m->gpu, &m->wind);
-    erosion_destroy(m->gpu, &m->erosion);
     water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
-    particles_destroy(m->gpu, &m->particles);
+    destroy_particles(m);
     gpu_work_destroy(m->gpu, &m->work);
     free(m);
     *handle = NULL;
@@ -462,35 +588,31 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     struct model *m = NULL;
     int voxels[3];
     double h = job->domain.spacing_m;
-    struct elastic_options options = {
-        .lambda = 1e9 * job->rock.lame_GPa,
-        .mu = 1e9 * job->rock.shear_GPa,
-        .density = job->rock.density_kg_m3,
-        .gravity = job->rock.gravity_m_s2,
-        .tolerance = job->stress.tolerance,
-        .max_iterations = (int)job->stress.max_iterations,
-    };
+    bool settled = false;
     TRY(memory_alloc(1, sizeof *m, "the model", &m));
     m->gpu = gpu;
-    m->job = job;
+    m->whole = job;
+    m->frame = from ? from->frame : job->frames.first;
+    m->years = from ? from->years : 0;
+    m->job = job_at(job, m->frame);
+    struct elastic_options options = elastic_options(m->job);
     gpu_stage(gpu, "start");
     TRY(scene_voxels(job, voxels));
     TRY(gpu_work_create(gpu, voxel_count(voxels) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
-    m->plants = plants_wanted(job);
-    m->deposits = deposit_wanted(job);
-    if (m->deposits)
-        TRY(deposit_create(gpu, voxels, &m->deposit));
+    m->plants = plants_wanted(job) || edits_plant(job);
+    m->deposits = ever(job, deposit_wanted);
     TRY(wind_create(gpu, job, voxels, &m->wind));
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));
-    TRY(from ? restore(m, from, voxels) : begin(m, voxels));
-    TRY(erosion_create(gpu, job, m->particles.n_max, &m->erosion));
-    if (routes(job))
-        TRY(water_create(gpu, job, voxels, h, &m->water));
-    TRY(settle(m, from != NULL));
+    TRY(scene_edits_check(job, m->frame));
+    TRY(from ? restore(m, from, &settled) : begin(m));
+    if (m->deposits)
+        TRY(deposit_create(gpu, voxels, &m->deposit));
+    TRY(create_water(m));
+    TRY(settle(m, settled));
     *out = m;
     m = NULL;
 done:
@@ -514,8 +636,8 @@ static status estimate(const struct job *job, struct model_estimate *out)
     out->device_bytes = gpu_work_bytes(voxels + 2) + particles_bytes(n, out->voxels) +
                         elastic_bytes(out->voxels) + erosion_bytes(n) + blocks_bytes(out->voxels) +
                         wind_bytes(job, out->voxels) + field + aov_bytes(pixels) +
-                        (routes(job) ? water_bytes(out->voxels) : 0) +
-                        (deposit_wanted(job) ? deposit_bytes(out->voxels) : 0);
+                        (ever(job, routes) ? water_bytes(out->voxels) : 0) +
+                        (ever(job, deposit_wanted) ? deposit_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
@@ -526,7 +648,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
     out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels) +
                                        0.9 * (double)wind_checkpoint_bytes(job, out->voxels));
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
-        out->steps += erosion_steps(job, f, wind_intensity(job, f));
+        out->steps += erosion_steps(job_at(job, f), f, wind_intensity(job_at(job, f), f));
 done:
     return st;
 }

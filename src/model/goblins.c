@@ -30,6 +30,7 @@ struct model {
     struct gpu *gpu;
     const struct job *job;
     int frame;
+    double years;        /* since the first frame */
     double start_volume; /* m3 */
     struct ledger ledger;
     struct gpu_work *work;
@@ -43,11 +44,6 @@ struct model {
 static size_t voxel_count(const int n[3])
 {
     return (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
-}
-
-static double years_of(const struct job *job, int frame)
-{
-    return (frame - job->frames.first) * job->clock.years_per_frame;
 }
 
 /* ---- a frame */
@@ -74,6 +70,7 @@ static status step(struct model *m)
     status st = OK;
     double kyr = m->job->clock.years_per_frame / 1000;
     m->frame++;
+    m->years += m->job->clock.years_per_frame;
     gpu_stage(m->gpu, "weathering");
     TRY(voxels_rates(m->gpu, &m->voxels, m->job, m->frame));
     while (kyr > 0 && m->ledger.rock > 0) {
@@ -166,10 +163,8 @@ static status output(struct model *m, struct frame *out)
     float *share = NULL, *factor = NULL;
     struct rock rock = {0};
     struct particles p = {0};
-    *out = (struct frame){.number = m->frame,
-                          .years = years_of(m->job, m->frame),
-                          .ledger = m->ledger,
-                          .start_volume_m3 = m->start_volume};
+    *out = (struct frame){
+        .number = m->frame, .years = m->years, .ledger = m->ledger, .start_volume_m3 = m->start_volume};
     gpu_stage(m->gpu, "surface");
     TRY(memory_alloc(n, sizeof *share, "voxels", &share));
     TRY(memory_alloc(n, sizeof *factor, "voxels", &factor));
@@ -197,7 +192,8 @@ static status save(struct model *m, struct checkpoint *out)
     status st = OK;
     void *share, *factor, *data;
     size_t n = voxel_count(m->voxels.n);
-    *out = (struct checkpoint){.frame = m->frame, .years = years_of(m->job, m->frame)};
+    *out = (struct checkpoint){.frame = m->frame, .years = m->years};
+    TRY(section_add_domain(out, m->job));
     TRY(section_add(out, "voxels", 4, n, &share));
     TRY(section_add(out, "factors", 4, n, &factor));
     TRY(voxels_download(m->gpu, &m->voxels, share, factor));
@@ -215,6 +211,7 @@ static status restore(struct model *m, const struct checkpoint *c, const int n[3
 {
     status st = OK;
     const struct checkpoint_section *s, *factor;
+    TRY(section_check_domain(c, m->job));
     TRY(section_find(c, "ledger", 8, sizeof m->ledger / 8, &s));
     memcpy(&m->ledger, s->data, sizeof m->ledger);
     TRY(section_find(c, "start volume", 8, 1, &s));
@@ -223,6 +220,7 @@ static status restore(struct model *m, const struct checkpoint *c, const int n[3
     TRY(section_find(c, "factors", 4, voxel_count(n), &factor));
     TRY(voxels_create(m->gpu, m->work, m->job, n, s->data, factor->data, &m->voxels));
     m->frame = c->frame;
+    m->years = c->years;
 done:
     return st;
 }

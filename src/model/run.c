@@ -11,6 +11,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/version.h"
+#include "model/branch.h"
 #include "model/model.h"
 #include "model/stage.h"
 #include "model/timing.h"
@@ -52,6 +53,29 @@ static status frame_done(const struct run *r, int frame, bool *done)
     return st == E_MEMORY ? st : OK; /* missing or damaged is no error here */
 }
 
+/* Marked frames' checkpoints: those there are to be kept, those missing are work. */
+static status survey_marks(struct run *r, const int *there, size_t n)
+{
+    status st = OK;
+    for (int f = r->frames.first; f <= r->frames.last && r->job->checkpoint.n_mark; f++) {
+        bool found = false;
+        if (!job_marks(r->job, f))
+            continue;
+        for (size_t i = 0; i < n; i++)
+            found |= there[i] == f;
+        if (found) {
+            TRY(checkpoint_mark(r->options->root, r->job->name, f));
+            continue;
+        }
+        if (r->first_missing > r->frames.last)
+            r->last_missing = f;
+        r->first_missing = f < r->first_missing ? f : r->first_missing;
+        r->last_missing = f > r->last_missing ? f : r->last_missing;
+    }
+done:
+    return st;
+}
+
 static status survey(struct run *r)
 {
     status st = OK;
@@ -81,6 +105,7 @@ static status survey(struct run *r)
     r->lacks_checkpoint = n_checkpoints == 0 || checkpoints[0] < r->frames.last;
     if (r->lacks_checkpoint)
         r->last_missing = r->frames.last;
+    TRY(survey_marks(r, checkpoints, n_checkpoints));
 done:
     free(there);
     free(checkpoints);
@@ -98,7 +123,8 @@ static status check_owner(struct run *r)
         return fail(E_OUTPUT, "%.100s...: the path is too long", r->options->root);
     if (access(path, F_OK) != 0)
         return OK;
-    if (job_load(path, NULL, 0, &theirs) != OK || job_hash(theirs, &hash) != OK) {
+    if (job_load(path, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, r->options->root) != OK ||
+        job_hash(theirs, &hash) != OK) {
         st = fail(E_CHECKPOINT,
                   "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
                   "--resume never to start over",
@@ -196,7 +222,7 @@ static status check_provenance(const struct run *r, const struct checkpoint *c, 
 {
     struct checkpoint here = {0};
     provenance(r, &here);
-    if (c->job_hash != here.job_hash)
+    if (c->job_hash != here.job_hash && strcmp(path, r->job->from) != 0)
         return fail(E_CHECKPOINT, "%s is of another job; use another --out, or --resume never to start over",
                     path);
     bool same_code = strcmp(c->shaders, here.shaders) == 0 && strcmp(c->version, here.version) == 0;
@@ -286,6 +312,12 @@ static status write_papers(const struct run *r)
     json_text(&t, "device_pci", info->pci);
     json_integer(&t, "seed", r->job->seed);
     json_text(&t, "job_hash", hash_text(r->job_hash, hash));
+    if (*r->job->from) {
+        json_object(&t, "from");
+        json_text(&t, "checkpoint", r->job->from);
+        json_integer(&t, "frame", r->job->frames.first);
+        json_end_object(&t);
+    }
     if (r->job->wedge.index) {
         json_integer(&t, "wedge", r->job->wedge.index);
         json_text(&t, "wedge_values", r->job->wedge.label);
@@ -360,7 +392,12 @@ static status begin(struct run *r)
                   r->options->root, r->first_missing);
         goto done;
     }
-    if (found)
+    if (!found && *r->job->from) {
+        TRY(branch_read(r->job, r->options->root, &c));
+        TRY(check_provenance(r, &c, r->job->from));
+        found = true;
+        log_info("branching from %s, frame %d, %.10g years", r->job->from, c.frame, c.years);
+    } else if (found)
         log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
                  range_count(r->frames));
     TRY(r->type->create(r->gpu, r->job, found ? &c : NULL, &r->model));
@@ -406,11 +443,15 @@ static status simulate(struct run *r)
             TRY(save(r));
         if (fresh)
             TRY(finish_frame(r));
-        if (number >= last)
+        bool marked = job_marks(r->job, number);
+        if (number >= last) {
+            if (fresh && repair && marked)
+                TRY(save(r));
             break;
+        }
         bool stop = r->options->stop && r->options->stop();
         bool due = (number - r->job->frames.first) % (int)r->job->checkpoint.every == 0;
-        if (fresh && ((due && !repair) || stop))
+        if (fresh && ((due && !repair) || marked || stop))
             TRY(save(r));
         if (stop) {
             TRY(writer_finish(&r->writer));
@@ -442,11 +483,12 @@ done:
     return st;
 }
 
-status run_job(const struct job *job, const struct run_options *options)
+status run_job(struct job *job, const struct run_options *options)
 {
     status st = OK;
     const double started = timing_now();
     struct run r = {.job = job, .options = options, .type = model_of(job), .frames = options->frames};
+    TRY(branch_prepare(job, options->root));
     if (r.frames.step == 0)
         r.frames = job->frames;
     if (!range_holds(job->frames, r.frames.first) || !range_holds(job->frames, r.frames.last)) {

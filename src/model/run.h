@@ -6,6 +6,9 @@
  *             it, or from the job's first frame. Frames simulated on the way that are done already are not
  *             written again.
  *             It ends with the last frame that is not done, if the last frame's checkpoint is there.
+ * Branches    A job with `from` begins with that checkpoint (branch.h): its first frame becomes the checkpoint's.
+ * Marks       Frames in checkpoint.mark have their checkpoints made, if need be by simulating up to them again, and
+ *             kept.
  * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or
  *             the first frame asked for is not the job's first and there is no checkpoint before it.
  * Repair      As above, but files are read, not only looked at, damaged checkpoints are removed, and a range of
@@ -40,6 +43,6 @@ struct run_options {
     void *user;
 };
 
-MUST_USE status run_job(const struct job *job, const struct run_options *options);
+MUST_USE status run_job(struct job *job, const struct run_options *options);
 
 #endif

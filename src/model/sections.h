@@ -3,6 +3,7 @@
 #define HOODOO_SECTIONS_H
 
 #include "checkpoint/checkpoint.h"
+#include "job/job.h"
 
 /* Adds a section of n items; *data is its memory, to be filled. */
 MUST_USE status section_add(struct checkpoint *c, const char *name, size_t item, size_t n, void **data);
@@ -11,5 +12,10 @@ MUST_USE status section_add(struct checkpoint *c, const char *name, size_t item,
  */
 MUST_USE status section_find(const struct checkpoint *c, const char *name, size_t item, size_t n,
                              const struct checkpoint_section **out);
+
+/* What every model's checkpoint says of its domain: model, voxels, spacing and number of strata; and whether a job
+ * has the same. E_CHECKPOINT says what differs. */
+MUST_USE status section_add_domain(struct checkpoint *c, const struct job *job);
+MUST_USE status section_check_domain(const struct checkpoint *c, const struct job *job);
 
 #endif

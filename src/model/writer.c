@@ -194,6 +194,17 @@ static void item_free(struct item *item)
     free(item);
 }
 
+/* The mark first: a checkpoint that is to stay must not be there without it. */
+static status write_checkpoint(const struct writer *w, const struct checkpoint *c)
+{
+    status st = OK;
+    if (job_marks(w->job, c->frame))
+        TRY(checkpoint_mark(w->root, w->job->name, c->frame));
+    TRY(checkpoint_save(w->root, w->job->name, c, (int)w->job->checkpoint.keep));
+done:
+    return st;
+}
+
 static void *work(void *argument)
 {
     struct writer *w = argument;
@@ -210,9 +221,8 @@ static void *work(void *argument)
         status st = w->st;
         pthread_mutex_unlock(&w->lock);
         if (st == OK)
-            st = item->is_checkpoint
-                     ? checkpoint_save(w->root, w->job->name, &item->checkpoint, (int)w->job->checkpoint.keep)
-                     : frame_write(w->job, w->job_hash, w->root, &item->frame);
+            st = item->is_checkpoint ? write_checkpoint(w, &item->checkpoint)
+                                     : frame_write(w->job, w->job_hash, w->root, &item->frame);
         /* What is there so far can be opened. */
         if (st == OK && item->is_checkpoint)
             st = stage_write(w->job, w->job_hash, w->root);

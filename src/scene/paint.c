@@ -4,25 +4,53 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/random.h"
+#include "scene/noise.h"
+#include "scene/projection.h"
 #include "scene/scene.h"
+
+/* Where one entry paints. */
+struct place {
+    struct solid *shape;      /* or NULL */
+    struct projection *image; /* or NULL */
+    struct noise noise;
+};
 
 struct paint_set {
     size_t n;
     const struct job_paint *entry;
-    struct solid **shape;
+    struct place *place;
 };
 
-status paint_create(const struct job *job, struct paint_set **out)
+static status place_create(const struct job *job, const struct job_paint *e, struct place *out)
+{
+    status st = OK;
+    double h = job->domain.spacing_m;
+    if (e->shape)
+        TRY(solid_create(e->shape, h / 2, e->falloff_m + h, &out->shape));
+    if (e->image)
+        TRY(projection_create(e->image, h, &out->image));
+    if (e->noise) {
+        const struct job_noise noise = {
+            .scale_m = e->noise->scale_m, .octaves = e->noise->octaves, .flatten = e->noise->flatten};
+        uint32_t seed = random_hash((uint32_t)job->seed, (uint32_t)e->noise->seed, 0, RANDOM_PAINT);
+        out->noise = noise_init(&noise, seed);
+    }
+done:
+    return st;
+}
+
+status paint_create(const struct job *job, const struct job_paint *entry, size_t n, struct paint_set **out)
 {
     status st = OK;
     struct paint_set *set = NULL;
-    double h = job->domain.spacing_m;
     TRY(memory_alloc(1, sizeof *set, "paint", &set));
-    set->entry = job->paint;
-    TRY(memory_alloc(job->n_paint, sizeof *set->shape, "paint", &set->shape));
-    for (; set->n < job->n_paint; set->n++)
-        TRY(solid_create(job->paint[set->n].shape, h / 2, job->paint[set->n].falloff_m + h,
-                         &set->shape[set->n]));
+    set->entry = entry;
+    TRY(memory_alloc(n, sizeof *set->place, "paint", &set->place));
+    for (size_t i = 0; i < n; i++) {
+        set->n++;
+        TRY(place_create(job, &entry[i], &set->place[i]));
+    }
     *out = set;
     set = NULL;
 done:
@@ -34,22 +62,48 @@ void paint_destroy(struct paint_set **set)
 {
     if (!*set)
         return;
-    for (size_t i = 0; i < (*set)->n; i++)
-        solid_destroy(&(*set)->shape[i]);
-    free((*set)->shape);
+    for (size_t i = 0; i < (*set)->n; i++) {
+        solid_destroy(&(*set)->place[i].shape);
+        projection_destroy(&(*set)->place[i].image);
+    }
+    free((*set)->place);
     free(*set);
     *set = NULL;
 }
 
-/* 1 inside, down to 0 over the falloff outside (smoothstep). */
+bool paint_sees(const struct paint_set *set)
+{
+    for (size_t i = 0; i < set->n; i++)
+        if (set->place[i].image && projection_sees(set->place[i].image))
+            return true;
+    return false;
+}
+
+void paint_see(struct paint_set *set, const double x[3])
+{
+    for (size_t i = 0; i < set->n; i++)
+        if (set->place[i].image)
+            projection_see(set->place[i].image, x);
+}
+
+static double smoothstep(double t)
+{
+    t = fmin(fmax(t, 0), 1);
+    return t * t * (3 - 2 * t);
+}
+
+/* 1 inside, down to 0 over the falloff outside. */
 static double cover(double distance, double falloff)
 {
     if (distance <= 0)
         return 1;
-    if (distance >= falloff)
-        return 0;
-    double t = 1 - distance / falloff;
-    return t * t * (3 - 2 * t);
+    return distance < falloff ? smoothstep(1 - distance / falloff) : 0;
+}
+
+static double mask(const struct job_mask *m, const struct noise *noise, const double x[3])
+{
+    double above = noise_at(noise, x) - m->threshold;
+    return m->soft > 0 ? smoothstep(above / m->soft + 0.5) : above >= 0;
 }
 
 /* A factor of 1, the default, leaves what other entries painted. */
@@ -58,19 +112,26 @@ static double over(double below, double factor, double w)
     return factor == 1 ? below : below + w * (factor - below);
 }
 
-struct paint_values paint_at(const struct paint_set *set, const double x[3])
+struct paint_values paint_at(const struct paint_set *set, const double x[3], double vegetation)
 {
-    struct paint_values v = {1, 1, 1, 0};
+    struct paint_values v = {1, 1, 1, vegetation, 0};
     for (size_t i = 0; i < set->n; i++) {
         const struct job_paint *e = &set->entry[i];
-        struct solid_point p = solid_at(set->shape[i], x);
-        double w = cover(p.distance, e->falloff_m);
+        const struct place *place = &set->place[i];
+        struct solid_point p = e->shape ? solid_at(place->shape, x) : (struct solid_point){0};
+        double edge = cover(p.distance, e->falloff_m), w = edge;
+        if (w > 0 && e->image)
+            w *= projection_at(place->image, x);
+        if (w > 0 && e->noise)
+            w *= mask(e->noise, &place->noise, x);
         if (w == 0)
             continue;
         v.erodibility = over(v.erodibility, e->erodibility, w);
         v.interlock = over(v.interlock, e->interlock, w);
         v.viability = over(v.viability, e->viability, w);
-        v.inert |= p.distance <= 0 && (e->inert || p.inert);
+        if (e->vegetation >= 0)
+            v.vegetation += w * (e->vegetation - v.vegetation);
+        v.inert |= p.distance <= 0 && w >= 0.5 && (e->inert || p.inert);
     }
     return v;
 }

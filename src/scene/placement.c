@@ -72,6 +72,8 @@ static struct keys keys_of(const struct job_node *node)
         return KEYS(node->u.heightfield);
     case SHAPE_JOINTMAP:
         return KEYS(node->u.jointmap);
+    case SHAPE_STROKE:
+        return KEYS(node->u.stroke);
     case SHAPE_STACKS:
         return KEYS(node->u.stacks);
     case SHAPE_BOX:

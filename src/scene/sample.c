@@ -6,10 +6,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "scene/coverage.h"
-#include "scene/noise.h"
-#include "scene/paint.h"
-#include "scene/scene.h"
+#include "scene/sampler.h"
 
 #define MAX_VOXELS 2147483648.0
 #define JITTER 0.25f /* of h, to either side of the voxel's middle */
@@ -34,19 +31,7 @@ status scene_voxels(const struct job *job, int n[3])
     return OK;
 }
 
-struct sampler {
-    const struct job *job;
-    int n[3];
-    double h;
-    struct solid *solid;
-    struct coverage *coverage;
-    struct paint_set *paint;
-    struct noise *noise; /* by layer */
-    uint32_t jitter[3];  /* what each axis hashes with */
-};
-
-/* Where a voxel's particle sits: its middle and a jitter that depends on the seed and the voxel alone. */
-static void place(const struct sampler *s, const int voxel[3], float P[4])
+void sampler_place(const struct sampler *s, const int voxel[3], float P[4])
 {
     for (int a = 0; a < 3; a++) {
         float share = random_float(
@@ -56,10 +41,9 @@ static void place(const struct sampler *s, const int voxel[3], float P[4])
     P[3] = 0;
 }
 
-/* What the rates of the rock at x are multiplied with; 0: inert. */
-static double rate_factor(const struct sampler *s, const double x[3], const struct paint_values *paint)
+double sampler_rate_factor(const struct sampler *s, size_t layer, const double x[3],
+                           const struct paint_values *paint)
 {
-    size_t layer = job_layer_at(s->job, x[2]);
     double own = s->job->n_strata ? s->job->strata[layer].noise_amplitude : -1;
     double amplitude = own >= 0 ? own : s->job->noise.amplitude;
     if (paint->inert || solid_at(s->solid, x).inert)
@@ -70,15 +54,38 @@ static double rate_factor(const struct sampler *s, const double x[3], const stru
 static void fill_particle(const struct sampler *s, const int voxel[3], unsigned share, struct rock *rock,
                           size_t p)
 {
-    place(s, voxel, rock->P + 4 * p);
-    const double x[3] = {(double)rock->P[4 * p], (double)rock->P[4 * p + 1], (double)rock->P[4 * p + 2]};
-    struct paint_values paint = paint_at(s->paint, x);
+    sampler_place(s, voxel, rock->P + 4 * p);
     rock->id[p] = (uint32_t)p;
+    rock->viability[p] = (float)share / COVERAGE_FULL;
+}
+
+void rock_position(const struct rock *rock, size_t p, double x[3])
+{
+    for (size_t a = 0; a < 3; a++)
+        x[a] = (double)rock->P[4 * p + a];
+}
+
+/* What depends on where the particle sits. */
+static void paint_particle(const struct sampler *s, struct rock *rock, size_t p)
+{
+    double x[3];
+    rock_position(rock, p, x);
+    struct paint_values paint = paint_at(s->paint, x, 0);
+    rock->viability[p] = (float)(paint.viability * (double)rock->viability[p]);
     rock->phase[p] = solid_at(s->solid, x).loose ? 1 : 0;
-    rock->viability[p] = (float)(paint.viability * share / COVERAGE_FULL);
     rock->layer[p] = (uint32_t)job_layer_at(s->job, x[2]);
-    rock->rate_factor[p] = (float)rate_factor(s, x, &paint);
+    rock->rate_factor[p] = (float)sampler_rate_factor(s, rock->layer[p], x, &paint);
     rock->interlock_factor[p] = (float)paint.interlock;
+    rock->vegetation[p] = (float)paint.vegetation;
+}
+
+void sampler_see(const struct sampler *s, const struct rock *rock)
+{
+    for (size_t p = 0; paint_sees(s->paint) && p < rock->n; p++) {
+        double x[3];
+        rock_position(rock, p, x);
+        paint_see(s->paint, x);
+    }
 }
 
 static size_t count_slab(const struct sampler *s, int k)
@@ -152,24 +159,52 @@ done:
     return st;
 }
 
-/* `reach`: how far from the surface distances will be asked for, in spacings. */
-static status sampler_init(struct sampler *s, const struct job *job, double reach)
+/* The scene without the beds of its rivers. */
+static status solid_of_job(const struct job *job, double detail, double reach, struct solid **out)
+{
+    status st = OK;
+    struct job_node *beds = NULL, **part = NULL;
+    struct job_node whole = {.kind = NODE_DIFFERENCE, .u.group = {.scale = {1, 1, 1}}};
+    TRY(memory_alloc(job->n_sources, sizeof *beds, "river beds", &beds));
+    TRY(memory_alloc(job->n_sources + 1, sizeof *part, "river beds", &part));
+    part[whole.n_child++] = job->scene;
+    for (size_t i = 0; i < job->n_sources; i++) {
+        const struct job_source *source = &job->sources[i];
+        if (!(source->bed_m > 0))
+            continue;
+        beds[i] = (struct job_node){.kind = NODE_SHAPE,
+                                    .shape = SHAPE_STROKE,
+                                    .u.stroke = {.path_m = source->path_m,
+                                                 .n_path_m = source->n_path_m,
+                                                 .radius_m = source->bed_m,
+                                                 .scale = {1, 1, 1}}};
+        part[whole.n_child++] = &beds[i];
+    }
+    whole.child = part;
+    TRY(solid_create(whole.n_child > 1 ? &whole : job->scene, detail, reach, out));
+done:
+    free(beds);
+    free(part);
+    return st;
+}
+
+status sampler_init(struct sampler *s, const struct job *job, const struct job_node *node, double reach)
 {
     status st = OK;
     double h = job->domain.spacing_m;
     *s = (struct sampler){.job = job, .h = h};
     TRY(scene_voxels(job, s->n));
-    TRY(solid_create(job->scene, h / 2, reach * h, &s->solid));
+    TRY(node ? solid_create(node, h / 2, reach * h, &s->solid)
+             : solid_of_job(job, h / 2, reach * h, &s->solid));
 done:
     return st;
 }
 
-/* What sampling needs beside the shape. */
-static status sampler_fill(struct sampler *s)
+status sampler_fill(struct sampler *s, const struct job_paint *paint, size_t n)
 {
     status st = OK;
     uint32_t seed = (uint32_t)s->job->seed;
-    TRY(paint_create(s->job, &s->paint));
+    TRY(paint_create(s->job, paint, n, &s->paint));
     TRY(memory_alloc(s->job->n_strata + 1, sizeof *s->noise, "noise", &s->noise));
     for (size_t i = 0; i <= s->job->n_strata; i++) {
         struct job_noise own = s->job->noise;
@@ -184,7 +219,7 @@ done:
     return st;
 }
 
-static void sampler_deinit(struct sampler *s)
+void sampler_deinit(struct sampler *s)
 {
     solid_destroy(&s->solid);
     coverage_destroy(&s->coverage);
@@ -198,13 +233,17 @@ status scene_sample(const struct job *job, struct rock *rock)
     struct sampler s;
     size_t *first = NULL;
     *rock = (struct rock){0};
-    TRY(sampler_init(&s, job, COVERAGE_REACH));
-    TRY(sampler_fill(&s));
+    TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
+    TRY(sampler_fill(&s, job->paint, job->n_paint));
     TRY(count_particles(&s, false, &first));
     TRY(rock_alloc(rock, first[s.n[2]], STATE));
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k < s.n[2]; k++)
         fill_slab(&s, k, first[k], rock);
+    sampler_see(&s, rock);
+#pragma omp parallel for schedule(static)
+    for (size_t p = 0; p < rock->n; p++)
+        paint_particle(&s, rock, p);
 done:
     free(first);
     sampler_deinit(&s);
@@ -216,9 +255,14 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
     status st = OK;
     struct sampler s;
     size_t *first = NULL;
-    TRY(sampler_init(&s, job, COVERAGE_REACH));
-    TRY(sampler_fill(&s));
+    TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
+    TRY(sampler_fill(&s, job->paint, job->n_paint));
     TRY(count_particles(&s, floats, &first));
+    for (int k = 0; paint_sees(s.paint) && k < s.n[2]; k++)
+        for (int j = 0; j < s.n[1]; j++)
+            for (int i = 0; i < s.n[0]; i++)
+                if (coverage_at(s.coverage, i, j, k) > 0)
+                    paint_see(s.paint, (const double[]){(i + 0.5) * s.h, (j + 0.5) * s.h, (k + 0.5) * s.h});
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k < s.n[2]; k++) {
         size_t v = (size_t)k * (size_t)s.n[1] * (size_t)s.n[0];
@@ -229,9 +273,9 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
                 share[v] = factor[v] = 0;
                 if (covered == 0)
                     continue;
-                struct paint_values paint = paint_at(s.paint, x);
+                struct paint_values paint = paint_at(s.paint, x, 0);
                 share[v] = (float)(paint.viability * covered / COVERAGE_FULL);
-                factor[v] = (float)rate_factor(&s, x, &paint);
+                factor[v] = (float)sampler_rate_factor(&s, job_layer_at(job, x[2]), x, &paint);
             }
     }
 done:
@@ -240,19 +284,15 @@ done:
     return st;
 }
 
-status scene_estimate(const struct job *job, size_t *n_particles)
+/* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels. */
+static size_t estimate(const struct sampler *s)
 {
-    status st = OK;
-    struct sampler s;
     size_t total = 1, probes = 1, found = 0, blocks[3];
-    TRY(sampler_init(&s, job, 1));
     for (int a = 0; a < 3; a++)
-        total *= (size_t)s.n[a];
-    /* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels.
-     */
+        total *= (size_t)s->n[a];
     int side = (int)ceil(cbrt((double)total / 262144) - 1e-9);
     for (int a = 0; a < 3; a++) {
-        blocks[a] = ((size_t)s.n[a] + (size_t)side - 1) / (size_t)side;
+        blocks[a] = ((size_t)s->n[a] + (size_t)side - 1) / (size_t)side;
         probes *= blocks[a];
     }
 #pragma omp parallel for reduction(+ : found)
@@ -261,13 +301,28 @@ status scene_estimate(const struct job *job, size_t *n_particles)
         int voxel[3], inside = 1;
         for (uint32_t a = 0; a < 3; a++) {
             uint32_t offset =
-                random_hash((uint32_t)job->seed, (uint32_t)b, a, RANDOM_ESTIMATE) % (uint32_t)side;
+                random_hash((uint32_t)s->job->seed, (uint32_t)b, a, RANDOM_ESTIMATE) % (uint32_t)side;
             voxel[a] = (int)at[a] * side + (int)offset;
-            inside &= voxel[a] < s.n[a];
+            inside &= voxel[a] < s->n[a];
         }
-        found += inside && coverage_of_voxel(s.solid, s.h, voxel[0], voxel[1], voxel[2]) > 0;
+        found += inside && coverage_of_voxel(s->solid, s->h, voxel[0], voxel[1], voxel[2]) > 0;
     }
-    *n_particles = found * (size_t)side * (size_t)side * (size_t)side;
+    return found * (size_t)side * (size_t)side * (size_t)side;
+}
+
+status scene_estimate(const struct job *job, size_t *n_particles)
+{
+    status st = OK;
+    struct sampler s;
+    *n_particles = 0;
+    TRY(sampler_init(&s, job, NULL, 1));
+    *n_particles = estimate(&s);
+    for (size_t i = 0; i < job->n_edits; i++)
+        for (size_t k = 0; k < job->edits[i].n_add && job->edits[i].frame <= job->frames.last; k++) {
+            sampler_deinit(&s);
+            TRY(sampler_init(&s, job, job->edits[i].add[k].shape, 1));
+            *n_particles += estimate(&s);
+        }
 done:
     sampler_deinit(&s);
     return st;

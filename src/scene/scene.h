@@ -42,8 +42,9 @@ struct solid_point solid_at(const struct solid *solid, const double x[3]);
  *
  * Noise   times exp(amplitude * n(P)), n of zero mean and unit variance (noise.h).
  * Paint   entries are laid over each other in order: where one covers fully its factor replaces what was
- * painted before, at its falloff the two are mixed; a factor of 1 paints nothing. Inert: where the shape
- * holds P.
+ * painted before, elsewhere the two are mixed by its weight, the product of its shape's falloff, its image and
+ * its noise; a factor of 1 paints nothing. Inert: where the shape holds P and the weight is at least a half.
+ * Beds    sources[].bed_m is taken out of the scene along path_m.
  *
  * *rock is the caller's to rock_free().
  * E_USAGE: no rock in the domain, or none that touches the ground. E_INPUT: a file is missing, damaged or
@@ -55,8 +56,28 @@ MUST_USE status scene_sample(const struct job *job, struct rock *rock);
  * Errors as scene_sample()'s; rock that `floats` need not touch the ground. */
 MUST_USE status scene_grid(const struct job *job, bool floats, float *share, float *factor);
 
-/* About how many particles scene_sample() will make, from a quarter of a million voxels of it. Files and
- * shapes fail as there; an empty scene is 0 particles. */
+/* What an edit did to the rock. */
+struct scene_edited {
+    size_t added, carved; /* particles */
+    double added_m3;      /* rock put in, in new particles and in those filled up */
+};
+
+/* Applies one edit's carve, add and paint, in this order, to the rock's STATE fields, whose arrays are replaced.
+ *
+ * Carve   a particle loses the share of its voxel that the shape holds, and goes when less than 1/64 is left.
+ * Add     an empty voxel gets a particle as in scene_sample(), without the scene's paint; in one that holds less
+ *         rock than the shape does, the particle of the lowest id is filled up. New ids are next_id and up.
+ * Paint   the factors multiply what particles have.
+ *
+ * `job` is the job as it is in that frame. E_USAGE, E_INPUT: as scene_sample(). */
+MUST_USE status scene_edit(const struct job *job, const struct job_edit *edit, uint64_t next_id,
+                           struct rock *rock, struct scene_edited *out);
+
+/* Reads every file and makes every shape of the edits after `frame`, so that what is wrong is said now. */
+MUST_USE status scene_edits_check(const struct job *job, int frame);
+
+/* About how many particles scene_sample() and the edits will make, from a quarter of a million voxels of each.
+ * Files and shapes fail as there; an empty scene is 0 particles. */
 MUST_USE status scene_estimate(const struct job *job, size_t *n_particles);
 
 #endif

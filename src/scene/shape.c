@@ -73,6 +73,9 @@ double shape_distance(const struct shape *shape, const double x[3])
     case SHAPE_JOINTMAP:
         d = jointmap_distance(shape->u.jointmap, p);
         break;
+    case SHAPE_STROKE:
+        d = stroke_distance(shape->u.stroke, p);
+        break;
     case SHAPE_STACKS:
         d = terrain_shape_distance(shape->u.terrain, p);
         break;
@@ -206,6 +209,13 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         placement_box(place, j->min_m, j->max_m, s->min, s->max);
         break;
     }
+    case SHAPE_STROKE: {
+        double lo[3], hi[3];
+        TRY(stroke_create(&node->u.stroke, &s->u.stroke));
+        stroke_bounds(s->u.stroke, lo, hi);
+        placement_box(place, lo, hi, s->min, s->max);
+        break;
+    }
     case SHAPE_STACKS: {
         const double origin[3] = {0, 0, 0};
         double size[3];
@@ -227,6 +237,8 @@ void shape_deinit(struct shape *shape)
         heightfield_destroy(&shape->u.heightfield);
     if (shape->kind == SHAPE_JOINTMAP)
         jointmap_destroy(&shape->u.jointmap);
+    if (shape->kind == SHAPE_STROKE)
+        stroke_destroy(&shape->u.stroke);
     if (shape->kind == SHAPE_STACKS)
         terrain_shape_destroy(&shape->u.terrain);
 }

@@ -6,6 +6,7 @@
 #include "scene/jointmap.h"
 #include "scene/mesh_shim.h"
 #include "scene/placement.h"
+#include "scene/stroke.h"
 #include "scene/terrain.h"
 
 struct shape {
@@ -24,6 +25,7 @@ struct shape {
         struct vdb_sdf *mesh; /* already in the world: its vertices were placed */
         struct heightfield *heightfield;
         struct jointmap *jointmap;
+        struct stroke *stroke;
         struct terrain_shape *terrain;
     } u;
 };

@@ -59,7 +59,11 @@ struct arch {
 
 static struct arch arch(const char *what, const char *abrasion, const char *deflation)
 {
-    const char *const sets[] = {"domain.spacing_m=1", "output.aov.cameras=[]", "noise.amplitude=0", abrasion,
+    const char *const sets[] = {"domain.spacing_m=1",
+                                "output.aov.cameras=[]",
+                                "noise.amplitude=0",
+                                "wind.flow.solver=uniform",
+                                abrasion,
                                 deflation};
     struct arch out;
     struct shape shape = erode("demo", sets, sizeof sets / sizeof *sets, 0.65, &out.left);

@@ -48,7 +48,18 @@ static const char good_job[] =
     "  top-2: {position_m: [0, 0, 99]}\n"
     "output:\n"
     "  {up: z, vdb: {codec: zip}, aov: {cameras: [main, top-2]}, owner: \"Zo\\u00eb\"}\n"
-    "checkpoint: {every: 5}\n";
+    "checkpoint: {every: 5, mark: [1040, 1051-1061x2]}\n"
+    "sources:\n"
+    "  - {path_m: [[5, 5, 40], [30, 12, 20]], bed_m: 2, m3_per_yr: {1001: 0, 1050: 10}}\n"
+    "edits:\n"
+    "  - frame: 1011\n"
+    "    carve: {stroke: {path_m: [[1, 2, 3], [4, 5, 6]], radius_m: 2}}\n"
+    "    add:\n"
+    "      - {shape: {sphere: {center_m: [9, 9, 9], radius_m: 4}}, layer: 1}\n"
+    "    paint:\n"
+    "      - {noise: {scale_m: 3}, vegetation: 0.5}\n"
+    "  - frame: 1041\n"
+    "    set: {wind.speed_m_s: 14, 'strata[0].interlock_MPa': {1001: 2, 1050: 3}}\n";
 
 static inline void write_bytes(const char *path, const char *bytes, size_t n)
 {

@@ -40,6 +40,9 @@ static void make_sample(int seed, struct sample *s)
         job->farm.block_frames = pick(seed, 7, 1, 60);
         job->farm.chunk_frames = pick(seed, 8, 1, 20);
         job->farm.meshes = pick(seed, 9, 0, 1);
+        static char *shot[] = {(char *)(uintptr_t) "shot"};
+        job->farm.n_cameras = (size_t)pick(seed, 12, 0, 1);
+        job->farm.cameras = shot;
         job->farm.still_every = pick(seed, 10, 0, 5);
         job->farm.turntable = pick(seed, 11, 0, 1) * 36;
         job->wedge.index = s->n > 1 ? (int)i + 1 : 0;
@@ -101,6 +104,10 @@ static void every_frame_is_made_exactly_once(void **state)
                 assert_int_equal(made(&g, FARM_MESH, index, frame, &other),
                                  own && job->farm.meshes && graph_has_volumes(job, frame));
                 if (own && job->farm.meshes && graph_has_volumes(job, frame))
+                    assert_true(waits_for(&g, other, sim));
+                assert_int_equal(made(&g, FARM_AOV, index, frame, &other),
+                                 own && job->farm.n_cameras && graph_has_volumes(job, frame));
+                if (own && job->farm.n_cameras && graph_has_volumes(job, frame))
                     assert_true(waits_for(&g, other, sim));
                 assert_int_equal(made(&g, FARM_STILL, index, frame, &other),
                                  own && graph_has_still(job, frame));

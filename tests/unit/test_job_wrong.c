@@ -106,7 +106,7 @@ static const struct wrong wrong[] = {
      {"scene.union.0: a number, but a mapping is wanted with one"}},
     {"  - {shape: {sphere: {center_m: [1, 2, 3], radius_m: 2}}, ",
      "  - {",
-     {"paint.0.shape: missing (where)"}},
+     {"paint.0: neither shape nor image nor noise says where to paint"}},
     {"{sphere: {center_m: [1, 2, 3], radius_m: 2}}",
      "{union: []}",
      {"paint.0.shape.union: an empty list, but a list of"}},

@@ -1,0 +1,171 @@
+#include "model/branch.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "output/folder.h"
+
+status branch_copy(char out[4096], const char *root, const char *name)
+{
+    int n = snprintf(out, 4096, "%s/checkpoint/%s.from.ckpt", root, name);
+    return n < 0 || n >= 4096 ? fail(E_OUTPUT, "%.200s...: the path is too long", root) : OK;
+}
+
+static status set_from(struct job *job, const char *path)
+{
+    char *text = NULL;
+    status st = memory_strdup(path, &text);
+    if (st != OK)
+        return st;
+    free(job->from);
+    job->from = text;
+    return OK;
+}
+
+/* ---- --from */
+
+/* "out/arch@1040": the last @ parts them. */
+static status cut(const char *text, char out[4096], int *frame)
+{
+    const char *at = strrchr(text, '@');
+    char *end = NULL;
+    errno = 0;
+    long number = at ? strtol(at + 1, &end, 10) : 0;
+    if (!at || at == text || at - text >= 4096 || end == at + 1 || *end || errno || number < -999999 ||
+        number > 9999999 || strspn(at + 1, "-0123456789") != strlen(at + 1))
+        return fail(E_USAGE, "--from %.200s: write OUT@FRAME, such as out/arch@1040", text);
+    snprintf(out, 4096, "%.*s", (int)(at - text), text);
+    *frame = (int)number;
+    return OK;
+}
+
+static status no_checkpoint(const char *out, const char *name, int frame)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n = 0, used = 0;
+    char list[400] = "";
+    TRY(checkpoint_list(out, name, &frames, &n));
+    for (size_t i = n; i-- > 0 && used < sizeof list - 40;)
+        used += (size_t)snprintf(list + used, sizeof list - used, "%s%d", used ? ", " : "", frames[i]);
+    st = fail(
+        E_CHECKPOINT,
+        "%s holds no checkpoint of frame %d (%s%s); to have it, run its job again with checkpoint.mark: [%d]",
+        out, frame, n ? "there are those of " : "there is none at all", list, frame);
+done:
+    free(frames);
+    return st;
+}
+
+/* The copy in the branch's own folder, if it is of this frame. */
+static bool own_copy(const struct job *job, const char *root, int frame, char path[4096])
+{
+    struct checkpoint c;
+    return branch_copy(path, root, job->name) == OK && access(path, F_OK) == 0 &&
+           checkpoint_read_index(path, &c) == OK && c.frame == frame;
+}
+
+status branch_from(struct job *job, const char *text, const char *root)
+{
+    status st = OK;
+    char out[4096], name[256], path[4096], *whole = NULL;
+    int frame = 0;
+    TRY(cut(text, out, &frame));
+    st = folder_open(out, name);
+    if (st == OK)
+        st = folder_path(path, out, name, FILE_CHECKPOINT, frame, NULL);
+    if (st == OK && access(path, F_OK) != 0)
+        st = no_checkpoint(out, name, frame);
+    if (st != OK) {
+        char message[1024];
+        snprintf(message, sizeof message, "%s", status_message());
+        if (!own_copy(job, root, frame, path))
+            return fail(st, "--from %.200s: %s", text, message);
+        log_info("%s; this folder has its own copy of that checkpoint", message);
+        st = OK;
+    }
+    whole = realpath(path, NULL);
+    if (!whole)
+        return fail(E_INPUT, "--from %.200s: %s: %s", text, path, strerror(errno));
+    TRY(set_from(job, whole));
+done:
+    free(whole);
+    return st;
+}
+
+/* ---- the key */
+
+static void begin_with(struct job *job, int frame)
+{
+    job->frames.first = frame;
+    for (size_t i = 0; i < job->n_edits; i++)
+        if (job->edits[i].set.job)
+            job->edits[i].set.job->frames = job->frames;
+}
+
+status branch_prepare(struct job *job, const char *root)
+{
+    status st = OK;
+    char path[4096], frames[48];
+    struct checkpoint c;
+    if (!*job->from)
+        return OK;
+    if (access(job->from, F_OK) != 0) {
+        TRY(branch_copy(path, root, job->name));
+        if (access(path, F_OK) == 0)
+            TRY(set_from(job, path));
+    }
+    TRY(checkpoint_read_index(job->from, &c));
+    if (!range_holds(job->frames, c.frame)) {
+        st = fail(E_USAGE, "%s is of frame %d, and the job's frames are %s: give it frames from %d on",
+                  job->from, c.frame, range_text(job->frames, frames), c.frame);
+        goto done;
+    }
+    begin_with(job, c.frame);
+    for (size_t i = 0; i < job->n_edits; i++) {
+        const struct job_edit *e = &job->edits[i];
+        if (e->frame == c.frame && (e->carve || e->n_add || e->n_paint))
+            log_info(
+                "edit %zu is of frame %d, which is this branch's start as it is; to have it applied, give it "
+                "frame %d",
+                i, c.frame, c.frame + 1);
+    }
+done:
+    return st;
+}
+
+status branch_prepare_own(struct job *job, const char *root)
+{
+    status st = OK;
+    char path[4096];
+    if (!*job->from)
+        return OK;
+    TRY(branch_copy(path, root, job->name));
+    if (access(path, F_OK) == 0)
+        TRY(set_from(job, path));
+done:
+    return st;
+}
+
+status branch_read(const struct job *job, const char *root, struct checkpoint *out)
+{
+    status st = OK;
+    char path[4096], *bytes = NULL;
+    size_t n;
+    TRY(checkpoint_read(job->from, out));
+    TRY(branch_copy(path, root, job->name));
+    if (strcmp(path, job->from) == 0)
+        goto done;
+    if ((st = file_read(job->from, (size_t)1 << 40, &bytes, &n)) != OK ||
+        (st = atomic_file_write(path, bytes, n)) != OK)
+        checkpoint_free(out);
+done:
+    free(bytes);
+    return st;
+}

@@ -1,0 +1,243 @@
+/* Edits of rock that is there already. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "scene/sampler.h"
+
+/* The voxel a particle lies in, as kernels see it. */
+static void voxel_of(const struct sampler *s, const struct rock *rock, size_t p, int voxel[3])
+{
+    for (int a = 0; a < 3; a++) {
+        double v = floor((double)(rock->P[4 * p + (size_t)a] / (float)s->h));
+        voxel[a] = (int)fmin(fmax(v, 0), s->n[a] - 1);
+    }
+}
+
+/* The n particles listed, then `more` zeroed ones. */
+static status rebuild(struct rock *rock, const size_t *list, size_t n, size_t more)
+{
+    status st = OK;
+    struct rock out = {0};
+    TRY(rock_alloc(&out, n + more, STATE));
+    for (int f = 0; f < ROCK_FIELDS; f++) {
+        size_t size = rock_field_size((enum rock_field)f);
+        for (size_t i = 0; i < n && out.field[f]; i++)
+            memcpy((char *)out.field[f] + i * size, (const char *)rock->field[f] + list[i] * size, size);
+    }
+    rock_free(rock);
+    *rock = out;
+done:
+    return st;
+}
+
+static status carve(const struct job *job, const struct job_node *shape, struct rock *rock, size_t *n_carved)
+{
+    status st = OK;
+    struct sampler s;
+    size_t *list = NULL, n = 0;
+    TRY(sampler_init(&s, job, shape, COVERAGE_REACH));
+    TRY(coverage_create(s.solid, s.n, s.h, &s.coverage));
+    TRY(memory_alloc(rock->n, sizeof *list, "an edit", &list));
+    for (size_t p = 0; p < rock->n; p++) {
+        int voxel[3];
+        voxel_of(&s, rock, p, voxel);
+        unsigned share = coverage_at(s.coverage, voxel[0], voxel[1], voxel[2]);
+        float left = rock->viability[p] * (float)(COVERAGE_FULL - share) / COVERAGE_FULL;
+        if (share > 0 && left < 1.0f / COVERAGE_FULL)
+            continue;
+        rock->viability[p] = left;
+        list[n++] = p;
+    }
+    *n_carved += rock->n - n;
+    TRY(rebuild(rock, list, n, 0));
+done:
+    free(list);
+    sampler_deinit(&s);
+    return st;
+}
+
+/* A box of voxels, and what stands in each. */
+struct box {
+    int low[3], size[3];
+    size_t n;
+    double *fill;
+    size_t *owner; /* its particle of the lowest id; SIZE_MAX: none */
+};
+
+/* SIZE_MAX: outside. */
+static size_t box_index(const struct box *b, const int voxel[3])
+{
+    size_t index = 0;
+    for (int a = 2; a >= 0; a--) {
+        int i = voxel[a] - b->low[a];
+        if (i < 0 || i >= b->size[a])
+            return SIZE_MAX;
+        index = index * (size_t)b->size[a] + (size_t)i;
+    }
+    return index;
+}
+
+static status box_create(const struct sampler *s, const struct rock *rock, struct box *b)
+{
+    status st = OK;
+    double min[3], max[3];
+    solid_bounds(s->solid, min, max);
+    b->n = 1;
+    for (int a = 0; a < 3; a++) {
+        double low = fmin(fmax(floor(min[a] / s->h), 0), s->n[a]);
+        double high = fmin(fmax(ceil(max[a] / s->h), low), s->n[a]);
+        b->low[a] = (int)low;
+        b->size[a] = (int)(high - low);
+        b->n *= (size_t)b->size[a];
+    }
+    TRY(memory_alloc(b->n, sizeof *b->fill, "an edit", &b->fill));
+    TRY(memory_alloc(b->n, sizeof *b->owner, "an edit", &b->owner));
+    for (size_t i = 0; i < b->n; i++)
+        b->owner[i] = SIZE_MAX;
+    for (size_t p = 0; p < rock->n; p++) {
+        int voxel[3];
+        voxel_of(s, rock, p, voxel);
+        size_t i = box_index(b, voxel);
+        if (i == SIZE_MAX)
+            continue;
+        b->fill[i] += (double)rock->viability[p];
+        if (b->owner[i] == SIZE_MAX || rock->id[p] < rock->id[b->owner[i]])
+            b->owner[i] = p;
+    }
+done:
+    return st;
+}
+
+/* The i-th voxel of the box, and how much of it the shape holds. */
+static double wanted(const struct sampler *s, const struct box *b, size_t i, int voxel[3])
+{
+    size_t row = (size_t)b->size[0], slab = row * (size_t)b->size[1];
+    voxel[0] = b->low[0] + (int)(i % row);
+    voxel[1] = b->low[1] + (int)(i / row % (size_t)b->size[1]);
+    voxel[2] = b->low[2] + (int)(i / slab);
+    return (double)coverage_at(s->coverage, voxel[0], voxel[1], voxel[2]) / COVERAGE_FULL;
+}
+
+static void put(const struct sampler *s, const struct job_addition *add, const int voxel[3], double share,
+                uint64_t id, struct rock *rock, size_t p)
+{
+    const struct paint_values bare = {1, 1, 1, 0, 0};
+    double x[3];
+    sampler_place(s, voxel, rock->P + 4 * p);
+    rock_position(rock, p, x);
+    size_t layer = add->layer >= 0 ? (size_t)add->layer : job_layer_at(s->job, x[2]);
+    rock->id[p] = (uint32_t)id;
+    rock->viability[p] = (float)share;
+    rock->layer[p] = (uint32_t)layer;
+    rock->rate_factor[p] = (float)sampler_rate_factor(s, layer, x, &bare);
+    rock->interlock_factor[p] = 1;
+}
+
+static status add_rock(const struct job *job, const struct job_addition *add, uint64_t next_id,
+                       struct rock *rock, struct scene_edited *out)
+{
+    status st = OK;
+    struct sampler s;
+    struct box box = {0};
+    size_t *list = NULL, n = rock->n, more = 0;
+    int voxel[3];
+    double filled = 0;
+    TRY(sampler_init(&s, job, add->shape, COVERAGE_REACH));
+    TRY(sampler_fill(&s, NULL, 0));
+    TRY(box_create(&s, rock, &box));
+    for (size_t i = 0; i < box.n; i++) {
+        double share = wanted(&s, &box, i, voxel), lack = share - box.fill[i];
+        more += share > 0 && box.owner[i] == SIZE_MAX;
+        if (box.owner[i] == SIZE_MAX || lack <= 0)
+            continue;
+        float *viability = &rock->viability[box.owner[i]], before = *viability;
+        *viability = (float)fmin((double)before + lack, 1);
+        filled += (double)(*viability - before);
+    }
+    if (next_id + more > UINT32_MAX) {
+        st = fail(E_MEMORY,
+                  "an edit makes more than 2^32 particles over the whole run: raise domain.spacing_m");
+        goto done;
+    }
+    TRY(memory_alloc(n, sizeof *list, "an edit", &list));
+    for (size_t p = 0; p < n; p++)
+        list[p] = p;
+    TRY(rebuild(rock, list, n, more));
+    for (size_t i = 0; i < box.n; i++) {
+        double share = wanted(&s, &box, i, voxel);
+        if (share > 0 && box.owner[i] == SIZE_MAX) {
+            put(&s, add, voxel, share, next_id++, rock, n++);
+            filled += share;
+        }
+    }
+    out->added += more;
+    out->added_m3 += filled * pow(s.h, 3);
+done:
+    free(list);
+    free(box.fill);
+    free(box.owner);
+    sampler_deinit(&s);
+    return st;
+}
+
+static status paint(const struct job *job, const struct job_edit *edit, struct rock *rock)
+{
+    status st = OK;
+    struct sampler s = {.job = job};
+    TRY(paint_create(job, edit->paint, edit->n_paint, &s.paint));
+    sampler_see(&s, rock);
+#pragma omp parallel for schedule(static)
+    for (size_t p = 0; p < rock->n; p++) {
+        double x[3];
+        rock_position(rock, p, x);
+        struct paint_values v = paint_at(s.paint, x, (double)rock->vegetation[p]);
+        rock->viability[p] = (float)(v.viability * (double)rock->viability[p]);
+        rock->rate_factor[p] = v.inert ? 0 : (float)(v.erodibility * (double)rock->rate_factor[p]);
+        rock->interlock_factor[p] = (float)(v.interlock * (double)rock->interlock_factor[p]);
+        rock->vegetation[p] = (float)v.vegetation;
+    }
+done:
+    paint_destroy(&s.paint);
+    return st;
+}
+
+status scene_edit(const struct job *job, const struct job_edit *edit, uint64_t next_id, struct rock *rock,
+                  struct scene_edited *out)
+{
+    status st = OK;
+    *out = (struct scene_edited){0};
+    if (edit->carve)
+        TRY(carve(job, edit->carve, rock, &out->carved));
+    for (size_t i = 0; i < edit->n_add; i++)
+        TRY(add_rock(job, &edit->add[i], next_id + out->added, rock, out));
+    if (edit->n_paint)
+        TRY(paint(job, edit, rock));
+done:
+    return st;
+}
+
+status scene_edits_check(const struct job *job, int frame)
+{
+    status st = OK;
+    struct solid *solid = NULL;
+    struct paint_set *set = NULL;
+    double h = job->domain.spacing_m;
+    for (size_t i = 0; i < job->n_edits; i++) {
+        const struct job_edit *e = &job->edits[i];
+        if (e->frame <= frame || e->frame > job->frames.last)
+            continue;
+        if (e->carve)
+            TRY(solid_create(e->carve, h / 2, COVERAGE_REACH * h, &solid));
+        solid_destroy(&solid);
+        for (size_t k = 0; k < e->n_add; k++) {
+            TRY(solid_create(e->add[k].shape, h / 2, COVERAGE_REACH * h, &solid));
+            solid_destroy(&solid);
+        }
+        TRY(paint_create(job, e->paint, e->n_paint, &set));
+        paint_destroy(&set);
+    }
+done:
+    return st;
+}

@@ -1,0 +1,146 @@
+#include "scene/projection.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "scene/image.h"
+
+/* The first rock behind the picture is kept in cells of a spacing, at most this many a side. */
+#define MOST_CELLS 8192.0
+
+struct projection {
+    size_t width, height;                       /* pixels */
+    float *value;                               /* top row first */
+    double corner[3], right[3], up[3], away[3]; /* m; unit vectors */
+    double size[2];                             /* m */
+    double depth;                               /* m; 0: through and through */
+    double h, cell;                             /* m */
+    size_t cells[2];
+    float *first; /* [cells]: how far behind the picture rock begins */
+};
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Right, up and away from the picture's corner, m. */
+static void place(const struct projection *p, const double x[3], double out[3])
+{
+    const double d[3] = {x[0] - p->corner[0], x[1] - p->corner[1], x[2] - p->corner[2]};
+    out[0] = dot(d, p->right);
+    out[1] = dot(d, p->up);
+    out[2] = dot(d, p->away);
+}
+
+static status check_pixels(const struct projection *p, const char *file)
+{
+    for (size_t i = 0; i < p->width * p->height; i++)
+        if (!isfinite(p->value[i]))
+            return fail(E_INPUT, "%s: pixel (%zu, %zu) from the top left holds %g", file, i % p->width,
+                        i / p->width, (double)p->value[i]);
+    return OK;
+}
+
+status projection_create(const struct job_image *job, double h, struct projection **out)
+{
+    status st = OK;
+    struct projection *p = NULL;
+    TRY(memory_alloc(1, sizeof *p, "an image", &p));
+    TRY(image_read(job->file, &p->width, &p->height, &p->value));
+    TRY(check_pixels(p, job->file));
+    p->size[0] = sqrt(dot(job->right_m, job->right_m));
+    p->size[1] = sqrt(dot(job->up_m, job->up_m));
+    for (int a = 0; a < 3; a++) {
+        p->corner[a] = job->corner_m[a];
+        p->right[a] = job->right_m[a] / p->size[0];
+        p->up[a] = job->up_m[a] / p->size[1];
+    }
+    for (int a = 0; a < 3; a++) {
+        int b = (a + 1) % 3, c = (a + 2) % 3;
+        p->away[a] = p->up[b] * p->right[c] - p->up[c] * p->right[b];
+    }
+    p->h = h;
+    p->depth = job->depth_m;
+    if (p->depth > 0) {
+        p->cell = fmax(h, fmax(p->size[0], p->size[1]) / MOST_CELLS);
+        for (int a = 0; a < 2; a++)
+            p->cells[a] = (size_t)fmax(1, ceil(p->size[a] / p->cell));
+        TRY(memory_alloc(p->cells[0] * p->cells[1], sizeof *p->first, "an image's depths", &p->first));
+        for (size_t i = 0; i < p->cells[0] * p->cells[1]; i++)
+            p->first[i] = INFINITY;
+    }
+    *out = p;
+    p = NULL;
+done:
+    projection_destroy(&p);
+    return st;
+}
+
+void projection_destroy(struct projection **projection)
+{
+    if (!*projection)
+        return;
+    free((*projection)->value);
+    free((*projection)->first);
+    free(*projection);
+    *projection = NULL;
+}
+
+bool projection_sees(const struct projection *p)
+{
+    return p->first != NULL;
+}
+
+/* A particle hides what is behind it within a spacing, so that jitter leaves no gaps between neighbours. */
+void projection_see(struct projection *p, const double x[3])
+{
+    double at[3];
+    place(p, x, at);
+    if (!p->first || at[2] < 0)
+        return;
+    for (double dv = -1; dv <= 1; dv++)
+        for (double du = -1; du <= 1; du++) {
+            double u = floor(at[0] / p->cell) + du, v = floor(at[1] / p->cell) + dv;
+            double off_u = (u + 0.5) * p->cell - at[0], off_v = (v + 0.5) * p->cell - at[1];
+            bool own = du == 0 && dv == 0;
+            if (u < 0 || v < 0 || u >= (double)p->cells[0] || v >= (double)p->cells[1] ||
+                (!own && off_u * off_u + off_v * off_v > p->h * p->h))
+                continue;
+            float *first = &p->first[(size_t)v * p->cells[0] + (size_t)u];
+            *first = fminf(*first, (float)at[2]);
+        }
+}
+
+/* Bilinear between the pixels' middles. */
+static double sample(const struct projection *p, double u, double v)
+{
+    double x = fmin(fmax(u * (double)p->width - 0.5, 0), (double)(p->width - 1));
+    double y = fmin(fmax((1 - v) * (double)p->height - 0.5, 0), (double)(p->height - 1));
+    size_t i = (size_t)x, j = (size_t)y;
+    size_t right = i + 1 < p->width ? 1 : 0, down = j + 1 < p->height ? p->width : 0;
+    const float *f = p->value + j * p->width + i;
+    double s = x - (double)i, t = y - (double)j;
+    double top = (double)f[0] + s * ((double)f[right] - (double)f[0]);
+    double bottom = (double)f[down] + s * ((double)f[down + right] - (double)f[down]);
+    return fmin(fmax(top + t * (bottom - top), 0), 1);
+}
+
+double projection_at(const struct projection *p, const double x[3])
+{
+    double at[3];
+    place(p, x, at);
+    double u = at[0] / p->size[0], v = at[1] / p->size[1];
+    if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1 && at[2] >= 0))
+        return 0;
+    if (p->first) {
+        size_t i = (size_t)(at[0] / p->cell), j = (size_t)(at[1] / p->cell);
+        i = i < p->cells[0] ? i : p->cells[0] - 1;
+        j = j < p->cells[1] ? j : p->cells[1] - 1;
+        /* A particle's rock begins half a spacing before its middle. */
+        if (at[2] > (double)p->first[j * p->cells[0] + i] - p->h / 2 + p->depth)
+            return 0;
+    }
+    return sample(p, u, v);
+}
