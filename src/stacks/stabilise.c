@@ -214,11 +214,6 @@ static int by_height(const void *a, const void *b)
     return (x->k > y->k) - (x->k < y->k);
 }
 
-static bool spent(const struct slide *s)
-{
-    return s->options->sweeps && s->out->sweeps >= s->options->sweeps;
-}
-
 /* Does this space have anywhere to go to? Reads only; where a tile has not been opened, it may. */
 static bool may_move(const struct slide *s, int i, int j, int k)
 {
@@ -307,7 +302,7 @@ static status settle(struct slide *s, const int lo[2], const int hi[2], bool eve
     s->spare = fmax(across * tan(most) - s->run[0], 2);
     s->next.n = 0;
     TRY(find_unstable(s, lo, hi, everywhere));
-    while (s->next.n && !spent(s)) {
+    for (int64_t sweep = 0; s->next.n && (s->options->sweeps == 0 || sweep < s->options->sweeps); sweep++) {
         struct list list = s->now;
         s->now = s->next;
         s->next = list;
@@ -346,7 +341,8 @@ status stabilise(struct stacks *s, const struct stabilise *options, const int lo
     TRY(spaces_open(&slide.spaces, (const int[]){lo[0] - 1, lo[1] - 1}, (const int[]){hi[0] + 1, hi[1] + 1}));
     /* A material that moved may have made room under a ceiling for one that lies below it. */
     bool again = true;
-    for (int round = 0; again && round < ROUNDS && !spent(&slide); round++) {
+    int rounds = options->sweeps ? 1 : ROUNDS;
+    for (int round = 0; again && round < rounds; round++) {
         again = false;
         for (int slot = 0; slot < kinds.n; slot++) {
             bool moved = false;

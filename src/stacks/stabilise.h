@@ -16,7 +16,7 @@ struct stabilise {
     const struct material *table;
     int n_materials;
     bool open_edges; /* what reaches the grid's sides leaves; else they are walls */
-    int64_t sweeps;  /* at most so many over what moves; 0: until it rests */
+    int64_t sweeps;  /* at most so many over what moves of each material; 0: until it rests */
 };
 
 struct stabilised {
