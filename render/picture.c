@@ -48,6 +48,25 @@ bool picture_current(const struct preview *p, const char *path, const char *sour
     return stat(full, &from) != 0 || made.st_mtim.tv_sec >= from.st_mtim.tv_sec;
 }
 
+/* Is it also of the size that is wanted now? A draft is no preview. The size is in a PNG's first chunk. */
+static bool current_of_size(const struct preview *p, const char *path, const char *source, int width,
+                            int height)
+{
+    char full[4700];
+    unsigned char head[24];
+    if (!picture_current(p, path, source))
+        return false;
+    snprintf(full, sizeof full, "%s/%s", p->root, path);
+    FILE *file = fopen(full, "rb");
+    if (!file)
+        return false;
+    bool whole = fread(head, sizeof head, 1, file) == 1;
+    fclose(file);
+    const unsigned char *w = head + 16, *h = head + 20;
+    return whole && (w[0] << 24 | w[1] << 16 | w[2] << 8 | w[3]) == width &&
+           (h[0] << 24 | h[1] << 16 | h[2] << 8 | h[3]) == height;
+}
+
 /* ---- the scene */
 
 static void size_of(const struct preview *p, const struct job_camera *camera, bool turntable, int *width,
@@ -190,7 +209,8 @@ status picture_still(struct preview *p, int frame)
     int width, height;
     picture_still_path(p, frame, path);
     volumes_path(p, frame, source);
-    if (picture_current(p, path, source))
+    size_of(p, chosen_camera(p), false, &width, &height);
+    if (current_of_size(p, path, source, width, height))
         return OK;
     snprintf(what, sizeof what, "the still of frame %d", frame);
     TRY(new_picture(p, what, path, &picture));
@@ -209,15 +229,18 @@ status picture_orbit(struct preview *p, int frame, int views)
     status st = OK;
     char path[512], source[512], what[64], scene[512], full[4700];
     struct picture *picture = NULL;
-    int width = 0, height = 0;
+    int width, height;
+    bool any = false;
     volumes_path(p, frame, source);
+    size_of(p, chosen_camera(p), true, &width, &height);
     snprintf(scene, sizeof scene, "turntable/%.200s.%04d.pov", p->job->name, frame);
     for (int view = 0; view < views; view++) {
         picture_view_path(p, frame, view, path);
-        if (picture_current(p, path, source))
+        if (current_of_size(p, path, source, width, height))
             continue;
-        if (!width)
+        if (!any)
             TRY(write_scene(p, frame, views, scene, &width, &height));
+        any = true;
         snprintf(what, sizeof what, "view %d of frame %d", view, frame);
         TRY(new_picture(p, what, path, &picture));
         snprintf(picture->scene, sizeof picture->scene, "%s", scene);
@@ -225,7 +248,7 @@ status picture_orbit(struct preview *p, int frame, int views)
         picture = NULL;
     }
     TRY(children_wait(&p->children));
-    if (width && !p->keep_scenes) {
+    if (any && !p->keep_scenes) {
         snprintf(full, sizeof full, "%s/%s", p->root, scene);
         unlink(full);
     }

@@ -55,6 +55,8 @@ check(sorted(os.listdir("o/preview")) == ["tower.1001.png", "tower.1002.png"], "
 before = os.stat("o/preview/tower.1001.png").st_mtime_ns
 code, _ = hoodoo("preview", "o", "--resolution", "96x54", "--preset", "draft")
 check(code == 0 and os.stat("o/preview/tower.1001.png").st_mtime_ns == before, "a finished still is not made again")
+code, _ = hoodoo("preview", "o", "--frames", "1001", "--resolution", "64x36", "--preset", "draft")
+check(code == 0 and pixels("o/preview/tower.1001.png", 64, 36) is not None, "one of another size is")
 os.remove("o/preview/tower.1002.png")
 code, _ = hoodoo("preview", "o", "--resolution", "96x54", "--preset", "draft", "--keep-scenes")
 check(code == 0 and os.path.exists("o/preview/tower.1002.pov") and os.path.exists("o/preview/tower.1002.png"),
