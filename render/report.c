@@ -6,6 +6,7 @@
 #include "cli/cli.h"
 #include "cli/signals.h"
 #include "render/report.h"
+#include "render/report_wedges.h"
 
 status cli_report(int argc, char **argv)
 {
@@ -24,6 +25,14 @@ status cli_report(int argc, char **argv)
     if (help)
         goto done;
     signals_install();
+    if (report_has_wedges(operands.word[0])) {
+        TRY(report_wedges(operands.word[0], &page));
+        TRY(text_status(&page));
+        snprintf(path, sizeof path, "%.4096s/report/index.html", operands.word[0]);
+        TRY(atomic_file_write(path, page.data, page.size));
+        printf("%s\n", path);
+        goto done;
+    }
     TRY(report_gather(operands.word[0], &r));
     snprintf(path, sizeof path, "%.4096s/report", r.root);
     TRY(folder_make(path));

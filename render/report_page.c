@@ -305,10 +305,8 @@ static void add_pictures(const struct report *r, struct text *t)
 
 /* ---- the page */
 
-void report_page(const struct report *r, struct text *t)
+void page_begin(const char *title, struct text *t)
 {
-    const struct report_frame *first = first_sound(r), *last = last_sound(r);
-    char age[48], range[48];
     text_add(t,
              "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
              "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -319,10 +317,28 @@ void report_page(const struct report *r, struct text *t)
              "'none'\">\n<meta name=\"generator\" content=\"hoodoo %s\">\n<link rel=\"icon\" "
              "href=\"data:,\">\n<title>",
              hoodoo_version);
-    html_text(t, r->name);
+    html_text(t, title);
     text_add(t, " \xe2\x80\x93 hoodoo report</title>\n<style>\n");
     add_lines(t, page_style);
     text_add(t, "</style>\n</head>\n<body>\n<header>\n<h1>");
+}
+
+void page_end(struct text *t)
+{
+    text_add(t,
+             "</main>\n<footer>Made by hoodoo %s (%s). This folder, report/, holds all the page shows and "
+             "may be moved or "
+             "mailed; links to frames lead to the output folder around it.</footer>\n<script>\n",
+             hoodoo_version, hoodoo_commit);
+    add_lines(t, page_script);
+    text_add(t, "</script>\n</body>\n</html>\n");
+}
+
+void report_page(const struct report *r, struct text *t)
+{
+    const struct report_frame *first = first_sound(r), *last = last_sound(r);
+    char age[48], range[48];
+    page_begin(r->name, t);
     html_text(t, r->name);
     add_badge(r, t);
     text_add(t, "</h1>\n<p class=\"sub\">");
@@ -354,11 +370,5 @@ void report_page(const struct report *r, struct text *t)
     page_timing(r, t);
     page_provenance(r, t);
     page_files(r, t);
-    text_add(t,
-             "</main>\n<footer>Made by hoodoo %s (%s). This folder, report/, holds all the page shows and "
-             "may be moved or "
-             "mailed; links to frames lead to the output folder around it.</footer>\n<script>\n",
-             hoodoo_version, hoodoo_commit);
-    add_lines(t, page_script);
-    text_add(t, "</script>\n</body>\n</html>\n");
+    page_end(t);
 }

@@ -1,0 +1,237 @@
+#include "render/report_wedges.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/memory.h"
+#include "job/job.h"
+#include "output/folder.h"
+#include "render/report_page.h"
+
+enum { SERIES_MAX = 8, STILL_BYTES = 64 << 20 };
+
+struct wedge {
+    struct job *job;
+    size_t n_frames; /* that are done */
+    struct manifest last;
+    double *share; /* % of the rock left, by the job's frames; the last one holds on */
+};
+
+struct sweep {
+    const char *root;
+    struct job *base;
+    size_t n, n_x;
+    struct wedge *wedge;
+    double *x; /* frames */
+};
+
+bool report_has_wedges(const char *root)
+{
+    char path[4700];
+    snprintf(path, sizeof path, "%.4500s/run.json", root);
+    if (access(path, F_OK) == 0)
+        return false;
+    snprintf(path, sizeof path, "%.4500s/farm/job.yaml", root);
+    return access(path, F_OK) == 0;
+}
+
+static void free_sweep(struct sweep *s)
+{
+    for (size_t i = 0; s->wedge && i < s->n; i++) {
+        job_destroy(&s->wedge[i].job);
+        manifest_free(&s->wedge[i].last);
+        free(s->wedge[i].share);
+    }
+    free(s->wedge);
+    free(s->x);
+    job_destroy(&s->base);
+}
+
+static status gather_wedge(struct sweep *s, struct wedge *w)
+{
+    status st = OK;
+    char root[4200];
+    int *frames = NULL;
+    size_t n, k = 0;
+    double share = 100;
+    snprintf(root, sizeof root, "%.4000s/w%04d", s->root, (int)w->job->wedge.index);
+    TRY(memory_alloc(s->n_x, sizeof *w->share, "curves", &w->share));
+    TRY(folder_frames(root, w->job->name, &frames, &n));
+    for (size_t i = 0; i < n; i++) {
+        struct manifest m = {0};
+        st = manifest_read(root, w->job->name, frames[i], &m);
+        if (st == E_INPUT) { /* damaged: it is not counted */
+            st = OK;
+            continue;
+        }
+        TRY(st);
+        for (; k < s->n_x && s->x[k] < frames[i]; k++)
+            w->share[k] = share;
+        share = m.start_volume_m3 > 0 ? 100 * m.volume_m3 / m.start_volume_m3 : 0;
+        manifest_free(&w->last);
+        w->last = m;
+        w->n_frames++;
+    }
+    for (; k < s->n_x; k++)
+        w->share[k] = share;
+done:
+    free(frames);
+    return st;
+}
+
+static status gather(struct sweep *s)
+{
+    status st = OK;
+    char path[4700];
+    snprintf(path, sizeof path, "%.4500s/farm/job.yaml", s->root);
+    TRY(job_load(path, NULL, 0, &s->base));
+    size_t n = job_wedges(s->base);
+    if (n == 0) {
+        st = fail(E_INPUT, "%s holds neither a run nor wedges", s->root);
+        goto done;
+    }
+    TRY(memory_alloc(n, sizeof *s->wedge, "the wedges", &s->wedge));
+    for (; s->n < n; s->n++)
+        TRY(job_load_wedge(path, NULL, 0, s->base, (int)s->n + 1, &s->wedge[s->n].job));
+    s->n_x = range_count(s->wedge[0].job->frames);
+    TRY(memory_alloc(s->n_x, sizeof *s->x, "curves", &s->x));
+    for (size_t i = 0; i < s->n_x; i++)
+        s->x[i] = s->wedge[0].job->frames.first + (double)i * s->wedge[0].job->frames.step;
+    for (size_t i = 0; i < s->n; i++)
+        TRY(gather_wedge(s, &s->wedge[i]));
+done:
+    return st;
+}
+
+/* The still of the wedge's last frame into report/; *there if it has one. */
+static status copy_still(const struct sweep *s, const struct wedge *w, char name[64], bool *there)
+{
+    status st = OK;
+    char path[4800];
+    void *bytes = NULL;
+    size_t size;
+    snprintf(path, sizeof path, "%.4000s/w%04d/preview/%.200s.%04d.png", s->root, (int)w->job->wedge.index,
+             w->job->name, w->last.frame);
+    *there = w->n_frames > 0 && access(path, R_OK) == 0;
+    if (!*there)
+        return OK;
+    snprintf(name, 64, "w%04d.png", (int)w->job->wedge.index);
+    TRY(file_read(path, STILL_BYTES, (char **)&bytes, &size));
+    snprintf(path, sizeof path, "%.4500s/report/%s", s->root, name);
+    TRY(atomic_file_write(path, bytes, size));
+done:
+    free(bytes);
+    return st;
+}
+
+static void add_table(const struct sweep *s, struct text *t)
+{
+    text_add(t, "<section><h2>Wedges</h2>\n<table><thead><tr><th>wedge</th><th>values</th><th>frames</th>"
+                "<th>rock left, %%</th><th>deposits</th><th>fallen</th><th>carried "
+                "away</th><th></th></tr></thead>\n<tbody>\n");
+    for (size_t i = 0; i < s->n; i++) {
+        const struct wedge *w = &s->wedge[i];
+        const struct ledger *l = &w->last.ledger;
+        char path[64];
+        text_add(t, "<tr><td>w%04d</td><td>", (int)w->job->wedge.index);
+        html_text(t, w->job->wedge.label);
+        text_add(t, "</td><td>%zu of %zu</td>", w->n_frames, range_count(w->job->frames));
+        if (w->n_frames)
+            text_add(t, "<td>%.1f</td><td>%llu</td><td>%llu</td><td>%llu</td><td>", w->share[s->n_x - 1],
+                     (unsigned long long)l->deposit, (unsigned long long)l->fallen,
+                     (unsigned long long)l->left);
+        else
+            text_add(t, "<td colspan=\"4\">not begun</td><td>");
+        snprintf(path, sizeof path, "w%04d/report/index.html", (int)w->job->wedge.index);
+        char whole[4300];
+        snprintf(whole, sizeof whole, "%.4200s/%s", s->root, path);
+        if (access(whole, R_OK) == 0)
+            page_link(t, path, "its report");
+        text_add(t, "</td></tr>\n");
+    }
+    text_add(t, "</tbody></table></section>\n");
+}
+
+static void add_chart(const struct sweep *s, struct text *t)
+{
+    static const char *const colors[SERIES_MAX] = {"#a9491f", "#2f5f8a", "#e8bd52", "#4d7a3a",
+                                                   "#7b4b94", "#111111", "#d0743c", "#7d8a91"};
+    char names[SERIES_MAX][16];
+    struct series series[SERIES_MAX];
+    size_t n = 0;
+    for (size_t i = 0; i < s->n && n < SERIES_MAX; i++) {
+        if (!s->wedge[i].n_frames)
+            continue;
+        snprintf(names[n], sizeof names[n], "w%04d", (int)s->wedge[i].job->wedge.index);
+        series[n] = (struct series){names[n], colors[n], s->wedge[i].share};
+        n++;
+    }
+    if (n == 0 || s->n_x < 2)
+        return;
+    text_add(t, "<section><h2>Rock left</h2>\n<div class=\"two\"><div>");
+    chart_lines(&(struct chart){.title = "What is left of the rock, by frame",
+                                .x_label = "frame",
+                                .y_label = "rock left, %",
+                                .n = s->n_x,
+                                .x = s->x,
+                                .n_series = n,
+                                .series = series,
+                                .from_zero = true},
+                t);
+    text_add(t, "</div></div>\n");
+    if (s->n > SERIES_MAX)
+        text_add(t, "<p>The first %d wedges that have begun; the table has all.</p>\n", SERIES_MAX);
+    text_add(t, "</section>\n");
+}
+
+static status add_stills(const struct sweep *s, struct text *t)
+{
+    status st = OK;
+    size_t shown = 0;
+    text_add(t, "<section><h2>Last frames</h2>\n<div class=\"two\">\n");
+    for (size_t i = 0; i < s->n; i++) {
+        const struct wedge *w = &s->wedge[i];
+        char name[64];
+        bool there;
+        TRY(copy_still(s, w, name, &there));
+        if (!there)
+            continue;
+        shown++;
+        text_add(t, "<figure><img src=\"%s\" alt=\"wedge %d, frame %d\"><figcaption>", name,
+                 (int)w->job->wedge.index, w->last.frame);
+        html_text(t, w->job->wedge.label);
+        text_add(t, "</figcaption></figure>\n");
+    }
+    text_add(t, "</div>\n");
+    if (!shown)
+        text_add(
+            t,
+            "<p>No stills yet: <code>hoodoo preview</code> makes them, with --wedge for one of them.</p>\n");
+    text_add(t, "</section>\n");
+done:
+    return st;
+}
+
+status report_wedges(const char *root, struct text *page)
+{
+    status st = OK;
+    struct sweep s = {.root = root};
+    char path[4700], range[48];
+    TRY(gather(&s));
+    snprintf(path, sizeof path, "%.4500s/report", root);
+    TRY(folder_make(path));
+    page_begin(s.base->name, page);
+    html_text(page, s.base->name);
+    text_add(page, "</h1>\n<p class=\"sub\">%zu wedges, frames %s</p>\n</header>\n<main>\n", s.n,
+             range_text(s.wedge[0].job->frames, range));
+    add_table(&s, page);
+    add_chart(&s, page);
+    TRY(add_stills(&s, page));
+    page_end(page);
+done:
+    free_sweep(&s);
+    return st;
+}
