@@ -51,7 +51,9 @@ def repaired(name, damage, frames):
     found = verify()
     code, said = run("out", "--repair")
     after = inodes()
-    again = {path for path in after if before.get(path) != after[path] and not path.startswith(("job", "run", "checkpoint/"))}
+    # Papers of the whole sequence are written anew by every run, to the same bytes.
+    again = {path for path in after if before.get(path) != after[path] and not path.startswith(("job", "run", "checkpoint/"))
+             and not path.endswith(".usda")}
     strangers = {path for path in again if not any(f".{frame}." in path for frame in frames)}
     ok(found == 3 and code == 0 and truth.differences("out") == "" and not strangers and verify() == 0, name, found, code,
        truth.differences("out"), strangers, said)
