@@ -18,7 +18,7 @@ PARAMS(pixel_weather_params)
 vec3 velocity_at(vec3 x)
 {
     uvec3 n = uvec3(k.ax, k.ay, k.az);
-    vec3 at = clamp((x - vec3(k.origin_x, k.origin_y, k.origin_z)) / k.cell, vec3(0.0), vec3(n) - 1.001);
+    vec3 at = clamp((x - vec3(k.origin_x, k.origin_y, k.origin_z)) / k.cell, vec3(0.0), max(vec3(n) - 1.001, vec3(0.0)));
     uvec3 c = uvec3(at);
     vec3 f = at - vec3(c), sum = vec3(0.0);
     for (uint b = 0u; b < 8u; b++) {

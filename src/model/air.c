@@ -31,33 +31,40 @@ done:
     return st;
 }
 
-/* As few samples as span the domain. */
-static status uniform_grid(const struct job *job, int frame, const int voxels[3], struct frame_grid *out)
+status air_add(struct gpu *gpu, const struct wind *w, const struct job *job, int frame,
+               struct frame_grids *grids)
+{
+    struct wind_lattice air;
+    struct frame_grid *out = &grids->grid[grids->n_grids];
+    if (!wind_lattice(w, job, frame, &air))
+        return OK;
+    *out = (struct frame_grid){.name = "vel", .unit = "m/s", .kind = GRID_PLAIN, .components = 3};
+    grids->n_grids++;
+    return flow_grid(gpu, &air, out);
+}
+
+static status upload(struct gpu *gpu, const float *velocity, size_t n, struct aov_air *out)
 {
     status st = OK;
-    const struct wind_at wind = wind_at(job, frame);
-    double longest = 0;
-    for (int a = 0; a < 3; a++)
-        longest = voxels[a] > longest ? voxels[a] : longest;
-    out->own = (struct grid_lattice){{2, 2, 2}, longest * job->domain.spacing_m, {0, 0, 0}};
-    TRY(memory_alloc(8, 3 * sizeof *out->value, "the wind", &out->value));
-    for (size_t i = 0; i < 8; i++)
-        for (size_t a = 0; a < 3; a++)
-            out->value[3 * i + a] = (float)(wind.speed * wind.direction[a]);
+    TRY(gpu_buffer_create(gpu, "the wind", n, 16, &out->velocity));
+    TRY(gpu_upload(gpu, out->velocity, 0, velocity, n));
 done:
     return st;
 }
 
-status air_grid(struct gpu *gpu, const struct wind *w, const struct job *job, int frame, const int voxels[3],
-                struct frame_grid *out)
+/* One sample, which is the same everywhere. */
+static status upload_uniform(struct gpu *gpu, const struct job *job, int frame, struct aov_air *out)
 {
-    struct wind_lattice air;
-    *out = (struct frame_grid){.name = "vel", .unit = "m/s", .kind = GRID_PLAIN, .components = 3};
-    return wind_lattice(w, job, frame, &air) ? flow_grid(gpu, &air, out)
-                                             : uniform_grid(job, frame, voxels, out);
+    const struct wind_at wind = wind_at(job, frame);
+    float velocity[4] = {0};
+    for (int a = 0; a < 3; a++)
+        velocity[a] = (float)(wind.speed * wind.direction[a]);
+    out->lattice = (struct grid_lattice){{1, 1, 1}, 1, {0, 0, 0}};
+    return upload(gpu, velocity, 1, out);
 }
 
-status air_upload(struct gpu *gpu, const struct frame_grids *grids, struct aov_air *out)
+status air_upload(struct gpu *gpu, const struct frame_grids *grids, const struct job *job, int frame,
+                  struct aov_air *out)
 {
     status st = OK;
     float *velocity = NULL;
@@ -70,11 +77,11 @@ status air_upload(struct gpu *gpu, const struct frame_grids *grids, struct aov_a
         TRY(memory_alloc(n, 4 * sizeof *velocity, "the wind", &velocity));
         for (size_t i = 0; i < n; i++)
             memcpy(velocity + 4 * i, grid->value + 3 * i, 3 * sizeof *velocity);
-        TRY(gpu_buffer_create(gpu, "the wind", n, 16, &out->velocity));
-        TRY(gpu_upload(gpu, out->velocity, 0, velocity, n));
         out->lattice = grid->own;
-        break;
+        st = upload(gpu, velocity, n, out);
+        goto done;
     }
+    TRY(upload_uniform(gpu, job, frame, out));
 done:
     free(velocity);
     return st;

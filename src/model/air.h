@@ -5,12 +5,14 @@
 #include "field/aov.h"
 #include "wind/wind.h"
 
-/* The averaged flow, or, where there is none, the same wind all over the domain. *out is the caller's to free
- * (value). Waits. */
-MUST_USE status air_grid(struct gpu *gpu, const struct wind *w, const struct job *job, int frame,
-                         const int voxels[3], struct frame_grid *out);
+/* The averaged flow added to the frame's grids. A wind that is the same everywhere is no grid: its few samples
+ * would only widen the box of the volume that a program sees. Waits. */
+MUST_USE status air_add(struct gpu *gpu, const struct wind *w, const struct job *job, int frame,
+                        struct frame_grids *grids);
 
-/* The grid `vel` among these on the device, for pictures; without one there is no air (velocity NULL). */
-MUST_USE status air_upload(struct gpu *gpu, const struct frame_grids *grids, struct aov_air *out);
+/* The wind on the device, for pictures: the grid `vel` among these, or else the job's in that frame.
+ * out->velocity is the caller's to destroy. */
+MUST_USE status air_upload(struct gpu *gpu, const struct frame_grids *grids, const struct job *job, int frame,
+                           struct aov_air *out);
 
 #endif

@@ -434,10 +434,9 @@ static status output(struct model *m, struct frame *out)
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
     TRY(field_download(m->gpu, &m->field, &m->particles, skin, n_skin, &out->grids));
-    TRY(air_grid(m->gpu, &m->wind, job, m->frame, m->particles.voxels,
-                 &out->grids.grid[out->grids.n_grids++]));
+    TRY(air_add(m->gpu, &m->wind, job, m->frame, &out->grids));
     gpu_stage(m->gpu, "pictures");
-    TRY(air_upload(m->gpu, &out->grids, &air));
+    TRY(air_upload(m->gpu, &out->grids, job, m->frame, &air));
     TRY(aov_render_all(m->gpu, &m->aov, job, &m->field, &m->particles, &air, out));
 done:
     gpu_buffer_destroy(m->gpu, &air.velocity);
