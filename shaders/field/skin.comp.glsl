@@ -26,25 +26,14 @@ void add(ivec3 v, float weight)
         if (LOAD_V(normal, j).xyz != vec3(0.0))
             sum += weight * vec2(LOAD_F(value, j), 1.0);
 }
+#include "field/around.glsl"
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    if (LOAD_F(share, i) > 0.0) {
-        ivec3 v = lattice_of(i) - int(k.margin);
-        add(v, SHARE_SELF);
-        for (int s = -1; s <= 1; s += 2) {
-            add(v + ivec3(s, 0, 0), SHARE_FACE);
-            add(v + ivec3(0, s, 0), SHARE_FACE);
-            add(v + ivec3(0, 0, s), SHARE_FACE);
-            for (int t = -1; t <= 1; t += 2) {
-                add(v + ivec3(s, t, 0), SHARE_EDGE);
-                add(v + ivec3(s, 0, t), SHARE_EDGE);
-                add(v + ivec3(0, s, t), SHARE_EDGE);
-            }
-        }
-    }
+    if (LOAD_F(share, i) > 0.0)
+        add_around(lattice_of(i) - int(k.margin));
     AT(mean, i) = sum.y > 0.0 ? sum.x / sum.y : 0.0;
 }
