@@ -51,8 +51,7 @@ uint64_t aov_bytes(size_t n_pixels)
 
 uint64_t aov_picture_bytes(const struct job *job)
 {
-    return (uint64_t)aov_pixels(job) * 4 *
-           (22 + (job->output.aov.cryptomatte ? (uint64_t)MATTE_CHANNELS : 0));
+    return (uint64_t)aov_pixels(job) * sizeof(float) * aov_channel_count(job);
 }
 
 status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struct aov *a)

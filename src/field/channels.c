@@ -60,6 +60,14 @@ static void fill_values(float *plane, size_t n, float *const source[AOV_SOURCES]
             hit[4 * i + 3] >= 0 || table[row].from == FROM_COLOR ? sign * from[4 * i + component] : nothing;
 }
 
+size_t aov_channel_count(const struct job *job)
+{
+    size_t n = job->output.aov.cryptomatte ? MATTE_CHANNELS : 0;
+    for (size_t row = 0; row < TABLE; row++)
+        n += job_wants_layer(job, table[row].layer);
+    return n;
+}
+
 status aov_channels(const struct job *job, float *const source[AOV_SOURCES], const uint32_t *ids,
                     const struct mattes *mattes, struct aov_image *out)
 {
