@@ -4,8 +4,8 @@
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
-#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
@@ -56,15 +56,17 @@ int main(int argc, char **argv)
             double longest = 0;
             for (int k = 0; k < 3; k++)
                 longest = std::max(longest, CGAL::to_double(CGAL::squared_distance(p[k], p[(k + 1) % 3])));
-            low = std::min(low, 2 * std::sqrt(CGAL::to_double(CGAL::squared_area(p[0], p[1], p[2])) / longest));
+            low =
+                std::min(low, 2 * std::sqrt(CGAL::to_double(CGAL::squared_area(p[0], p[1], p[2])) / longest));
         }
-        std::printf("{\"file\": \"%s\", \"vertices\": %zu, \"triangles\": %zu, \"manifold\": %s, \"closed\": %s, "
-                    "\"valid\": %s, \"outward\": %s, \"degenerate\": %zu, \"crossing\": %zu, \"components\": %zu, "
-                    "\"volume\": %.9g, \"area\": %.9g, \"least_height\": %.9g}\n",
-                    argv[f], n_points, faces.size(), word(manifold), word(closed),
-                    word(CGAL::is_valid_polygon_mesh(m)),
-                    word(whole && (components > 1 ? PMP::does_bound_a_volume(m) : PMP::is_outward_oriented(m))),
-                    flat, crossing.size(), components, whole ? PMP::volume(m) : NAN, PMP::area(m), low);
+        std::printf(
+            "{\"file\": \"%s\", \"vertices\": %zu, \"triangles\": %zu, \"manifold\": %s, \"closed\": %s, "
+            "\"valid\": %s, \"outward\": %s, \"degenerate\": %zu, \"crossing\": %zu, \"components\": %zu, "
+            "\"volume\": %.9g, \"area\": %.9g, \"least_height\": %.9g}\n",
+            argv[f], n_points, faces.size(), word(manifold), word(closed),
+            word(CGAL::is_valid_polygon_mesh(m)),
+            word(whole && (components > 1 ? PMP::does_bound_a_volume(m) : PMP::is_outward_oriented(m))), flat,
+            crossing.size(), components, whole ? PMP::volume(m) : NAN, PMP::area(m), low);
     }
     return 0;
 }
