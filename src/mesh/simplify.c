@@ -29,6 +29,7 @@ struct simplify {
     uint32_t *pool;
     size_t pool_n, pool_capacity;
     uint32_t *head, *next; /* vertices that went, by the triangle nearest to them: lists */
+    float *normal;         /* of the vertices at first */
     uint8_t *keep;         /* vertices that stay */
     uint32_t *changed;     /* the sweep in which its surroundings last changed */
     uint32_t *tried;       /* the sweep in which it was last tried in vain */
@@ -95,6 +96,18 @@ static double squared(const double a[3], const float b[3])
     return sum;
 }
 
+/* Does a triangle with this normal look the way its corners did at first? Else small bodies could turn inside
+ * out, a little each time. */
+static bool looks_out(const struct simplify *s, const uint32_t corner[3], const double n[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const float *own = s->normal + 3 * (size_t)corner[k];
+        if (!(n[0] * (double)own[0] + n[1] * (double)own[1] + n[2] * (double)own[2] > 0))
+            return false;
+    }
+    return true;
+}
+
 /* Twice the area over the longest edge squared, 0.87 at best; and the normal. */
 static double quality(const double x[3][3], double normal[3])
 {
@@ -150,7 +163,8 @@ static bool make_fan(struct simplify *s, uint32_t v, uint32_t u, struct fan *fan
         }
         q = quality((const double(*)[3])x, turned);
         worst = fmin(worst, q);
-        if (!(dot3(n, turned) > COS_TURN * length * sqrt(dot3(turned, turned))))
+        if (!(dot3(n, turned) > COS_TURN * length * sqrt(dot3(turned, turned))) ||
+            !looks_out(s, fan->corner[fan->n], turned))
             return false;
         fan->old[fan->n++] = t;
     }
@@ -419,6 +433,8 @@ status trimesh_simplify(struct trimesh *mesh, const uint32_t *label, double tole
     TRY(memory_alloc(mesh->n_vertices, sizeof *s.next, what, &s.next));
     TRY(memory_alloc(mesh->n_triangles, sizeof *s.head, what, &s.head));
     memset(s.head, 0xff, mesh->n_triangles * sizeof *s.head);
+    TRY(memory_alloc(mesh->n_vertices, 3 * sizeof *s.normal, what, &s.normal));
+    trimesh_normals(mesh, s.normal);
     TRY(make_stars(&s));
     TRY(near_create(&s.near, mesh, longest / 4));
     keep_borders(&s, label);
@@ -437,6 +453,7 @@ done:
     free(s.pool);
     free(s.head);
     free(s.next);
+    free(s.normal);
     free(s.keep);
     free(s.changed);
     free(s.tried);

@@ -8,7 +8,7 @@
  *            triangles, none cross, none lie in a face of the cell, and cells meet only in the segments on
  *            their faces. Vertices keep a small share of an edge away from samples, so no triangle is a
  *            point. Vertices of equal lattice coordinate have equal floats, so rounding changes none of this.
- * Smooth     Taubin's lambda|mu (1995), which does not shrink. Labels are respected: see trimesh_smooth().
+ * Smooth     Taubin's two steps (1995), in and out, along the normals; the volume stays. See trimesh_smooth().
  * Simplify   Vertices are drawn into a neighbour while every vertex of the first surface stays within a
  *            tolerance of the new one.
  *
@@ -47,9 +47,9 @@ struct trimesh_lattice {
 MUST_USE status trimesh_march(float *field, const struct trimesh_lattice *lattice, struct trimesh *out);
 void trimesh_free(struct trimesh *mesh);
 
-/* `passes` of smoothing in which no vertex goes farther than `reach` from where it was. With labels [n_vertices]
- * (or NULL), a vertex with a neighbour of another label moves only with those that have both labels too: along
- * the border; others move with their own label only. Across an edge sharper than 45 degrees nothing moves. */
+/* `passes` of smoothing in which vertices move in and out by at most `reach`. With labels [n_vertices] (or NULL),
+ * a vertex with a neighbour of another label moves only with those that have both labels too, along the border;
+ * others move with their own label only. Nothing moves with what lies beyond an edge sharper than 20 degrees. */
 MUST_USE status trimesh_smooth(struct trimesh *mesh, const uint32_t *label, int passes, double reach);
 
 /* Fewer triangles: every vertex that goes is within `tolerance` of the surface that stays; those that stay do

@@ -44,8 +44,8 @@ def places(vertex):
     return np.stack([vertex[axis].astype(float) for axis in "xyz"], 1)
 
 
-def cgal(path):
-    done = subprocess.run([CHECKER, path], capture_output=True, text=True)
+def cgal(path, *words):
+    done = subprocess.run([CHECKER, path, *words], capture_output=True, text=True)
     return json.loads(done.stdout.replace("nan", "NaN")) if done.returncode == 0 else {"unreadable": done.stderr}
 
 
@@ -63,7 +63,7 @@ def level_set(path):
     return value, grid.transform.voxelSize()[0], np.array(grid.transform.indexToWorld(tuple(int(c) for c in lo)))
 
 
-def level_set_volume(path, fine=5):
+def level_set_volume(path, fine=6):
     """Space where the trilinear field is negative, by fine^3 samples a voxel."""
     value, voxel, _ = level_set(path)
     n, inside = np.array(value.shape) - 1, 0
@@ -77,31 +77,8 @@ def level_set_volume(path, fine=5):
     return inside * (voxel / fine) ** 3
 
 
-def distances(points, vertex, face):
-    """Of points to a mesh: to the triangles around the nearest vertices and centres."""
-    a, b, c = (vertex[face[:, k]] for k in range(3))
-    tree = spatial.cKDTree((a + b + c) / 3)
-    least = np.full(len(points), np.inf)
-    for k in tree.query(points, k=24)[1].T:
-        p, q, r = a[k], b[k] - a[k], c[k] - a[k]
-        # The nearest place in a triangle, by its plane or its edges.
-        n = np.cross(q, r)
-        x = points - p
-        w = np.einsum("ij,ij->i", n, n)
-        s = np.einsum("ij,ij->i", np.cross(x, r), n) / w
-        t = np.einsum("ij,ij->i", np.cross(q, x), n) / w
-        inside = (s >= 0) & (t >= 0) & (s + t <= 1)
-        d = np.where(inside, abs(np.einsum("ij,ij->i", x, n)) / np.sqrt(w), np.inf)
-        for from_, along in ((p, q), (p, r), (p + q, r - q)):
-            y = points - from_
-            u = np.clip(np.einsum("ij,ij->i", y, along) / np.einsum("ij,ij->i", along, along), 0, 1)
-            d = np.minimum(d, np.linalg.norm(y - u[:, None] * along, axis=1))
-        least = np.minimum(least, d)
-    return least
-
-
-def meshes(out, frame, name, *words):
-    """Meshes one frame and checks what every mesh must be. Returns its vertices and faces."""
+def meshes(out, frame, name, *words, near=0.01):
+    """Meshes one frame and checks what every mesh must be. Returns its vertices and faces. `near`: its share of volume."""
     code, said = hoodoo("mesh", out, "--frames", str(frame), *words)
     path = f"{out}/mesh/{name}.{frame}.ply"
     if code:
@@ -111,7 +88,7 @@ def meshes(out, frame, name, *words):
     vertex, face = read_ply(path)
     check(is_whole(seen), f"{out} {' '.join(words)}: closed, manifold, outwards, nothing crosses: {seen['triangles']} triangles" + ("" if is_whole(seen) else f" {seen}"))
     off = seen["volume"] / volume - 1
-    check(abs(off) < 0.01, f"{out} {' '.join(words)}: {100 * off:+.3f} % of the level set's {volume:.1f} m3")
+    check(abs(off) < near, f"{out} {' '.join(words)}: {100 * off:+.3f} % of the level set's {volume:.1f} m3")
     return vertex, face
 
 
@@ -139,7 +116,7 @@ for up in "yz":
     check((value["layer"][sure] == (height[sure] > 6)).all() and set(value["layer"]) == {0, 1}, f"{up} up: layers end at 6 m")
     colors = {tuple(v[["red", "green", "blue"]]) for v in value}
     # Linear 0.55 0.30 0.16 and 0.40 0.14 0.065 in sRGB.
-    check(colors == {(196, 149, 112), (170, 105, 71)} or (print("#", colors) or False), f"{up} up: in the layers' colours")
+    check(colors == {(196, 149, 111), (170, 105, 72)} or (print("#", colors) or False), f"{up} up: in the layers' colours")
     obj = [line.split() for line in open(up + "/mesh/twelve.1004.obj")]
     v = np.array([line[1:] for line in obj if line[0] == "v"], float)
     f = np.array([[word.split("//")[0] for word in line[1:]] for line in obj if line[0] == "f"], int)
@@ -166,9 +143,10 @@ code, said = hoodoo("run", os.path.join(TOP, "jobs/demo.yaml"), "--out", "demo",
 check(code == 0, f"the demo runs {said if code else ''}")
 fine, fine_face = meshes("demo", 1016, "demo")
 count = len(fine_face)
+shutil.copy("demo/mesh/demo.1016.ply", "fine.ply")
 for share in (0.03, 0.3, 1):
-    vertex, face = meshes("demo", 1016, "demo", "--adaptivity", str(share))
-    off = distances(places(fine), places(vertex), face).max()
+    vertex, face = meshes("demo", 1016, "demo", "--adaptivity", str(share), near=max(0.01, 0.05 * share))
+    off = cgal("demo/mesh/demo.1016.ply", "--from", "fine.ply")["farthest"]
     check(off <= share * 1.0001 and len(face) < count, f"adaptivity {share}: {len(face)} of {len(fine_face)} triangles, none farther off than {off:.4f} m")
     count = len(face)
     # Vertices that stay are those of the fine mesh, with what they carry; all of them at the layers' borders.
@@ -179,29 +157,13 @@ for share in (0.03, 0.3, 1):
     check(len(border) > 100 and np.isin(border, same[1]).all(), f"adaptivity {share}: all {len(border)} vertices at borders of layers stay")
 
 
-def roughness(vertex, face):
-    """The mean angle between neighbouring triangles, rad."""
-    a, b, c = (vertex[face[:, k]] for k in range(3))
-    n = np.cross(b - a, c - a)
-    n /= np.linalg.norm(n, axis=1)[:, None]
-    edges = np.concatenate([face[:, [0, 1]], face[:, [1, 2]], face[:, [2, 0]]])
-    at = np.concatenate([np.arange(len(face))] * 3)
-    order = np.lexsort(np.sort(edges, 1).T)
-    one, other = at[order[::2]], at[order[1::2]]
-    return np.arccos(np.clip(np.einsum("ij,ij->i", n[one], n[other]), -1, 1)).mean()
-
-
-before = roughness(places(fine), fine_face)
 for passes in (3, 30):
     vertex, face = meshes("demo", 1016, "demo", "--smooth", str(passes))
     moved = np.linalg.norm(places(vertex) - places(fine), axis=1)
-    after = roughness(places(vertex), face)
-    check((face == fine_face).all() and moved.max() <= 0.5001 and after < 0.9 * before,
-          f"{passes} passes: angles {before:.3f} to {after:.3f} rad, no vertex moves more than {moved.max():.3f} m")
+    check((face == fine_face).all() and 0.1 < moved.max() <= 0.5001, f"{passes} passes: no vertex moves more than {moved.max():.3f} m")
     height = places(vertex)[:, 1] - places(fine)[:, 1]
-    edge = (fine["layer"][edges[:, 0]] != fine["layer"][edges[:, 1]])
-    drift = abs(height[np.unique(edges[edge])])
-    check((vertex["layer"] == fine["layer"]).all() and drift.mean() < 0.1, f"{passes} passes: borders of layers move {drift.mean():.3f} m up or down in the mean")
+    drift = abs(height[border])
+    check((vertex["layer"] == fine["layer"]).all() and drift.mean() < 0.05, f"{passes} passes: borders of layers move {drift.mean():.3f} m up or down in the mean")
 vertex, face = meshes("demo", 1016, "demo", "--smooth", "10", "--adaptivity", "0.1")
 check(len(face) < len(fine_face) / 2, "both at once")
 
@@ -215,10 +177,14 @@ strata: [{to_m: 6}, {to_m: 16}]
 """)
 code, said = hoodoo("run", "ledge.yaml", "--out", "ledge", "--progress", "none")
 check(code == 0, f"a ledge runs {said if code else ''}")
-sharp = places(meshes("ledge", "0001", "ledge")[0])
-even = places(meshes("ledge", "0001", "ledge", "--smooth", "50")[0])
-top = sharp[:, 1] > 11.5
-check(top.sum() > 10 and abs((even - sharp)[top][:, 1]).max() < 0.1, f"tops stay: {abs((even - sharp)[top][:, 1]).max():.3f} m")
+sharp = places(meshes("ledge", "0001", "ledge", near=0.03)[0])
+on_top = sharp[:, 1] > 11.9
+on_ledge = (abs(sharp[:, 1] - 6) < 0.3) & (np.maximum(abs(sharp[:, 0] - 8), abs(sharp[:, 2] + 8)) > 3.9)
+for passes, most in ((10, 0.1), (50, 0.3)):
+    even = places(meshes("ledge", "0001", "ledge", "--smooth", str(passes), near=0.03)[0])
+    moved = abs(even - sharp)[:, 1]
+    check(on_top.sum() > 20 < on_ledge.sum() and moved[on_top | on_ledge].max() < most,
+          f"{passes} passes: top and ledge stay: {moved[on_top].max():.3f} and {moved[on_ledge].max():.3f} m")
 
 # ---- a terrain, its materials and its rocks
 open("terrain.yaml", "w").write("""hoodoo: 1
@@ -247,7 +213,6 @@ sandy, bare = shares["sand"] > 0.99, shares["bedrock"] > 0.99
 rgb = np.stack([vertex[c].astype(int) for c in ("red", "green", "blue")], 1)
 check(abs(rgb[sandy] - [212, 177, 137]).max() <= 2 and abs(rgb[bare] - [196, 149, 112]).max() <= 2, "colours are the materials'")
 rocks, rock_face = read_ply("terrain/mesh/terrain.rocks.0004.ply")
-placed = pyopenvdb.read("terrain/rocks/terrain.0004.vdb", "points") if hasattr(pyopenvdb, "PointDataGrid") else None
 seen = cgal("terrain/mesh/terrain.rocks.0004.ply")
 said = subprocess.run([HOODOO, "inspect", "terrain/rocks/terrain.0004.vdb", "--json"], capture_output=True, text=True).stdout
 n_rocks = json.loads(said)["grids"][0]["points"]
@@ -259,6 +224,19 @@ check(os.path.exists("terrain/mesh/terrain.rocks.0004.obj"), "--missing sees tha
 shutil.rmtree("terrain/mesh")
 hoodoo("mesh", "terrain", "--frames", "4", "--no-rocks")
 check(sorted(os.listdir("terrain/mesh")) == ["terrain.0004.obj", "terrain.0004.ply"], "--no-rocks")
+
+def put_field(field):
+    """In place of the frame's volumes, with the grids a mesh needs."""
+    field = np.clip(field, -2.9, 2.9).astype(np.float32)
+    for face in (0, -1):
+        field[face] = field[:, face] = field[:, :, face] = 3
+    grids = []
+    for grid in ("surface", "stress", "von_mises", "viability"):
+        grids.append(pyopenvdb.FloatGrid(3.0 if grid == "surface" else 0.0))
+        grids[-1].name = grid
+        grids[-1].copyFromArray(field if grid == "surface" else np.ones_like(field))
+    pyopenvdb.write("again/volumes/twelve.1004.vdb", grids)
+
 
 # ---- fields that are hard to mesh
 rng = np.random.default_rng(5)
@@ -279,15 +257,7 @@ hard = {
     "zeros and what is no number": np.where(rng.random((N, N, N)) < 0.02, np.nan, np.round(rng.standard_normal((N, N, N)))),
 }
 for name, field in hard.items():
-    field = np.clip(field, -2.9, 2.9).astype(np.float32)
-    for face in (0, -1):
-        field[face] = field[:, face] = field[:, :, face] = 3
-    grids = []
-    for grid in ("surface", "stress", "von_mises", "viability"):
-        grids.append(pyopenvdb.FloatGrid(3.0 if grid == "surface" else 0.0))
-        grids[-1].name = grid
-        grids[-1].copyFromArray(field if grid == "surface" else np.ones_like(field))
-    pyopenvdb.write("again/volumes/twelve.1004.vdb", grids)
+    put_field(field)
     for words in ((), ("--adaptivity", "0.05"), ("--adaptivity", "1"), ("--smooth", "8"), ("--smooth", "20", "--adaptivity", "0.3")):
         code, said = hoodoo("mesh", "again", "--frames", "1004", *words)
         seen = cgal("again/mesh/twelve.1004.ply") if code == 0 else {}
@@ -296,6 +266,17 @@ for name, field in hard.items():
     code, said = hoodoo("mesh", "again", "--frames", "1004")
     seen = cgal("again/mesh/twelve.1004.obj")
     check(code == 0 and is_whole(seen), f"{name}: so is the OBJ")
+
+# ---- smoothing takes noise away: a ball with 0.15 voxels of it
+noisy = np.sqrt((x - 11.7) ** 2 + (y - 11.4) ** 2 + (z - 11.9) ** 2) - 8.2 + 0.15 * rng.standard_normal((N, N, N))
+put_field(noisy)
+rough = {}
+for passes in (0, 5, 20):
+    vertex, face = meshes("again", 1004, "twelve", "--smooth", str(passes))
+    r = np.linalg.norm(places(vertex) - [11.7, 11.9, -11.4], axis=1)  # y up
+    rough[passes] = r.std()
+    print(f"# {passes} passes: {r.mean():.3f} +- {r.std():.3f} voxels from the centre, {cgal('again/mesh/twelve.1004.ply')['volume']:.1f} m3")
+check(rough[5] < 0.75 * rough[0] and rough[20] < rough[5], "smoothing takes noise away")
 
 for words, expected, why in ((("mesh", "y", "--frames", "7"), 3, "volumes"), (("mesh", "nowhere"), 3, "nowhere"),
                              (("mesh", "y", "--adaptivity", "2"), 2, "0 to 1"), (("mesh", "y", "--smooth", "-1"), 2, "0 to 100")):

@@ -1,5 +1,9 @@
-/* mesh_check FILE...: what CGAL, which shares nothing with hoodoo, says of triangle meshes (PLY, OBJ). One line of JSON
- * a file: is it one closed oriented manifold, outwards, without triangles that cross; volume, area, components. */
+/* mesh_check FILE... [--from FINE]: what CGAL, which shares nothing with hoodoo, says of triangle meshes (PLY, OBJ). One line of JSON
+ * a file: is it one closed oriented manifold, outwards, without triangles that cross; volume, area, components. With --from, how far the farthest vertex of the mesh FINE is
+ * from it. */
+#include <CGAL/AABB_face_graph_triangle_primitive.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/polygon_soup_io.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
@@ -26,8 +30,25 @@ static const char *word(bool b)
     return b ? "true" : "false";
 }
 
+static double farthest(const mesh &m, const std::vector<kernel::Point_3> &points)
+{
+    using primitive = CGAL::AABB_face_graph_triangle_primitive<mesh>;
+    CGAL::AABB_tree<CGAL::AABB_traits<kernel, primitive>> tree(faces(m).begin(), faces(m).end(), m);
+    double most = 0;
+    for (const auto &p : points)
+        most = std::max(most, CGAL::to_double(tree.squared_distance(p)));
+    return std::sqrt(most);
+}
+
 int main(int argc, char **argv)
 {
+    std::vector<kernel::Point_3> fine;
+    std::vector<std::vector<size_t>> unused;
+    if (argc > 3 && std::string(argv[argc - 2]) == "--from") {
+        if (!CGAL::IO::read_polygon_soup(argv[argc - 1], fine, unused))
+            return std::fprintf(stderr, "%s: unreadable\n", argv[argc - 1]), 1;
+        argc -= 2;
+    }
     for (int f = 1; f < argc; f++) {
         std::vector<kernel::Point_3> points;
         std::vector<std::vector<size_t>> faces;
@@ -62,11 +83,13 @@ int main(int argc, char **argv)
         std::printf(
             "{\"file\": \"%s\", \"vertices\": %zu, \"triangles\": %zu, \"manifold\": %s, \"closed\": %s, "
             "\"valid\": %s, \"outward\": %s, \"degenerate\": %zu, \"crossing\": %zu, \"components\": %zu, "
-            "\"volume\": %.9g, \"area\": %.9g, \"least_height\": %.9g}\n",
+            "\"volume\": %.9g, \"area\": %.9g, \"least_height\": %.9g, "
+            "\"farthest\": %.9g}\n",
             argv[f], n_points, faces.size(), word(manifold), word(closed),
             word(CGAL::is_valid_polygon_mesh(m)),
             word(whole && (components > 1 ? PMP::does_bound_a_volume(m) : PMP::is_outward_oriented(m))), flat,
-            crossing.size(), components, whole ? PMP::volume(m) : NAN, PMP::area(m), low);
+            crossing.size(), components, whole ? PMP::volume(m) : NAN, PMP::area(m), low,
+            fine.empty() ? 0 : farthest(m, fine));
     }
     return 0;
 }
