@@ -25,6 +25,8 @@ using openvdb::Vec3s;
 
 /* No simplified edge is longer, in voxels: values vary along it. */
 constexpr double LONGEST = 12;
+/* Indices of voxels are less. */
+constexpr double FARTHEST = 1 << 24;
 
 FloatGrid::Ptr read_float_grid(openvdb::io::File &file, const std::string &name)
 {
@@ -106,19 +108,23 @@ struct samples {
         openvdb::CoordBBox box;
         if (!grid.tree().evalActiveVoxelBoundingBox(box))
             box = openvdb::CoordBBox(Coord(0), Coord(0));
+        double n = 1;
+        for (int d = 0; d < 3; d++) {
+            if (std::abs(double(box.min()[d])) > FARTHEST || std::abs(double(box.max()[d])) > FARTHEST)
+                throw std::runtime_error("'surface' has voxels too far from its origin");
+            n *= box.max()[d] - box.min()[d] + 3;
+        }
+        if (n > double(memory_available()) / sizeof(float) / 2)
+            throw std::runtime_error("'surface' is larger than this machine's memory");
         box.expand(1);
         const Coord a = vdb::sim_from_file(box.min(), y_up), b = vdb::sim_from_file(box.max(), y_up);
         const Coord lo = Coord::minComponent(a, b), hi = Coord::maxComponent(a, b);
         const Vec3d origin = vdb::sim_from_file(grid.indexToWorld(Vec3d(0)), y_up);
-        double n = 1;
         lattice.voxel = voxel;
         for (int d = 0; d < 3; d++) {
             lattice.n[d] = hi[d] - lo[d] + 1;
             lattice.origin[d] = origin[d] + voxel * lo[d];
-            n *= double(hi[d]) - double(lo[d]) + 1;
         }
-        if (n > double(memory_available()) / sizeof(float))
-            throw std::bad_alloc();
         value.resize(size_t(n));
         const size_t rows = size_t(lattice.n[1]) * size_t(lattice.n[2]);
         tbb::parallel_for(tbb::blocked_range<size_t>(0, rows, 64), [&](const tbb::blocked_range<size_t> &r) {
