@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "mesh/apart.h"
 
-enum { MOST_CELLS = 400 }; /* along an axis */
+enum { MOST_CELLS = 200 }; /* along an axis */
 
 void near_corners(const struct trimesh *mesh, const uint32_t corner[3], double out[3][3])
 {
