@@ -162,7 +162,8 @@ static status write_scene(const struct preview *p, int frame, int views, const c
                           .mesh = &mesh,
                           .preset = p->preset,
                           .show = p->show,
-                          .range = p->range};
+                          .range = p->range,
+                          .file = strrchr(path, '/') + 1};
     const struct job_camera *own = chosen_camera(p);
     TRY(read_mesh(p, frame, &mesh));
     if (p->job->model == MODEL_ARCHES && p->job->arches.piles.rock_m > 0) {

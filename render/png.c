@@ -36,6 +36,32 @@ static void put(unsigned char *at, uint32_t x)
         at[k] = (unsigned char)(x >> (24 - 8 * k));
 }
 
+static uint32_t get(const unsigned char *at)
+{
+    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
+}
+
+/* The chunks behind the header, without words and times; returns how many bytes. */
+static size_t copy_chunks(unsigned char *to, const unsigned char *from, size_t n)
+{
+    static const char *const left_out[] = {"tEXt", "zTXt", "iTXt", "tIME"};
+    size_t made = 0;
+    for (size_t at = 0; n - at >= CHUNK;) {
+        size_t size = (size_t)get(from + at) + CHUNK;
+        bool keep = true;
+        if (size > n - at) /* not ours to mend */
+            size = n - at;
+        for (size_t i = 0; i < sizeof left_out / sizeof *left_out; i++)
+            keep = keep && memcmp(from + at + 4, left_out[i], 4) != 0;
+        if (keep) {
+            memcpy(to + made, from + at, size);
+            made += size;
+        }
+        at += size;
+    }
+    return made;
+}
+
 status png_with_tag(const void *bytes, size_t n, const char *tag, void **out, size_t *n_out)
 {
     unsigned char chunk[CHUNK + sizeof KEYWORD + PNG_TAG], *made = NULL;
@@ -51,9 +77,8 @@ status png_with_tag(const void *bytes, size_t n, const char *tag, void **out, si
         return st;
     memcpy(made, bytes, HEADER);
     memcpy(made + HEADER, chunk, k);
-    memcpy(made + HEADER + k, (const unsigned char *)bytes + HEADER, n - HEADER);
+    *n_out = HEADER + k + copy_chunks(made + HEADER + k, (const unsigned char *)bytes + HEADER, n - HEADER);
     *out = made;
-    *n_out = n + k;
     return OK;
 }
 
@@ -67,7 +92,7 @@ void png_tag(const char *path, char out[PNG_TAG])
     const unsigned char *at = head + HEADER;
     if (fread(head, sizeof head, 1, file) == 1 && memcmp(at + 4, "tEXt", 4) == 0 &&
         memcmp(at + 8, KEYWORD, sizeof KEYWORD) == 0) {
-        size_t n = (size_t)at[0] << 24 | (size_t)at[1] << 16 | (size_t)at[2] << 8 | at[3];
+        size_t n = get(at);
         n = n > sizeof KEYWORD ? n - sizeof KEYWORD : 0;
         n = fread(out, 1, n < PNG_TAG ? n : PNG_TAG - 1, file);
         out[n] = '\0';

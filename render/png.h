@@ -11,7 +11,8 @@
 /* It begins as a PNG with its header and ends with its end chunk. */
 bool png_whole(const void *bytes, size_t n);
 
-/* The same picture with `tag` in it, in *out (freed with free()). `bytes` is whole. */
+/* The same picture with `tag` in it, in *out (freed with free()), and without other words and times: equal pictures are
+ * equal files. `bytes` is whole. */
 MUST_USE status png_with_tag(const void *bytes, size_t n, const char *tag, void **out, size_t *n_out);
 
 /* The tag of a file; "" if it has none or is not there. */

@@ -279,8 +279,10 @@ status scene_write(const struct scene *s, struct text *out)
         size = fmax(size, s->high[k] - s->low[k]);
     text_add(out, "// hoodoo %s: %s, frame %d. Simulator axes: z up, metres.\n", hoodoo_version, s->job->name,
              s->frame);
-    text_add(out, "// povray +W%d +H%d +A0.3 Declare=View=0..%zu\n", s->camera->width, s->camera->height,
-             s->n_cameras - 1);
+    text_add(out, "// Complete in itself: povray +I%s +W%d +H%d %s -D Declare=View=0\n", s->file,
+             s->camera->width, s->camera->height, s->preset == PRESET_DRAFT ? "-A" : "+A0.3 +AM2 +R2");
+    if (s->n_cameras > 1)
+        text_add(out, "// View: 0 to %zu, around the rock.\n", s->n_cameras - 1);
     text_add(out, "#version 3.7;\n#declare Quality = %d; // 0 draft, 1 preview, 2 final\n", (int)s->preset);
     text_add(out, "global_settings {\n    assumed_gamma 1.0\n    max_trace_level 4\n");
     if (s->preset == PRESET_FINAL)

@@ -32,6 +32,7 @@ struct scene {
     const struct camera *camera; /* one a view: povray's Declare=View=2 takes the third */
     size_t n_cameras;            /* >= 1 */
     enum preset preset;
+    const char *file; /* what the scene will be called, without folders: for the command in its first lines */
 };
 
 /* The mesh's bounds into low and high. E_INPUT if it has no triangles: there is nothing to show. */

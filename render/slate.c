@@ -181,9 +181,6 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
     if (s->show != SHOW_ROCK)
         word(c, bar);
     word(c, from);
-    word(c, "--eraseattrib");
-    word(c, "Comment|DateTime|Software");
-    word(c, "--nosoftwareattrib");
     if (s->show != SHOW_ROCK) {
         struct panel p = panel_of(s);
         word(c, "--paste");
