@@ -317,12 +317,27 @@ static status start(struct preview *p, struct picture *picture, const char *scen
     snprintf(w, sizeof w, "+W%d", picture->slate.width);
     snprintf(h, sizeof h, "+H%d", picture->slate.height);
     snprintf(declare, sizeof declare, "Declare=View=%d", view);
+    const bool fine = p->preset == PRESET_FINAL;
     /* One thread each: reading the mesh takes one anyway, so several pictures side by side use the cores
      * better. */
-    const char *const argv[] = {
-        "povray", in,    out,  w,    h,    declare, p->preset == PRESET_DRAFT ? "-A" : "+A0.3",
-        "+AM2",   "+R2", "-D", "-P", "-V", "+FN8",  "+WT1",
-        "-GA",    NULL};
+    const char *const argv[] = {"povray",
+                                in,
+                                out,
+                                w,
+                                h,
+                                declare,
+                                p->preset == PRESET_DRAFT ? "-A"
+                                : fine                    ? "+A0.1"
+                                                          : "+A0.3",
+                                "+AM2",
+                                fine ? "+R3" : "+R2",
+                                "-D",
+                                "-P",
+                                "-V",
+                                "+FN8",
+                                "+WT1",
+                                "-GA",
+                                NULL};
     return children_run(&p->children, argv, picture->what, picture_rendered, picture);
 }
 
@@ -407,7 +422,7 @@ done:
 status picture_orbit(struct preview *p, int frame, int views, struct frame_range which)
 {
     status st = OK;
-    char path[512], source[512], what[64], scene[600] = "", tag[PNG_TAG], azimuth[32];
+    char path[512], source[512], what[64], scene[600] = "", tag[PNG_TAG], number[32];
     struct picture *picture = NULL;
     int width, height;
     volumes_path(p, frame, source);
@@ -426,8 +441,8 @@ status picture_orbit(struct preview *p, int frame, int views, struct frame_range
         snprintf(what, sizeof what, "view %d of frame %d", view, frame);
         TRY(new_picture(p, what, path, width, height, &picture));
         snprintf(picture->tag, sizeof picture->tag, "%s", tag);
-        snprintf(azimuth, sizeof azimuth, "view %d/%d", view, views);
-        describe(p, frame, azimuth, &picture->slate);
+        snprintf(number, sizeof number, "view %03d", view); /* as its file is called */
+        describe(p, frame, number, &picture->slate);
         TRY(start(p, picture, scene, view));
     }
     TRY(children_wait(&p->children));

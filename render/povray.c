@@ -280,14 +280,17 @@ status scene_write(const struct scene *s, struct text *out)
     text_add(out, "// hoodoo %s: %s, frame %d. Simulator axes: z up, metres.\n", hoodoo_version, s->job->name,
              s->frame);
     text_add(out, "// Complete in itself: povray +I%s +W%d +H%d %s -D Declare=View=0\n", s->file,
-             s->camera->width, s->camera->height, s->preset == PRESET_DRAFT ? "-A" : "+A0.3 +AM2 +R2");
+             s->camera->width, s->camera->height,
+             s->preset == PRESET_DRAFT   ? "-A"
+             : s->preset == PRESET_FINAL ? "+A0.1 +AM2 +R3"
+                                         : "+A0.3 +AM2 +R2");
     if (s->n_cameras > 1)
         text_add(out, "// View: 0 to %zu, around the rock.\n", s->n_cameras - 1);
     text_add(out, "#version 3.7;\n#declare Quality = %d; // 0 draft, 1 preview, 2 final\n", (int)s->preset);
     text_add(out, "global_settings {\n    assumed_gamma 1.0\n    max_trace_level 4\n");
     if (s->preset == PRESET_FINAL)
-        text_add(out, "    radiosity { pretrace_start 0.04 pretrace_end 0.01 count 80 error_bound 0.6 "
-                      "recursion_limit 1 }\n");
+        text_add(out, "    radiosity { pretrace_start 0.04 pretrace_end 0.01 count 100 error_bound 0.5 "
+                      "recursion_limit 1 brightness 0.35 normal on }\n");
     text_add(out, "}\n#ifndef (View) #declare View = 0; #end\n\n");
     add_vectors(out, "Eye", s, offsetof(struct camera, eye));
     add_vectors(out, "Ahead", s, offsetof(struct camera, ahead));
