@@ -25,6 +25,7 @@ struct vdb_options {
     int codec;               /* VDB_CODEC_* */
     bool half;               /* volumes only; never for points */
     int points;              /* VDB_POINTS_* */
+    int precision;           /* VDB_PRECISION_*: of points; in 16 bits P is within voxel / 65535 / 2 */
     bool instances;          /* points: with `orient` (no turn) and `variant` (the layer), pscale 1 */
     int frame;               /* metadata */
     double spacing;          /* m: pscale is half of it; surface particles are those with a normal */
