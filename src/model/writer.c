@@ -162,7 +162,13 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
         .max_stress_Pa = frame->max_stress_Pa,
         .stress_iterations = frame->stress_iterations,
         .ledger = frame->ledger,
+        .n_changes = frame->n_changes,
     };
+    for (size_t i = 0; i < frame->n_changes; i++) {
+        snprintf(manifest.change[i].process, sizeof manifest.change[i].process, "%s",
+                 frame->change[i].process);
+        manifest.change[i].m3 = frame->change[i].m3;
+    }
     TRY(put_vdbs(job, job_hash, root, frame, &manifest));
     TRY(put_images(job, job_hash, root, frame, &manifest));
     if (frame->stacks.bytes) {
