@@ -95,7 +95,7 @@ static void estimate_task(struct farm_task *t, const struct farm_wedge *w, bool 
     case FARM_SIM:
         t->seconds = n * w->frame_seconds;
         t->device_bytes = w->estimate.device_bytes;
-        t->disk_bytes = (uint64_t)n * w->estimate.frame_bytes;
+        t->disk_bytes = disk_frames_bytes(w->job, &w->estimate.disk, t->frames, NULL);
         if (first_block)
             t->disk_bytes += w->estimate.checkpoint_bytes * (uint64_t)w->job->checkpoint.keep;
         break;

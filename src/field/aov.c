@@ -11,7 +11,7 @@
 /* Towards the sun: late morning, from the left behind the usual camera. */
 static const double SUN[3] = {-0.48, -0.62, 0.62};
 
-static const struct job_camera *camera_named(const struct job *job, const char *name)
+const struct job_camera *camera_named(const struct job *job, const char *name)
 {
     for (size_t i = 0; i < job->n_cameras; i++)
         if (strcmp(job->cameras[i].name, name) == 0)

@@ -714,11 +714,12 @@ static status estimate(const struct job *job, struct model_estimate *out)
 {
     status st = OK;
     size_t pixels = aov_pixels(job), n;
+    struct scene_size size = {0};
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
-    TRY(scene_estimate(job, &out->n_particles));
+    TRY(scene_estimate(job, &size));
     TRY(wind_check(job, out->voxels));
-    n = out->n_particles;
+    out->n_particles = n = size.n_particles;
     size_t voxels = voxel_count(out->voxels);
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
@@ -732,15 +733,17 @@ static status estimate(const struct job *job, struct model_estimate *out)
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
-    /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
-     * 0.6. */
-    out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.2 * (double)field) +
-                       (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
-    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels) +
-                                       0.9 * (double)wind_checkpoint_bytes(job, out->voxels));
+    /* Water, plants and deposits have volumes of their own. */
+    double skins =
+        0.1 * (water_ever_flows(job) + (plants_wanted(job) || edits_plant(job)) + ever(job, deposit_wanted));
+    out->disk = disk_frame(job, &size, &(struct disk_particle){15.5, 45, 2.2, 88 * (1 + skins), 1.9});
+    out->checkpoint_bytes = 15 * (uint64_t)n +
+                            (uint64_t)(0.3 * (double)wind_checkpoint_bytes(job, out->voxels)) +
+                            collapse_checkpoint_bytes(job, n);
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
         out->steps += erosion_steps(job_at(job, f), f, wind_intensity(job_at(job, f), f));
 done:
+    free(size.point);
     return st;
 }
 
