@@ -91,6 +91,25 @@ status atomic_file_write(const char *path, const void *bytes, size_t n)
     return fsync_folder_of(path);
 }
 
+status atomic_file_adopt(const char *temporary, const char *path)
+{
+    status st = OK;
+    int fd = open(temporary, O_RDWR | O_CLOEXEC);
+    if (fd < 0)
+        return fail(E_OUTPUT, "%s: could not be made: %s", path, strerror(errno));
+    if (fsync(fd) != 0)
+        st = fail(E_OUTPUT, "%s: cannot fsync: %s", path, strerror(errno));
+    if (close(fd) != 0 && st == OK)
+        st = fail(E_OUTPUT, "%s: cannot close: %s", path, strerror(errno));
+    if (st == OK && rename(temporary, path) != 0)
+        st = fail(E_OUTPUT, "%s: cannot rename into place: %s", path, strerror(errno));
+    if (st != OK) {
+        unlink(temporary);
+        return st;
+    }
+    return fsync_folder_of(path);
+}
+
 status folder_make(const char *path)
 {
     char part[4096];
