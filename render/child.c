@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +23,9 @@ void children_begin(struct children *c, const char *folder, const char *log, int
 static void become(const struct children *c, const char *const *argv)
 {
     signals_reset();
+    /* Were we killed, nobody would want what it makes. */
+    if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0)
+        _exit(126);
     if (chdir(c->folder) != 0)
         _exit(126);
     int in = open("/dev/null", O_RDONLY), out = open(c->log, O_WRONLY | O_CREAT | O_APPEND, 0666);

@@ -29,6 +29,9 @@ MUST_USE status atomic_file_adopt(const char *temporary, const char *path);
  * machines that share the disk, stay. Never fails: what cannot be removed stays too. */
 void atomic_file_sweep(const char *folder);
 
+/* Removes those of this process, for when programs that it ran have failed and will not be asked again. */
+void atomic_file_sweep_own(const char *folder);
+
 /* The whole file in *bytes (freed with free(); a NUL follows the content). E_INPUT if missing, not a regular
  * file, or larger than `limit` bytes. */
 MUST_USE status file_read(const char *path, size_t limit, void *bytes, size_t *n);

@@ -34,7 +34,7 @@ static double volumes_bytes(const struct job *job, const struct scene_size *size
     static const double codec[] = {[VDB_CODEC_BLOSC] = 1, [VDB_CODEC_ZIP] = 1.05, [VDB_CODEC_NONE] = 1.25};
     const struct job_vdb *vdb = &job->output.vdb;
     return ((double)size->n_particles * p->volumes_inside + (double)size->n_surface * p->volumes_bare) *
-           codec[vdb->codec] * (vdb->half ? 0.58 : 1);
+           codec[vdb->codec] * (vdb->half ? 0.75 : 1);
 }
 
 /* The share of a picture that is rock: of its 32 x 18 parts, those that a point of it is in. */

@@ -84,7 +84,7 @@ else:
 def fill_up(step, before, grown):
     """The step on disks with room for shares of what it adds."""
     bad, codes, after = [], [], ""
-    for share in (0.02, 0.2, 0.45, 0.7, 0.93):
+    for share in (0.03, 0.25, 0.55, 0.9):
         size = size_of(before) if os.path.isdir(before) else 0
         subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={int(size + share * grown + 8 * PAGE)}", "tmpfs", "disk"], check=True)
         try:
@@ -110,7 +110,7 @@ def fill_up(step, before, grown):
 def kill_at(step, before, length, moments):
     """kill -9 of all it runs, at moments; then again."""
     bad, killed, halves = [], 0, 0
-    for i in range(4):
+    for i in range(3):
         for folder in ("killed", "killed_terrain"):
             shutil.rmtree(folder, ignore_errors=True)
         if os.path.isdir(before):
