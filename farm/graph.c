@@ -28,7 +28,13 @@ const char *graph_kind(enum farm_kind kind)
 
 bool graph_has_volumes(const struct job *job, int frame)
 {
-    return (frame - job->frames.first) % job->output.vdb.every == 0 || frame == job->frames.last;
+    return job_writes(job, JOB_VOLUMES, frame);
+}
+
+/* Pictures out of files need both. */
+static bool has_points(const struct job *job, int frame)
+{
+    return job_writes(job, JOB_VOLUMES, frame) && job_writes(job, JOB_POINTS, frame);
 }
 
 bool graph_has_still(const struct job *job, int frame)
@@ -96,7 +102,7 @@ static void estimate_task(struct farm_task *t, const struct farm_wedge *w, bool 
     case FARM_SIM:
         t->seconds = n * w->frame_seconds;
         t->device_bytes = w->estimate.device_bytes;
-        t->disk_bytes = (uint64_t)n * w->estimate.frame_bytes;
+        t->disk_bytes = disk_frames_bytes(w->job, &w->estimate.disk, t->frames, NULL);
         if (first_block)
             t->disk_bytes += w->estimate.checkpoint_bytes * (uint64_t)w->job->checkpoint.keep;
         break;
@@ -156,7 +162,9 @@ static status add_chunks(struct farm_graph *g, const struct farm_wedge *w, enum 
     status st = OK;
     struct farm_task *t;
     struct frame_range chunk;
-    bool (*wanted)(const struct job *, int) = kind == FARM_STILL ? graph_has_still : graph_has_volumes;
+    bool (*wanted)(const struct job *, int) = kind == FARM_STILL ? graph_has_still
+                                              : kind == FARM_AOV ? has_points
+                                                                 : graph_has_volumes;
     for (int frame = block.first; next_chunk(w->job, wanted, block, &frame, &chunk);) {
         TRY(add_task(g, w, kind, chunk, &t));
         estimate_task(t, w, false);

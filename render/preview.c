@@ -124,6 +124,17 @@ static status make_folder(const char *root, const char *name)
     return st;
 }
 
+/* What programs left that failed, or were ended. */
+static void sweep_all(const char *root)
+{
+    static const char *const folders[] = {"", "preview", "turntable"};
+    char path[4700];
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        snprintf(path, sizeof path, "%s/%s", root, folders[i]);
+        atomic_file_sweep_own(path);
+    }
+}
+
 /* Those a scheduler left us, not the machine's. */
 static int cores(void)
 {
@@ -241,6 +252,8 @@ done:
     progress_end(&progress);
     children_end(&p.children);
     pictures_end(&p);
+    if (st != OK && p.root)
+        sweep_all(p.root);
     free(frames);
     job_destroy(&job);
     words_free(&operands);

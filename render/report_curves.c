@@ -15,9 +15,24 @@ enum column { TIME, VOLUME, RATE, STRESS, N_ROCK, N_DEPOSIT, N_FALLEN, N_LEFT, N
 struct columns {
     size_t n; /* sound frames */
     double *value[N_COLUMNS];
-    double unit;       /* years of the time axis' unit */
-    const char *label; /* of the time axis */
+    struct page_clock clock;
 };
+
+struct page_clock page_clock(const struct report *r)
+{
+    if (r->job->clock.seconds_per_frame > 0)
+        return (struct page_clock){.label = "time, s", .rate = "s", .unit = 1, .per = 1, .shot = true};
+    if (job_years(r->job, r->frames.first, r->frames.last) >= 2000)
+        return (struct page_clock){.label = "time, kyr", .rate = "kyr", .unit = 1000, .per = 1};
+    return (struct page_clock){.label = "time, yr", .rate = "kyr", .unit = 1, .per = 0.001};
+}
+
+double page_time(const struct report *r, const struct page_clock *clock, int frame)
+{
+    const double passed = clock->shot ? (frame - r->frames.first) * r->job->clock.seconds_per_frame
+                                      : job_years(r->job, r->frames.first, frame);
+    return passed / clock->unit;
+}
 
 static void fill(const struct report *r, struct columns *c)
 {
@@ -27,12 +42,11 @@ static void fill(const struct report *r, struct columns *c)
         if (r->frame[i].damaged)
             continue;
         const size_t k = c->n++;
-        c->value[TIME][k] = m->years / c->unit;
+        c->value[TIME][k] = page_time(r, &c->clock, m->frame);
         c->value[VOLUME][k] = m->volume_m3;
         c->value[STRESS][k] = m->max_stress_Pa / 1e6;
-        c->value[RATE][k] = before && m->years > before->years
-                                ? (before->volume_m3 - m->volume_m3) / (m->years - before->years) * 1000
-                                : (double)NAN;
+        const double lasted = before ? (c->value[TIME][k] - c->value[TIME][k - 1]) * c->clock.per : 0;
+        c->value[RATE][k] = lasted > 0 ? (before->volume_m3 - m->volume_m3) / lasted : (double)NAN;
         c->value[N_ROCK][k] = (double)m->ledger.rock;
         c->value[N_DEPOSIT][k] = (double)m->ledger.deposit;
         c->value[N_FALLEN][k] = (double)m->ledger.fallen;
@@ -44,9 +58,7 @@ static void fill(const struct report *r, struct columns *c)
 static status make_columns(const struct report *r, struct columns *c)
 {
     status st = OK;
-    const bool long_ago = (r->frames.last - r->frames.first) * r->job->clock.years_per_frame >= 2000;
-    c->unit = long_ago ? 1000 : 1;
-    c->label = long_ago ? "time, kyr" : "time, yr";
+    c->clock = page_clock(r);
     for (int i = 0; i < N_COLUMNS; i++)
         TRY(memory_alloc(r->n_frames, sizeof(double), "curves", &c->value[i]));
     fill(r, c);
@@ -72,7 +84,7 @@ static void add_ledger(const struct report *r, const struct columns *c, struct t
                                     {"fallen", FALLEN, c->value[N_FALLEN]},
                                     {"left the domain", LEFT, c->value[N_LEFT]}};
     chart_lines(&(struct chart){.title = "Where the rock went",
-                                .x_label = c->label,
+                                .x_label = c->clock.label,
                                 .y_label = what,
                                 .n = c->n,
                                 .x = c->value[TIME],
@@ -217,7 +229,7 @@ static void add_rock(const struct report *r, const struct columns *c, struct tex
     if (most > 0) {
         const struct series stress = {"greatest compression, MPa", FALLEN, c->value[STRESS]};
         chart_lines(&(struct chart){.title = "Greatest stress",
-                                    .x_label = c->label,
+                                    .x_label = c->clock.label,
                                     .y_label = "compression, MPa",
                                     .n = c->n,
                                     .x = c->value[TIME],
@@ -242,23 +254,26 @@ void page_curves(const struct report *r, struct text *t)
         t->failed = true;
         goto done;
     }
+    char rate_label[40];
+    snprintf(rate_label, sizeof rate_label, "lost, m³ per %s", c.clock.rate);
     const struct series volume = {"rock, m³", ROCK, c.value[VOLUME]},
-                        rate = {"lost, m³ per kyr", ROCK, c.value[RATE]};
+                        rate = {rate_label, ROCK, c.value[RATE]};
     struct chart chart = {.title = "Rock that is left",
-                          .x_label = c.label,
+                          .x_label = c.clock.label,
                           .y_label = "volume, m³",
                           .n = c.n,
                           .x = c.value[TIME],
                           .n_series = 1,
                           .series = &volume,
                           .from_zero = true};
-    text_add(t, "<section><h2>Erosion</h2>\n<p>Frame %d is year 0.</p><div class=\"two\">\n",
-             r->frames.first);
+    text_add(t, "<section><h2>Erosion</h2>\n<p>Frame %d is %s.</p><div class=\"two\">\n", r->frames.first,
+             c.clock.shot ? "second 0" : "year 0");
     chart_lines(&chart, t);
     chart.title = "How fast it goes";
-    chart.y_label = "lost, m³ per kyr";
+    chart.y_label = rate_label;
     chart.series = &rate;
     chart_lines(&chart, t);
+    page_budget(r, &c.clock, t);
     add_ledger(r, &c, t);
     text_add(t, "</div></section>\n");
     add_rock(r, &c, t);

@@ -40,10 +40,9 @@ static status converted(void *user)
     char from[4700], to[4700];
     snprintf(from, sizeof from, "%.4096s/%s", c->report->root, c->temporary);
     snprintf(to, sizeof to, "%.4096s/%s", c->report->root, c->path);
-    if (rename(from, to) != 0)
-        return fail(E_OUTPUT, "%s: %s", to, strerror(errno));
-    *c->made = true;
-    return OK;
+    status st = atomic_file_adopt(from, to);
+    *c->made = st == OK;
+    return st;
 }
 
 /* Pictures are an extra: what fails is said in a note, and the rest goes on. */

@@ -24,8 +24,7 @@ static status sheet_done(void *user)
     char from[4700], to[4700];
     snprintf(from, sizeof from, "%s/%s", sheet->preview->root, sheet->temporary);
     snprintf(to, sizeof to, "%s/%s", sheet->preview->root, sheet->path);
-    int fd = access(from, R_OK) == 0 && rename(from, to) == 0;
-    return fd ? OK : fail(E_OUTPUT, "%s could not be made", to);
+    return atomic_file_adopt(from, to);
 }
 
 status turntable_video(struct preview *p, int frame, int views)

@@ -12,20 +12,24 @@ READ_U(2, start)
 READ_F(3, erodibility)
 READ_F(4, unspent)
 WRITE_F(5, viability)
+READ_U(6, shares)  // of the particles that are gone: by what
+WRITE_U(7, spent) // quanta
+WRITE_U(8, parts) // by what
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "erosion/budget.glsl"
 
-// The step that comes through the face towards v, along an axis.
-float through(ivec3 v, int axis)
+// The step that comes through the face towards v, along an axis; and the parts that processes have in it.
+vec3 through(ivec3 v, int axis)
 {
-    float sum = 0.0;
+    vec3 sum = vec3(0.0);
     if (!voxel_inside(v))
         return sum;
     uint c = voxel_index(v), end = LOAD_U(start, c + 1u);
     for (uint j = LOAD_U(start, c); j < end; j++) {
         float left = LOAD_F(unspent, j);
         if (left > 0.0)
-            sum += left * abs(LOAD_V(normal, j)[axis]);
+            sum += left * abs(LOAD_V(normal, j)[axis]) * vec3(1.0, unpackUnorm2x16(LOAD_U(shares, j)));
     }
     return sum;
 }
@@ -33,11 +37,19 @@ float through(ivec3 v, int axis)
 void main()
 {
     uint i = THREAD;
-    if (i >= k.n || AT(viability, i) <= 0.0)
+    if (i >= k.n)
+        return;
+    float before = AT(viability, i);
+    AT(spent, i) = 0u;
+    if (before <= 0.0)
         return;
     ivec3 v = voxel_of(LOAD_V(position, i).xyz);
-    float step = through(v + ivec3(1, 0, 0), 0) + through(v - ivec3(1, 0, 0), 0) + through(v + ivec3(0, 1, 0), 1) +
-                 through(v - ivec3(0, 1, 0), 1) + through(v + ivec3(0, 0, 1), 2) + through(v - ivec3(0, 0, 1), 2);
-    if (step > 0.0)
-        AT(viability, i) = max(AT(viability, i) - LOAD_F(erodibility, i) * step, 1e-4);
+    vec3 step = through(v + ivec3(1, 0, 0), 0) + through(v - ivec3(1, 0, 0), 0) + through(v + ivec3(0, 1, 0), 1) +
+                through(v - ivec3(0, 1, 0), 1) + through(v + ivec3(0, 0, 1), 2) + through(v - ivec3(0, 0, 1), 2);
+    if (step.x > 0.0) {
+        float after = max(before - LOAD_F(erodibility, i) * step.x, 1e-4);
+        AT(viability, i) = after;
+        AT(parts, i) = packUnorm2x16(step.yz / step.x);
+        AT(spent, i) = quanta(before) - quanta(after);
+    }
 }

@@ -19,9 +19,13 @@ READ_U(5, start)
 WRITE_F(6, viability)
 WRITE_F(7, unspent)
 WRITE_U(8, counts)
+READ_U(9, parts)    // by place in the list
+WRITE_U(10, spent)  // likewise: quanta
+WRITE_U(11, shares) // of those that are gone: their parts
 PARAMS(erosion_params)
 #include "particles/voxel.glsl"
 #include "particles/empty.glsl"
+#include "erosion/budget.glsl"
 
 // The surface a voxel's bare faces stand for, in units of h^2.
 float bare_area(ivec3 v, vec3 n)
@@ -38,6 +42,7 @@ void main()
         return;
     uint self = LOAD_U(list, i);
     float rate = LOAD_F(erodibility, self);
+    AT(spent, i) = 0u;
     if (rate <= 0.0)
         return;
     vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
@@ -45,8 +50,10 @@ void main()
     float before = AT(viability, self), after = before - rate * step * bare_area(voxel_of(x), n);
     if (after <= 0.0) {
         AT(unspent, self) = step * (-after / (before - after));
+        AT(shares, self) = LOAD_U(parts, i);
         atomicAdd(AT(counts, COUNT_ERODED), 1u);
         after = 0.0;
     }
     AT(viability, self) = after;
+    AT(spent, i) = quanta(before) - quanta(after);
 }

@@ -119,6 +119,26 @@ SHARED_SIZE(erosion_params, 24)
 #define COUNT_CHANGED 2u
 #define COUNT_FASTEST 3u
 
+/* The budget of a frame: a row a process, a sum of two words for each of the lanes. */
+#define BUDGET_EDITS 0u
+#define BUDGET_DEFLATION 1u
+#define BUDGET_ABRASION 2u
+#define BUDGET_WATER 3u
+#define BUDGET_WEATHERING 4u /* goblins */
+#define BUDGET_DEPOSITION 5u
+#define BUDGET_BLOCKS 6u
+#define BUDGET_COLLAPSE 7u
+#define BUDGET_ROWS 8u
+#define BUDGET_LANES 2048u
+
+struct budget_params {
+    uint n; /* lanes */
+    uint n_values;
+    uint row;
+    uint after; /* 1: added; 0: taken off */
+};
+SHARED_SIZE(budget_params, 16)
+
 /* ---- wind */
 
 struct wind_params {

@@ -16,6 +16,7 @@ READ_U(7, rain)
 READ_U(8, spring)
 READ_F(9, erodibility)
 WRITE_F(10, intensity)
+WRITE_U(11, parts) // deflation's and water's share in it
 PARAMS(water_surface_params)
 #include "water/columns.glsl"
 #include "water/discharge.glsl"
@@ -34,5 +35,8 @@ void main()
     if (rate <= 0.0 || q <= 0.0 || slope <= 0.0)
         return;
     float shear = k.shear * pow(q, 0.6) * pow(slope, 0.7);
-    AT(intensity, i) += min(k.rate * max(0.0, shear - k.threshold), k.most / rate);
+    float cut = min(k.rate * max(0.0, shear - k.threshold), k.most / rate), sum = AT(intensity, i) + cut;
+    AT(intensity, i) = sum;
+    if (cut > 0.0)
+        AT(parts, i) = packUnorm2x16(vec2(unpackUnorm2x16(AT(parts, i)).x * (1.0 - cut / sum), cut / sum));
 }

@@ -11,6 +11,7 @@ READ_V(2, normal)
 READ_F(3, stress)
 READ_U(4, start)
 WRITE_F(5, intensity)
+WRITE_U(6, parts) // deflation's and water's share in it
 PARAMS(wind_params)
 #include "particles/voxel.glsl"
 #include "particles/empty.glsl"
@@ -41,8 +42,9 @@ void main()
     uint self = LOAD_U(list, i);
     vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
     float against = -dot(n, vec3(k.wind_x, k.wind_y, k.wind_z));
-    float sum = deflation(LOAD_F(stress, self));
+    float plucked = deflation(LOAD_F(stress, self)), sum = plucked;
     if (k.abrasion > 0.0 && against > 0.0)
         sum += k.abrasion * against * reached_by_wind(x, n);
     AT(intensity, i) = sum;
+    AT(parts, i) = packUnorm2x16(vec2(sum > 0.0 ? plucked / sum : 0.0, 0.0));
 }

@@ -17,6 +17,7 @@ READ_F(3, stress)
 READ_U(4, start)
 READ_V(5, air)
 WRITE_F(6, intensity)
+WRITE_U(7, parts) // deflation's and water's share in it
 PARAMS(wind_params)
 #include "particles/voxel.glsl"
 #include "particles/empty.glsl"
@@ -56,5 +57,7 @@ void main()
     vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
     vec3 at = (x + clear_way(x, n) * n - vec3(k.origin_x, k.origin_y, 0.0)) / k.shelter - 0.5;
     vec3 v = air_between(ivec3(floor(at)), fract(at));
-    AT(intensity, i) = deflation(LOAD_F(stress, self)) + k.abrasion * length(v) * max(0.0, -dot(n, v));
+    float plucked = deflation(LOAD_F(stress, self)), sum = plucked + k.abrasion * length(v) * max(0.0, -dot(n, v));
+    AT(intensity, i) = sum;
+    AT(parts, i) = packUnorm2x16(vec2(sum > 0.0 ? plucked / sum : 0.0, 0.0));
 }

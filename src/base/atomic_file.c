@@ -91,6 +91,25 @@ status atomic_file_write(const char *path, const void *bytes, size_t n)
     return fsync_folder_of(path);
 }
 
+status atomic_file_adopt(const char *temporary, const char *path)
+{
+    status st = OK;
+    int fd = open(temporary, O_RDWR | O_CLOEXEC);
+    if (fd < 0)
+        return fail(E_OUTPUT, "%s: could not be made: %s", path, strerror(errno));
+    if (fsync(fd) != 0)
+        st = fail(E_OUTPUT, "%s: cannot fsync: %s", path, strerror(errno));
+    if (close(fd) != 0 && st == OK)
+        st = fail(E_OUTPUT, "%s: cannot close: %s", path, strerror(errno));
+    if (st == OK && rename(temporary, path) != 0)
+        st = fail(E_OUTPUT, "%s: cannot rename into place: %s", path, strerror(errno));
+    if (st != OK) {
+        unlink(temporary);
+        return st;
+    }
+    return fsync_folder_of(path);
+}
+
 status folder_make(const char *path)
 {
     char part[4096];
@@ -112,31 +131,54 @@ status folder_make(const char *path)
     return OK;
 }
 
+/* Whose temporary file that is. */
+static bool temporary_of(const char *name, unsigned *whose, long *pid)
+{
+    const char *tail = strstr(name, TEMPORARY);
+    return tail && sscanf(tail + strlen(TEMPORARY), "%8x-%ld-", whose, pid) == 2;
+}
+
 /* Left behind: by a process of this machine that is no more, or by any a day ago. */
 static bool abandoned(const char *name, int folder)
 {
     enum { DAY_S = 24 * 60 * 60 };
-    const char *tail = strstr(name, TEMPORARY);
     unsigned whose;
     long pid;
     struct stat info;
-    if (!tail || sscanf(tail + strlen(TEMPORARY), "%8x-%ld-", &whose, &pid) != 2 ||
-        fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) != 0)
+    if (!temporary_of(name, &whose, &pid) || fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) != 0)
         return false;
     if (whose == host() && pid > 0 && kill((pid_t)pid, 0) != 0 && errno == ESRCH)
         return true;
     return time(NULL) - info.st_mtime > DAY_S;
 }
 
-void atomic_file_sweep(const char *folder)
+static bool own(const char *name, int folder)
+{
+    unsigned whose;
+    long pid;
+    (void)folder;
+    return temporary_of(name, &whose, &pid) && whose == host() && pid == (long)getpid();
+}
+
+static void sweep(const char *folder, bool (*goes)(const char *name, int folder))
 {
     DIR *d = opendir(folder);
     if (!d)
         return;
     for (struct dirent *e; (e = readdir(d));)
-        if (abandoned(e->d_name, dirfd(d)))
+        if (goes(e->d_name, dirfd(d)))
             unlinkat(dirfd(d), e->d_name, 0);
     closedir(d);
+}
+
+void atomic_file_sweep(const char *folder)
+{
+    sweep(folder, abandoned);
+}
+
+void atomic_file_sweep_own(const char *folder)
+{
+    sweep(folder, own);
 }
 
 status file_read(const char *path, size_t limit, void *bytes, size_t *n)

@@ -21,9 +21,16 @@ MUST_USE status folder_make(const char *path);
  * over `path` when it is whole. E_OUTPUT if it is longer than `size` allows. */
 MUST_USE status atomic_file_temporary(const char *path, char *out, size_t size);
 
+/* Moves what stands at that temporary name over `path`, fsynced; it is removed if that fails, as on a disk that was
+ * full all along. */
+MUST_USE status atomic_file_adopt(const char *temporary, const char *path);
+
 /* Removes temporary files that killed processes left in `folder`; those of living ones, here or on other
  * machines that share the disk, stay. Never fails: what cannot be removed stays too. */
 void atomic_file_sweep(const char *folder);
+
+/* Removes those of this process, for when programs that it ran have failed and will not be asked again. */
+void atomic_file_sweep_own(const char *folder);
 
 /* The whole file in *bytes (freed with free(); a NUL follows the content). E_INPUT if missing, not a regular
  * file, or larger than `limit` bytes. */

@@ -86,8 +86,17 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     json_integer(t, "device_free_bytes", (int64_t)gpu_memory_free(gpu));
     json_integer(t, "host_bytes", (int64_t)e.host_bytes);
     json_integer(t, "host_free_bytes", (int64_t)memory_available());
-    json_integer(t, "frame_disk_bytes", (int64_t)e.frame_bytes);
-    json_integer(t, "disk_bytes", (int64_t)(e.frame_bytes * n_frames + e.checkpoint_bytes * n_checkpoints));
+    struct disk_frame kinds;
+    const uint64_t frame_bytes = disk_frames_bytes(job, &e.disk, job->frames, &kinds);
+    json_integer(t, "frame_disk_bytes", (int64_t)disk_frame_bytes(&e.disk));
+    json_object(t, "disk");
+    json_integer(t, "points_bytes", (int64_t)kinds.points);
+    json_integer(t, "usd_bytes", (int64_t)kinds.usd);
+    json_integer(t, "volumes_bytes", (int64_t)kinds.volumes);
+    json_integer(t, "pictures_bytes", (int64_t)kinds.pictures);
+    json_integer(t, "checkpoints_bytes", (int64_t)(e.checkpoint_bytes * n_checkpoints));
+    json_end_object(t);
+    json_integer(t, "disk_bytes", (int64_t)(frame_bytes + e.checkpoint_bytes * n_checkpoints));
     json_number(t, "estimated_seconds", round(f->wedge[0].frame_seconds * (double)n_frames));
     json_text(t, "estimated_from", measured ? "the frames there are" : "the device's speed");
     bool fits = e.device_bytes + (info->is_cpu ? e.host_bytes : 0) <= gpu_memory_free(gpu) &&

@@ -7,7 +7,7 @@
 
 uint64_t erosion_bytes(size_t n)
 {
-    return (uint64_t)n * 8;
+    return (uint64_t)n * 20;
 }
 
 status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, struct erosion *e)
@@ -16,7 +16,10 @@ status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, stru
     *e = (struct erosion){.n_layers = job->n_strata};
     TRY(gpu_buffer_create(gpu, "layers", e->n_layers, 16, &e->layers));
     TRY(gpu_buffer_create(gpu, "intensity", n_max, 4, &e->intensity));
+    TRY(gpu_buffer_create(gpu, "intensity parts", n_max, 4, &e->parts));
     TRY(gpu_buffer_create(gpu, "unspent steps", n_max, 4, &e->unspent));
+    TRY(gpu_buffer_create(gpu, "unspent parts", n_max, 4, &e->shares));
+    TRY(gpu_buffer_create(gpu, "spent quanta", n_max, 4, &e->spent));
 done:
     if (st != OK)
         erosion_destroy(gpu, e);
@@ -27,7 +30,10 @@ void erosion_destroy(struct gpu *gpu, struct erosion *e)
 {
     gpu_buffer_destroy(gpu, &e->layers);
     gpu_buffer_destroy(gpu, &e->intensity);
+    gpu_buffer_destroy(gpu, &e->parts);
     gpu_buffer_destroy(gpu, &e->unspent);
+    gpu_buffer_destroy(gpu, &e->shares);
+    gpu_buffer_destroy(gpu, &e->spent);
 }
 
 /* By the plane face of unstressed rock of the weakest layer, across the wind. Edges, tension, noise and paint
@@ -89,7 +95,7 @@ done:
 }
 
 status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,
-                       struct particles *p, uint32_t *n_eroded)
+                       struct particles *p, struct budget *budget, uint32_t *n_eroded)
 {
     status st = OK;
     struct erosion_params k = {
@@ -105,9 +111,12 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
     gpu_fill(gpu, counts, 0);
     gpu_fill(gpu, e->unspent, 0);
     GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            e->intensity, p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent, counts);
+            e->intensity, p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent, counts,
+            e->parts, e->spent, e->shares);
+    budget_split(gpu, budget, e->spent, e->parts, p->n_surface);
     GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->field[ROCK_N], p->start,
-            p->field[ROCK_erodibility], e->unspent, p->field[ROCK_viability]);
+            p->field[ROCK_erodibility], e->unspent, p->field[ROCK_viability], e->shares, e->spent, e->parts);
+    budget_split(gpu, budget, e->spent, e->parts, p->n);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
 done:
     return st;

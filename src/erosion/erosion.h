@@ -3,6 +3,7 @@
 #ifndef HOODOO_EROSION_H
 #define HOODOO_EROSION_H
 
+#include "erosion/budget.h"
 #include "gpu/gpu.h"
 #include "gpu/primitives.h"
 #include "job/job.h"
@@ -12,8 +13,12 @@ struct erosion {
     /* float [n_max]: wind and water on each particle of the surface, in the order of particles.surface; the
      * processes fill it before erosion_weather(). */
     struct gpu_buffer *intensity;
+    struct gpu_buffer
+        *parts; /* uint [n_max], likewise: deflation's and water's share in it (packUnorm2x16) */
     struct gpu_buffer *layers;  /* vec4 [n_layers]: weak, strong (m/kyr), I (Pa) in this frame */
     struct gpu_buffer *unspent; /* float [n_max]: of a step, by the particles it took */
+    struct gpu_buffer *shares;  /* uint [n_max]: the parts of these */
+    struct gpu_buffer *spent;   /* uint [n_max]: scratch */
     size_t n_layers;
 };
 
@@ -34,8 +39,9 @@ MUST_USE status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct eros
                              double *m_per_kyr);
 
 /* One step: the surface's viability falls by e->intensity times erodibility; those with none left are
- * counted, not yet removed. Needs surface and erodibility of the current shape. Waits. */
+ * counted, not yet removed; *budget has what each process took. Needs surface and erodibility of the current
+ * shape. Waits. */
 MUST_USE status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,
-                                struct particles *p, uint32_t *n_eroded);
+                                struct particles *p, struct budget *budget, uint32_t *n_eroded);
 
 #endif

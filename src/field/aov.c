@@ -11,7 +11,7 @@
 /* Towards the sun: late morning, from the left behind the usual camera. */
 static const double SUN[3] = {-0.48, -0.62, 0.62};
 
-static const struct job_camera *camera_named(const struct job *job, const char *name)
+const struct job_camera *camera_named(const struct job *job, const char *name)
 {
     for (size_t i = 0; i < job->n_cameras; i++)
         if (strcmp(job->cameras[i].name, name) == 0)
@@ -264,6 +264,8 @@ status aov_render_all(struct gpu *gpu, struct aov *a, const struct job *job, con
                       const struct particles *p, const struct aov_air *air, struct frame *out)
 {
     status st = OK;
+    if (!job_writes(job, JOB_PICTURES, out->number))
+        return OK;
     TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
     for (size_t i = 0; i < job->output.aov.n_cameras; i++)
         TRY(aov_render(gpu, a, job, camera_named(job, job->output.aov.cameras[i]), out->number, f, p, air,

@@ -25,6 +25,9 @@ struct aov_air {
     struct gpu_buffer *velocity; /* vec4 [lattice], m/s; borrowed */
 };
 
+/* The job's camera of that name, or NULL. */
+const struct job_camera *camera_named(const struct job *job, const char *name);
+
 /* The largest picture among the job's AOV cameras; 0 if it asks for none. */
 size_t aov_pixels(const struct job *job);
 size_t aov_camera_pixels(const struct job_camera *camera);

@@ -124,6 +124,15 @@ bool job_marks(const struct job *job, int frame)
     return false;
 }
 
+bool job_writes(const struct job *job, enum job_files kind, int frame)
+{
+    const struct job_vdb *vdb = &job->output.vdb;
+    int64_t every = kind == JOB_PICTURES                      ? job->output.aov.every
+                    : kind == JOB_POINTS && vdb->points_every ? vdb->points_every
+                                                              : vdb->every;
+    return (frame - job->frames.first) % every == 0 || frame == job->frames.last;
+}
+
 double job_years(const struct job *job, int from, int to)
 {
     double years = 0;

@@ -126,6 +126,7 @@ enum { COLLAPSE_VANISH, COLLAPSE_FALL };
 enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
 enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
 enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
+enum { VDB_PRECISION_EXACT, VDB_PRECISION_16_BIT };
 enum { USD_POINTS_SURFACE, USD_POINTS_NONE };
 enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
 
@@ -184,6 +185,10 @@ const struct job *job_at(const struct job *job, int frame);
 
 /* Whether checkpoint.mark holds the frame. */
 bool job_marks(const struct job *job, int frame);
+
+/* Whether a frame has files of this kind, by the keys that say every how many frames. Points are USD's too. */
+enum job_files { JOB_VOLUMES, JOB_POINTS, JOB_PICTURES };
+bool job_writes(const struct job *job, enum job_files kind, int frame);
 
 /* Years that pass from frame `from` to frame `to`, >= it. */
 double job_years(const struct job *job, int from, int to);

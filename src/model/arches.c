@@ -336,8 +336,11 @@ static status estimate(const struct job *job, struct model_estimate *out)
         gpu_work_bytes(voxels + 2) + particles_bytes(out->n_particles, n) + field + aov_bytes(pixels);
     /* Two frames wait at most; files are made in memory. */
     out->host_bytes = 3 * (rock + 2 * field + picture * job->output.aov.n_cameras) + (uint64_t)(4 * stacks);
-    out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)field) +
-                       (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
+    /* The surface alone, on a lattice. */
+    const struct scene_size size = {.n_particles = out->n_particles, .n_surface = out->n_particles};
+    out->disk = disk_frame(job, &size, &(struct disk_particle){0, 9, 0, 30, 1.1});
+    if (job->arches.stacks == STACKS_ALL)
+        out->disk.other += (uint64_t)(0.6 * stacks);
     out->checkpoint_bytes = (uint64_t)(0.6 * stacks);
     out->steps = job->frames.last - job->frames.first;
 done:

@@ -19,6 +19,7 @@
 #include "base/memory.h"
 #include "blocks/blocks.h"
 #include "deposit/deposit.h"
+#include "erosion/budget.h"
 #include "erosion/erosion.h"
 #include "field/aov.h"
 #include "field/field.h"
@@ -46,6 +47,8 @@ struct model {
     double years;        /* since the first frame */
     double start_volume; /* m3 */
     struct ledger ledger;
+    struct budget budget;
+    int64_t change[BUDGET_ROWS]; /* quanta, in the last frame */
     struct gpu_work *work;
     struct particles particles;
     struct elastic elastic;
@@ -88,6 +91,12 @@ static bool depositing(const struct model *m)
     return m->deposits && curve_at(&m->job->deposition.viability, m->frame) > 0;
 }
 
+/* Enters all that the rock has, before and after a process, into the frame's budget. */
+static void weigh(struct model *m, uint32_t process, bool after)
+{
+    budget_sum(m->gpu, &m->budget, process, after, m->particles.field[ROCK_viability], m->particles.n);
+}
+
 /* Eroded particles, in a step of the frame, leave, or come to rest elsewhere. Did anything move? */
 static status remove_eroded(struct model *m, int step, uint32_t n_eroded, bool *changed)
 {
@@ -98,8 +107,10 @@ static status remove_eroded(struct model *m, int step, uint32_t n_eroded, bool *
         memcpy(routing.cells, m->water.cells, sizeof routing.cells);
         memcpy(routing.shift, m->water.shift, sizeof routing.shift);
         gpu_stage(m->gpu, "deposition");
+        weigh(m, BUDGET_DEPOSITION, false);
         TRY(deposit_land(m->gpu, m->work, &m->deposit, m->job, m->frame, step, &routing, &m->particles,
                          &moved));
+        weigh(m, BUDGET_DEPOSITION, true);
     }
     m->ledger.left += moved.left;
     *changed = moved.crumbs > 0;
@@ -117,14 +128,19 @@ static status remove_unsupported(struct model *m)
     status st = OK;
     uint32_t n_fallen = 0;
     gpu_stage(m->gpu, "blocks");
-    if (m->collapse.falls)
-        return collapse_blocks(m->gpu, m->work, &m->collapse, &m->blocks, &m->particles, &m->ledger);
+    weigh(m, BUDGET_BLOCKS, false);
+    if (m->collapse.falls) {
+        TRY(collapse_blocks(m->gpu, m->work, &m->collapse, &m->blocks, &m->particles, &m->ledger));
+        weigh(m, BUDGET_BLOCKS, true);
+        goto done;
+    }
     TRY(blocks_fall(m->gpu, m->work, &m->blocks, &m->particles, &n_fallen));
     m->ledger.fallen += n_fallen;
     if (n_fallen) {
         TRY(particles_index(m->gpu, m->work, &m->particles));
         TRY(count_rock(m));
     }
+    weigh(m, BUDGET_BLOCKS, true);
 done:
     return st;
 }
@@ -258,7 +274,8 @@ static status run_water(struct model *m, int step, double least, double *kyr)
     TRY(water_discharge(m->gpu, m->work, &m->water, job, m->frame, &m->particles));
     if (deposits)
         water_sweep(m->gpu, &m->water, job, &m->particles);
-    water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity);
+    water_erode(m->gpu, &m->water, job, m->frame, least, &m->particles, m->erosion.intensity,
+                m->erosion.parts);
     TRY(erosion_pace(m->gpu, m->work, &m->erosion, &m->particles, &fastest));
     if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !m->told) {
         log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
@@ -291,10 +308,12 @@ static status edit(struct model *m)
         TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
     }
     if (kind == EDITS_ROCK) {
+        weigh(m, BUDGET_EDITS, false);
         TRY(particles_download(m->gpu, &m->particles, STATE, &rock));
         TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
         destroy_particles(m);
         TRY(create_particles(m, &rock));
+        weigh(m, BUDGET_EDITS, true);
         TRY(count_rock(m));
         if (!m->collapse.shot)
             TRY(remove_unsupported(m));
@@ -315,12 +334,12 @@ static status erode(struct model *m, int step, double least, double *kyr)
     bool changed;
     gpu_stage(m->gpu, "wind");
     TRY(wind_update(m->gpu, &m->wind, m->job, m->frame, &m->particles));
-    wind_erode(m->gpu, &m->wind, m->job, m->frame, &m->particles, m->erosion.intensity);
+    wind_erode(m->gpu, &m->wind, m->job, m->frame, &m->particles, m->erosion.intensity, m->erosion.parts);
     TRY(run_water(m, step, least, kyr));
     if (m->plants)
         plants_shield(m->gpu, m->job, &m->particles, m->erosion.intensity);
     gpu_stage(m->gpu, "viability");
-    TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &n_eroded));
+    TRY(erosion_weather(m->gpu, m->work, &m->erosion, *kyr, &m->particles, &m->budget, &n_eroded));
     TRY(remove_eroded(m, step, n_eroded, &changed));
     if (changed)
         TRY(remove_unsupported(m));
@@ -333,13 +352,17 @@ static status step(struct model *m)
 {
     status st = OK;
     m->frame++;
+    budget_clear(m->gpu, &m->budget);
     TRY(edit(m));
     m->years += m->job->clock.years_per_frame;
     if (m->collapse.shot) {
         gpu_stage(m->gpu, "collapse");
+        weigh(m, BUDGET_COLLAPSE, false);
         TRY(collapse_frame(m->gpu, m->work, &m->collapse, m->job->clock.seconds_per_frame, &m->particles,
                            &m->ledger));
+        weigh(m, BUDGET_COLLAPSE, true);
         TRY(settle(m, false));
+        TRY(budget_read(m->gpu, &m->budget, m->change));
         goto done;
     }
     if (m->plants) {
@@ -353,6 +376,7 @@ static status step(struct model *m)
             kyr = left;
             TRY(erode(m, number++, fmin(least, left), &kyr));
         }
+    TRY(budget_read(m->gpu, &m->budget, m->change));
 done:
     return st;
 }
@@ -382,6 +406,10 @@ static status measure(const struct model *m, struct frame *out)
     out->volume_m3 = volume_of(m->job, rock);
     out->start_volume_m3 = m->start_volume;
     out->max_stress_Pa = most;
+    for (size_t i = 0; i < BUDGET_ROWS; i++)
+        if (i != BUDGET_WEATHERING)
+            out->change[out->n_changes++] =
+                (struct frame_change){budget_names[i], budget_m3(m->change[i], m->job->domain.spacing_m)};
     return OK;
 }
 
@@ -533,6 +561,8 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->ledger, sizeof m->ledger);
     TRY(section_add(out, "start volume", 8, 1, &data));
     memcpy(data, &m->start_volume, sizeof m->start_volume);
+    TRY(section_add(out, "change", 8, BUDGET_ROWS, &data));
+    memcpy(data, m->change, sizeof m->change);
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &m->elastic.iterations, 4);
     TRY(section_add(out, "elasticity", 8, ELASTICITY, &data));
@@ -573,6 +603,8 @@ static status restore(struct model *m, const struct checkpoint *c, bool *settled
     memcpy(&m->ledger, s->data, sizeof m->ledger);
     TRY(section_find(c, "start volume", 8, 1, &s));
     memcpy(&m->start_volume, s->data, sizeof m->start_volume);
+    TRY(section_find(c, "change", 8, BUDGET_ROWS, &s));
+    memcpy(m->change, s->data, sizeof m->change);
     TRY(section_find(c, "iterations", 4, 1, &s));
     memcpy(&m->elastic.iterations, s->data, 4);
     TRY(section_find(c, "displacement", 4, 4 * elastic_nodes(&m->elastic), &s));
@@ -631,6 +663,7 @@ static void destroy(struct model **handle)
     water_destroy(m->gpu, &m->water);
     elastic_destroy(m->gpu, &m->elastic);
     destroy_particles(m);
+    budget_destroy(m->gpu, &m->budget);
     gpu_work_destroy(m->gpu, &m->work);
     free(m);
     *handle = NULL;
@@ -657,6 +690,7 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(gpu_work_create(gpu, (nodes > voxel_count(voxels) ? nodes : voxel_count(voxels)) + 2, &m->work));
     TRY(elastic_create(gpu, voxels, h, &options, &m->elastic));
     TRY(blocks_create(gpu, voxels, &m->blocks));
+    TRY(budget_create(gpu, &m->budget));
     m->plants = plants_wanted(job) || edits_plant(job);
     m->deposits = ever(job, deposit_wanted);
     TRY(wind_create(gpu, job, voxels, &m->wind));
@@ -680,11 +714,12 @@ static status estimate(const struct job *job, struct model_estimate *out)
 {
     status st = OK;
     size_t pixels = aov_pixels(job), n;
+    struct scene_size size = {0};
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
-    TRY(scene_estimate(job, &out->n_particles));
+    TRY(scene_estimate(job, &size));
     TRY(wind_check(job, out->voxels));
-    n = out->n_particles;
+    out->n_particles = n = size.n_particles;
     size_t voxels = voxel_count(out->voxels);
     uint64_t rock = 0, field = field_bytes(out->voxels);
     for (int f = 0; f < ROCK_FIELDS; f++)
@@ -698,15 +733,17 @@ static status estimate(const struct job *job, struct model_estimate *out)
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);
-    /* Measured shares after compression: points 0.6, grids 0.2 (their active part), pictures 0.3, checkpoints
-     * 0.6. */
-    out->frame_bytes = (uint64_t)(0.6 * (double)rock + 0.2 * (double)field) +
-                       (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
-    out->checkpoint_bytes = (uint64_t)(0.6 * (double)rock + 0.1 * (double)elastic_bytes(out->voxels) +
-                                       0.9 * (double)wind_checkpoint_bytes(job, out->voxels));
+    /* Water, plants and deposits have volumes of their own. */
+    double skins =
+        0.1 * (water_ever_flows(job) + (plants_wanted(job) || edits_plant(job)) + ever(job, deposit_wanted));
+    out->disk = disk_frame(job, &size, &(struct disk_particle){15.5, 45, 2.2, 88 * (1 + skins), 1.9});
+    out->checkpoint_bytes = 15 * (uint64_t)n +
+                            (uint64_t)(0.3 * (double)wind_checkpoint_bytes(job, out->voxels)) +
+                            collapse_checkpoint_bytes(job, n);
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
         out->steps += erosion_steps(job_at(job, f), f, wind_intensity(job_at(job, f), f));
 done:
+    free(size.point);
     return st;
 }
 

@@ -17,6 +17,12 @@ bool collapse_wanted(const struct job *job)
     return collapse_shot(job) || job->collapse.blocks == COLLAPSE_FALL;
 }
 
+uint64_t collapse_checkpoint_bytes(const struct job *job, size_t n)
+{
+    /* Half of it compresses away: the fourth of four, and what rests. */
+    return collapse_shot(job) ? (uint64_t)n * (MPM_VECTORS * 16 + MPM_ORIGIN * 4) / 2 : 0;
+}
+
 uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3])
 {
     return collapse_wanted(job) ? mpm_bytes(n, voxels) + 4 * (uint64_t)n : 0;

@@ -23,6 +23,9 @@ bool collapse_shot(const struct job *job);
 /* Whether the job needs any of this. */
 bool collapse_wanted(const struct job *job);
 
+/* What a shot adds to a checkpoint. */
+uint64_t collapse_checkpoint_bytes(const struct job *job, size_t n);
+
 uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3]);
 MUST_USE status collapse_create(struct gpu *gpu, const struct job *job, const struct particles *p,
                                 struct collapse *out);

@@ -16,6 +16,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "blocks/blocks.h"
+#include "erosion/budget.h"
 #include "field/aov.h"
 #include "field/field.h"
 #include "model/model.h"
@@ -33,6 +34,8 @@ struct model {
     double years;        /* since the first frame */
     double start_volume; /* m3 */
     struct ledger ledger;
+    struct budget budget;
+    int64_t change[BUDGET_ROWS]; /* quanta, in the last frame */
     struct gpu_work *work;
     struct voxels voxels;
     struct blocks blocks;
@@ -48,6 +51,12 @@ static size_t voxel_count(const int n[3])
 
 /* ---- a frame */
 
+/* Enters all that the rock has, before and after a process, into the frame's budget. */
+static void weigh(struct model *m, uint32_t process, bool after)
+{
+    budget_sum(m->gpu, &m->budget, process, after, m->voxels.left, gpu_buffer_count(m->voxels.left));
+}
+
 static status remove_unsupported(struct model *m)
 {
     status st = OK;
@@ -55,10 +64,12 @@ static status remove_unsupported(struct model *m)
     if (m->job->goblins.floats)
         return OK;
     gpu_stage(m->gpu, "blocks");
+    weigh(m, BUDGET_BLOCKS, false);
     voxels_solid(m->gpu, &m->voxels, m->blocks.solid);
     TRY(blocks_join(m->gpu, m->work, &m->blocks, m->voxels.n));
     TRY(voxels_fall(m->gpu, m->work, &m->voxels, m->blocks.solid, m->blocks.pointer, m->blocks.other));
     TRY(voxels_remove(m->gpu, m->work, &m->voxels, &n_fallen));
+    weigh(m, BUDGET_BLOCKS, true);
     m->ledger.rock -= n_fallen;
     m->ledger.fallen += n_fallen;
 done:
@@ -71,7 +82,9 @@ static status step(struct model *m)
     double kyr = m->job->clock.years_per_frame / 1000;
     m->frame++;
     m->years += m->job->clock.years_per_frame;
+    budget_clear(m->gpu, &m->budget);
     gpu_stage(m->gpu, "weathering");
+    weigh(m, BUDGET_WEATHERING, false);
     TRY(voxels_rates(m->gpu, &m->voxels, m->job, m->frame));
     while (kyr > 0 && m->ledger.rock > 0) {
         double passed;
@@ -81,7 +94,9 @@ static status step(struct model *m)
         m->ledger.rock -= n_gone;
         m->ledger.left += n_gone;
     }
+    weigh(m, BUDGET_WEATHERING, true);
     TRY(remove_unsupported(m));
+    TRY(budget_read(m->gpu, &m->budget, m->change));
 done:
     return st;
 }
@@ -170,6 +185,10 @@ static status output(struct model *m, struct frame *out)
     TRY(memory_alloc(n, sizeof *factor, "voxels", &factor));
     TRY(voxels_download(m->gpu, &m->voxels, share, factor));
     out->volume_m3 = volume_of(share, n, m->voxels.h);
+    for (const uint32_t *row = (const uint32_t[]){BUDGET_WEATHERING, BUDGET_BLOCKS, BUDGET_ROWS};
+         *row < BUDGET_ROWS; row++)
+        out->change[out->n_changes++] =
+            (struct frame_change){budget_names[*row], budget_m3(m->change[*row], m->voxels.h)};
     TRY(rock_of(m, share, factor, &rock));
     TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels.n, m->voxels.h, &p));
     TRY(gpu_upload(m->gpu, p.field[ROCK_erodibility], 0, rock.erodibility, rock.n));
@@ -201,6 +220,8 @@ static status save(struct model *m, struct checkpoint *out)
     memcpy(data, &m->ledger, sizeof m->ledger);
     TRY(section_add(out, "start volume", 8, 1, &data));
     memcpy(data, &m->start_volume, sizeof m->start_volume);
+    TRY(section_add(out, "change", 8, BUDGET_ROWS, &data));
+    memcpy(data, m->change, sizeof m->change);
 done:
     if (st != OK)
         checkpoint_free(out);
@@ -216,6 +237,8 @@ static status restore(struct model *m, const struct checkpoint *c, const int n[3
     memcpy(&m->ledger, s->data, sizeof m->ledger);
     TRY(section_find(c, "start volume", 8, 1, &s));
     memcpy(&m->start_volume, s->data, sizeof m->start_volume);
+    TRY(section_find(c, "change", 8, BUDGET_ROWS, &s));
+    memcpy(m->change, s->data, sizeof m->change);
     TRY(section_find(c, "voxels", 4, voxel_count(n), &s));
     TRY(section_find(c, "factors", 4, voxel_count(n), &factor));
     TRY(voxels_create(m->gpu, m->work, m->job, n, s->data, factor->data, &m->voxels));
@@ -258,6 +281,7 @@ static void destroy(struct model **handle)
     field_destroy(m->gpu, &m->field);
     elastic_destroy(m->gpu, &m->elastic);
     blocks_destroy(m->gpu, &m->blocks);
+    budget_destroy(m->gpu, &m->budget);
     voxels_destroy(m->gpu, &m->voxels);
     gpu_work_destroy(m->gpu, &m->work);
     free(m);
@@ -293,6 +317,7 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(scene_voxels(job, n));
     TRY(gpu_work_create(gpu, work_size(job, n), &m->work));
     TRY(blocks_create(gpu, n, &m->blocks));
+    TRY(budget_create(gpu, &m->budget));
     if (job->goblins.stress)
         TRY(elastic_create(gpu, n, h, &options, &m->elastic));
     TRY(field_create(gpu, n, h, &m->field));
@@ -310,9 +335,11 @@ static status estimate(const struct job *job, struct model_estimate *out)
 {
     status st = OK;
     size_t pixels = aov_pixels(job), words;
+    struct scene_size size = {0};
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
-    TRY(scene_estimate(job, &out->n_particles));
+    TRY(scene_estimate(job, &size));
+    out->n_particles = size.n_particles;
     size_t n = out->n_particles, voxels = voxel_count(out->voxels);
     uint64_t rock = 0, field = field_bytes(out->voxels), picture = aov_picture_bytes(job);
     for (int f = 0; f < ROCK_FIELDS; f++)
@@ -324,8 +351,9 @@ static status estimate(const struct job *job, struct model_estimate *out)
                         (job->goblins.stress ? elastic_bytes(out->voxels) : 0);
     /* Two frames wait at most; files are made in memory. */
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras) + 8 * (uint64_t)voxels;
-    out->frame_bytes = (uint64_t)(0.5 * (double)rock + 0.2 * (double)field) +
-                       (uint64_t)(0.3 * (double)picture) * job->output.aov.n_cameras;
+    /* Voxels' middles are a lattice, which packs well. */
+    static const struct disk_particle bare = {3, 18, 1.5, 50, 1.5}, stressed = {10.6, 35, 2.2, 110, 1.9};
+    out->disk = disk_frame(job, &size, job->goblins.stress ? &stressed : &bare);
     out->checkpoint_bytes = (uint64_t)(0.1 * 8 * (double)voxels);
     /* Cycles, about: a voxel's retreat takes four of them at a quantum of one half. */
     double most = 0;
@@ -335,6 +363,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
                  (1 + job->clock.years_per_frame / 1000 * most / job->domain.spacing_m * 2 /
                           fmax(job->goblins.quantum, 0.05));
 done:
+    free(size.point);
     return st;
 }
 

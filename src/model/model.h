@@ -6,6 +6,7 @@
 #include "checkpoint/checkpoint.h"
 #include "gpu/gpu.h"
 #include "job/job.h"
+#include "model/disk.h"
 #include "particles/frame.h"
 
 struct model;
@@ -15,8 +16,8 @@ struct model_estimate {
     size_t n_particles;
     int voxels[3];
     uint64_t device_bytes;
-    uint64_t host_bytes;  /* besides the device's, with frames waiting to be written */
-    uint64_t frame_bytes; /* on disk, a frame with points, volumes and AOVs */
+    uint64_t host_bytes;    /* besides the device's, with frames waiting to be written */
+    struct disk_frame disk; /* of a frame */
     uint64_t checkpoint_bytes;
     double steps; /* of erosion and equilibrium, over all frames */
 };

@@ -58,6 +58,28 @@ done:
     return st;
 }
 
+static status put_points(const struct job *job, uint64_t job_hash, const char *root,
+                         const struct frame *frame, struct vdb_options *options, struct manifest *manifest)
+{
+    status st = OK;
+    char path[4096];
+    struct vdb_bytes file = {0};
+    if (options->points != VDB_POINTS_NONE) {
+        options->identity = identity(job_hash, frame->number, FILE_POINTS);
+        TRY(vdb_points(&frame->rock, options, &file));
+        TRY(folder_path(path, root, job->name, FILE_POINTS, frame->number, NULL));
+        TRY(put(root, path, &file, manifest));
+    }
+    if (job->output.usd.points != USD_POINTS_NONE) {
+        TRY(usd_points(&frame->rock, options, job->fps, &file));
+        TRY(folder_path(path, root, job->name, FILE_USD, frame->number, NULL));
+        TRY(put(root, path, &file, manifest));
+    }
+done:
+    free(file.bytes);
+    return st;
+}
+
 static status put_vdbs(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame,
                        struct manifest *manifest)
 {
@@ -71,6 +93,7 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         .codec = job->output.vdb.codec,
         .half = job->output.vdb.half,
         .points = job->output.vdb.points,
+        .precision = job->output.vdb.precision,
         .frame = frame->number,
         .spacing = job->domain.spacing_m,
         .n_colors = n_layers,
@@ -79,17 +102,10 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
     for (size_t i = 0; i < n_layers; i++)
         palette_color(job, i, color[i]);
     options.color = (const float(*)[3])color;
-    if (options.points != VDB_POINTS_NONE) {
-        options.identity = identity(job_hash, frame->number, FILE_POINTS);
-        TRY(vdb_points(&frame->rock, &options, &file));
-        TRY(folder_path(path, root, job->name, FILE_POINTS, frame->number, NULL));
-        TRY(put(root, path, &file, manifest));
-    }
-    if (job->output.usd.points != USD_POINTS_NONE) {
-        TRY(usd_points(&frame->rock, &options, job->fps, &file));
-        TRY(folder_path(path, root, job->name, FILE_USD, frame->number, NULL));
-        TRY(put(root, path, &file, manifest));
-    }
+    if (job_writes(job, JOB_POINTS, frame->number))
+        TRY(put_points(job, job_hash, root, frame, &options, manifest));
+    if (!job_writes(job, JOB_VOLUMES, frame->number))
+        goto done;
     options.identity = identity(job_hash, frame->number, FILE_VOLUMES);
     TRY(vdb_volumes(&frame->grids, &options, &file));
     TRY(folder_path(path, root, job->name, FILE_VOLUMES, frame->number, NULL));
@@ -98,6 +114,7 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         options.identity = identity(job_hash, frame->number, FILE_ROCKS);
         options.instances = true;
         options.points = VDB_POINTS_ALL;
+        options.precision = VDB_PRECISION_EXACT;
         options.spacing = job->arches.piles.rock_m;
         TRY(vdb_points(&frame->rocks.at, &options, &file));
         TRY(put_beside(root, job->name, FILE_ROCKS, frame->number, &file, manifest));
@@ -145,11 +162,14 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
         .max_stress_Pa = frame->max_stress_Pa,
         .stress_iterations = frame->stress_iterations,
         .ledger = frame->ledger,
+        .n_changes = frame->n_changes,
     };
-    bool vdbs =
-        (frame->number - job->frames.first) % job->output.vdb.every == 0 || frame->number == job->frames.last;
-    if (vdbs)
-        TRY(put_vdbs(job, job_hash, root, frame, &manifest));
+    for (size_t i = 0; i < frame->n_changes; i++) {
+        snprintf(manifest.change[i].process, sizeof manifest.change[i].process, "%s",
+                 frame->change[i].process);
+        manifest.change[i].m3 = frame->change[i].m3;
+    }
+    TRY(put_vdbs(job, job_hash, root, frame, &manifest));
     TRY(put_images(job, job_hash, root, frame, &manifest));
     if (frame->stacks.bytes) {
         struct vdb_bytes copy = {.size = frame->stacks.size};

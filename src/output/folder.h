@@ -38,6 +38,12 @@ struct manifest_file {
     uint64_t size, hash;
 };
 
+/* What a process changed of the rock since the frame before; negative: taken. */
+struct manifest_change {
+    char process[24];
+    double m3;
+};
+
 struct manifest {
     int frame;
     uint64_t job_hash;
@@ -46,6 +52,8 @@ struct manifest {
     double years, volume_m3, start_volume_m3, max_stress_Pa;
     int stress_iterations;
     struct ledger ledger;
+    size_t n_changes;
+    struct manifest_change change[FRAME_CHANGES];
 };
 
 /* frames/NAME.1001.json. Written last. */

@@ -54,6 +54,12 @@ status manifest_write(const char *root, const char *name, const struct manifest 
     LEDGER(WRITE)
 #undef WRITE
     json_end_object(&t);
+    if (m->n_changes) {
+        json_object(&t, "change_m3");
+        for (size_t i = 0; i < m->n_changes; i++)
+            json_number(&t, m->change[i].process, m->change[i].m3);
+        json_end_object(&t);
+    }
     TRY(text_status(&t));
     write_hash(&t, "self_xxh3", hash_bytes(t.data, t.size));
     json_end_object(&t);
@@ -115,6 +121,22 @@ static bool to_files(const struct json *files, struct manifest *out)
     return true;
 }
 
+/* Not every model has them. */
+static bool to_changes(const struct json *changes, struct manifest *out)
+{
+    if (!changes)
+        return true;
+    if (changes->kind != JSON_OBJECT || changes->n > FRAME_CHANGES)
+        return false;
+    for (const struct json *item = changes->first; item; item = item->next) {
+        struct manifest_change *c = &out->change[out->n_changes++];
+        if (strlen(item->key) >= sizeof c->process || !to_number(item, &c->m3))
+            return false;
+        snprintf(c->process, sizeof c->process, "%s", item->key);
+    }
+    return true;
+}
+
 /* "" or what is wrong with it. `out` has room for the files. */
 static const char *to_manifest(const struct json *json, struct manifest *out)
 {
@@ -141,6 +163,8 @@ static const char *to_manifest(const struct json *json, struct manifest *out)
         return "a number of its ledger is missing or wrong";
     LEDGER(READ)
 #undef READ
+    if (!to_changes(json_member(json, "change_m3"), out))
+        return "its change_m3 is wrong";
     return "";
 }
 

@@ -1,5 +1,10 @@
 /* Particles to an OpenVDB PointDataGrid: sorted into voxels in two stable passes, so that the order is always
- * the same. */
+ * the same.
+ *
+ * In 16 bits a position is the nearest of 65,536 along each side of its voxel. What is a share (viability,
+ * vegetation) is the nearest of as many from 0 to 1, with 0 and 1 exact and nothing else made 0; v and Cd are
+ * halves. Normals are unit vectors in two bytes where each particle has one, else halves, for OpenVDB's unit
+ * vectors cannot be zero. Stresses, rates and numbers stay as they are. */
 #include "output/vdb_shim.hpp"
 
 #include <openvdb/points/AttributeArray.h>
@@ -22,6 +27,26 @@ using openvdb::points::PointDataGrid;
 using quaternion = openvdb::math::Quat<float>; /* x, y, z, w */
 using leaf_node = openvdb::points::PointDataTree::LeafNodeType;
 using descriptor = AttributeSet::Descriptor;
+
+/* How a value is stored. */
+enum coding { EXACT, HALF, SHARE, DIRECTION, PLACE };
+using exact = openvdb::points::NullCodec;
+using half = openvdb::points::TruncateCodec;
+using share = openvdb::points::FixedPointCodec<false, openvdb::points::UnitRange>;
+using direction = openvdb::points::UnitVecCodec;
+using place = openvdb::points::FixedPointCodec<false, openvdb::points::PositionRange>;
+template <class T, class codec> using array_of = openvdb::points::TypedAttributeArray<T, codec>;
+constexpr double STEPS = 65535;
+
+/* The codecs cut off what lies between two steps: from the middle of the nearest step this does no harm. */
+float nearest_step(double x)
+{
+    return float((std::floor(x * STEPS + 0.5) + 0.5) / STEPS);
+}
+float nearest_share(float x)
+{
+    return x > 0 && x < float(1 / STEPS) ? float(1.5 / STEPS) : nearest_step(double(x));
+}
 
 /* Which particles go to which leaf: those of leaf l are particle[begin[l]] to particle[begin[l + 1] - 1],
  * ascending. */
@@ -105,21 +130,21 @@ struct attribute {
     std::string name;
     attribute_kind kind;
     const void *from;
+    coding how = EXACT;
 };
 
-template <class T, class value_fn>
+template <class T, class codec = exact, class value_fn>
 void fill(openvdb::points::AttributeArray &array, const std::vector<uint32_t> &order, const value_fn &value)
 {
     const T first = value(order[0]);
     size_t k = 1;
     while (k < order.size() && value(order[k]) == first)
         k++;
-    using typed = openvdb::points::TypedAttributeArray<T>;
     if (k == order.size()) {
-        typed::collapse(&array, first);
+        array_of<T, codec>::collapse(&array, first);
         return;
     }
-    openvdb::points::AttributeWriteHandle<T, openvdb::points::NullCodec> handle(array, /*expand=*/true);
+    openvdb::points::AttributeWriteHandle<T, codec> handle(array, /*expand=*/true);
     for (k = 0; k < order.size(); k++)
         handle.set(Index(k), value(order[k]));
 }
@@ -148,16 +173,15 @@ class leaf_maker
                                                             : INT,
                                        r.field[f]});
         }
-        using namespace openvdb::points;
-        using vec3 = TypedAttributeArray<Vec3f>;
-        position_ = descriptor::create(vec3::attributeType());
+        if (options.precision == VDB_PRECISION_16_BIT)
+            for (attribute &a : attributes_)
+                a.how = coding_of(a.name);
+        position_ = descriptor::create(options.precision == VDB_PRECISION_16_BIT
+                                           ? array_of<Vec3f, place>::attributeType()
+                                           : array_of<Vec3f, exact>::attributeType());
         all_ = position_;
         for (const attribute &a : attributes_)
-            all_ = all_->duplicateAppend(
-                a.name, a.kind == ORIENT ? TypedAttributeArray<quaternion>::attributeType()
-                        : a.kind == INT  ? TypedAttributeArray<int32_t>::attributeType()
-                        : a.kind == FLOAT || a.from == &pscale_ ? TypedAttributeArray<float>::attributeType()
-                                                                : vec3::attributeType());
+            all_ = all_->duplicateAppend(a.name, type_of(a));
     }
 
     leaf_node *make(const Coord &origin, const uint32_t *particle, size_t n) const
@@ -185,16 +209,59 @@ class leaf_maker
         leaf->initializeAttributes(position_, Index(n));
         leaf->replaceAttributeSet(new AttributeSet(all_, Index(n)), /*allowMismatchingDescriptors=*/true);
         leaf->setOffsets(offsets);
-        fill<Vec3f>(leaf->attributeArray(0), order, [this](uint32_t i) {
+        const auto local = [this](uint32_t i) {
             const Vec3d x = at_.index(i);
-            return Vec3f(x - Coord::round(x).asVec3d());
-        });
+            return x - Coord::round(x).asVec3d();
+        };
+        if (options_.precision == VDB_PRECISION_16_BIT)
+            fill<Vec3f, place>(leaf->attributeArray(0), order, [&local](uint32_t i) {
+                const Vec3d x = local(i) + 0.5;
+                return Vec3f(nearest_step(x[0]) - 0.5F, nearest_step(x[1]) - 0.5F, nearest_step(x[2]) - 0.5F);
+            });
+        else
+            fill<Vec3f>(leaf->attributeArray(0), order, [&local](uint32_t i) { return Vec3f(local(i)); });
         for (size_t a = 0; a < attributes_.size(); a++)
             fill_attribute(leaf->attributeArray(a + 1), attributes_[a], order);
         return leaf.release();
     }
 
   private:
+    /* In 16 bits. */
+    coding coding_of(const std::string &name) const
+    {
+        if (name == "N")
+            return options_.points == VDB_POINTS_SURFACE ? DIRECTION : HALF;
+        if (name == "viability" || name == "vegetation")
+            return SHARE;
+        return name == "v" || name == "Cd" ? HALF : EXACT;
+    }
+
+    openvdb::NamePair type_of(const attribute &a) const
+    {
+        if (a.kind == ORIENT)
+            return array_of<quaternion, exact>::attributeType();
+        if (a.kind == INT)
+            return array_of<int32_t, exact>::attributeType();
+        if (a.kind == FLOAT || a.from == &pscale_)
+            return a.how == SHARE ? array_of<float, share>::attributeType()
+                                  : array_of<float, exact>::attributeType();
+        return a.how == HALF        ? array_of<Vec3f, half>::attributeType()
+               : a.how == DIRECTION ? array_of<Vec3f, direction>::attributeType()
+                                    : array_of<Vec3f, exact>::attributeType();
+    }
+
+    template <class value_fn>
+    static void fill_vectors(openvdb::points::AttributeArray &array, const attribute &a,
+                             const std::vector<uint32_t> &order, const value_fn &value)
+    {
+        if (a.how == HALF)
+            fill<Vec3f, half>(array, order, value);
+        else if (a.how == DIRECTION)
+            fill<Vec3f, direction>(array, order, value);
+        else
+            fill<Vec3f>(array, order, value);
+    }
+
     void fill_attribute(openvdb::points::AttributeArray &array, const attribute &a,
                         const std::vector<uint32_t> &order) const
     {
@@ -206,13 +273,16 @@ class leaf_maker
                 openvdb::points::TypedAttributeArray<float>::collapse(&array, *real);
             break; /* else zero, as it was made */
         case FLOAT:
-            fill<float>(array, order, [real](uint32_t i) { return real[i]; });
+            if (a.how == SHARE)
+                fill<float, share>(array, order, [real](uint32_t i) { return nearest_share(real[i]); });
+            else
+                fill<float>(array, order, [real](uint32_t i) { return real[i]; });
             break;
         case INT:
             fill<int32_t>(array, order, [whole](uint32_t i) { return int32_t(whole[i]); });
             break;
         case VECTOR:
-            fill<Vec3f>(array, order, [real, this](uint32_t i) {
+            fill_vectors(array, a, order, [real, this](uint32_t i) {
                 return vdb::file_from_sim(Vec3f(real[4 * i], real[4 * i + 1], real[4 * i + 2]), at_.y_up);
             });
             break;
@@ -220,7 +290,7 @@ class leaf_maker
             openvdb::points::TypedAttributeArray<quaternion>::collapse(&array, quaternion(0, 0, 0, 1));
             break;
         case COLOR:
-            fill<Vec3f>(array, order, [this](uint32_t i) {
+            fill_vectors(array, a, order, [this](uint32_t i) {
                 const size_t layer = layer_[i] < options_.n_colors ? layer_[i] : options_.n_colors - 1;
                 return Vec3f(options_.color[layer]);
             });

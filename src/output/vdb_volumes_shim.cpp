@@ -137,6 +137,12 @@ openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, 
     return grid;
 }
 
+/* Halves end at 65,504: pascals and m3/yr go beyond. */
+bool fits_half(const frame_grid &g)
+{
+    return !g.unit || (std::strcmp(g.unit, "Pa") != 0 && std::strcmp(g.unit, "m3/yr") != 0);
+}
+
 status check_lattice(const grid_lattice &l, int frame)
 {
     for (int a = 0; a < 3; a++)
@@ -191,7 +197,7 @@ try {
             grid->insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(g.own.n)));
         grid->setCreator(metadata.metaValue<std::string>("creator"));
         grid->setTransform(own ? transform_of(g.own, y_up) : transform);
-        grid->setSaveFloatAsHalf(options->half);
+        grid->setSaveFloatAsHalf(options->half && fits_half(g));
         if (g.unit && *g.unit)
             grid->insertMeta("unit", openvdb::StringMetadata(g.unit));
         made.push_back(grid);

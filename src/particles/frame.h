@@ -71,6 +71,13 @@ struct ledger {
     uint64_t start, rock, deposit, fallen, left;
 };
 
+/* What a process changed of the rock's volume since the frame before; all of them together are the change. */
+struct frame_change {
+    const char *process; /* a name that lasts */
+    double m3;           /* negative: taken from it */
+};
+enum { FRAME_CHANGES = 8 };
+
 /* Rocks to be put where the frame has piles of them: P, id, and in `layer` which of the tile's rocks. n = 0:
  * none are asked for. */
 struct frame_rocks {
@@ -96,6 +103,8 @@ struct frame {
     struct ledger ledger;
     double volume_m3; /* sum of viability times h^3 */
     double start_volume_m3;
+    size_t n_changes;
+    struct frame_change change[FRAME_CHANGES];
     double max_stress_Pa;
     int stress_iterations;
 };

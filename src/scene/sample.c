@@ -284,46 +284,83 @@ done:
     return st;
 }
 
-/* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels. */
-static size_t estimate(const struct sampler *s)
+/* Rock with air beside it; below the domain is ground. */
+static bool is_bare(const struct sampler *s, const int voxel[3])
 {
-    size_t total = 1, probes = 1, found = 0, blocks[3];
+    const double middle[3] = {(voxel[0] + 0.5) * s->h, (voxel[1] + 0.5) * s->h, (voxel[2] + 0.5) * s->h};
+    const bool deep = solid_at(s->solid, middle).distance < -s->h;
+    for (int face = 0; face < 6; face++) {
+        int v[3] = {voxel[0], voxel[1], voxel[2]};
+        const int a = face / 2;
+        v[a] += face % 2 ? 1 : -1;
+        if (a == 2 && v[2] < 0)
+            continue;
+        if (v[a] < 0 || v[a] >= s->n[a])
+            return true;
+        if (!deep && coverage_of_voxel(s->solid, s->h, v[0], v[1], v[2]) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels. */
+static status estimate(const struct sampler *s, struct scene_size *out)
+{
+    status st = OK;
+    size_t total = 1, probes = 1, found = 0, bare = 0, blocks[3], capacity = out->n_points;
     for (int a = 0; a < 3; a++)
         total *= (size_t)s->n[a];
     int side = (int)ceil(cbrt((double)total / 262144) - 1e-9);
+    const size_t weight = (size_t)side * (size_t)side * (size_t)side;
     for (int a = 0; a < 3; a++) {
         blocks[a] = ((size_t)s->n[a] + (size_t)side - 1) / (size_t)side;
         probes *= blocks[a];
     }
-#pragma omp parallel for reduction(+ : found)
+    TRY(memory_grow(&out->point, &capacity, out->n_points + probes, sizeof *out->point, "an estimate"));
+#pragma omp parallel for reduction(+ : bare)
     for (size_t b = 0; b < probes; b++) {
         const size_t at[3] = {b % blocks[0], b / blocks[0] % blocks[1], b / blocks[0] / blocks[1]};
         int voxel[3], inside = 1;
+        size_t place;
         for (uint32_t a = 0; a < 3; a++) {
             uint32_t offset =
                 random_hash((uint32_t)s->job->seed, (uint32_t)b, a, RANDOM_ESTIMATE) % (uint32_t)side;
             voxel[a] = (int)at[a] * side + (int)offset;
             inside &= voxel[a] < s->n[a];
         }
-        found += inside && coverage_of_voxel(s->solid, s->h, voxel[0], voxel[1], voxel[2]) > 0;
+        if (!inside || coverage_of_voxel(s->solid, s->h, voxel[0], voxel[1], voxel[2]) == 0)
+            continue;
+        bare += is_bare(s, voxel);
+#pragma omp atomic capture
+        place = found++;
+        for (int a = 0; a < 3; a++)
+            out->point[out->n_points + place][a] = (float)((voxel[a] + 0.5) * s->h);
     }
-    return found * (size_t)side * (size_t)side * (size_t)side;
+    out->n_points += found;
+    out->n_particles += found * weight;
+    out->n_surface += bare * weight;
+done:
+    return st;
 }
 
-status scene_estimate(const struct job *job, size_t *n_particles)
+status scene_estimate(const struct job *job, struct scene_size *out)
 {
     status st = OK;
     struct sampler s;
-    *n_particles = 0;
+    *out = (struct scene_size){0};
     TRY(sampler_init(&s, job, NULL, 1));
-    *n_particles = estimate(&s);
+    TRY(estimate(&s, out));
     for (size_t i = 0; i < job->n_edits; i++)
         for (size_t k = 0; k < job->edits[i].n_add && job->edits[i].frame <= job->frames.last; k++) {
             sampler_deinit(&s);
             TRY(sampler_init(&s, job, job->edits[i].add[k].shape, 1));
-            *n_particles += estimate(&s);
+            TRY(estimate(&s, out));
         }
 done:
     sampler_deinit(&s);
+    if (st != OK) {
+        free(out->point);
+        *out = (struct scene_size){0};
+    }
     return st;
 }

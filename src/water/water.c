@@ -257,7 +257,7 @@ void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct
 }
 
 void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
-                 struct particles *p, struct gpu_buffer *intensity)
+                 struct particles *p, struct gpu_buffer *intensity, struct gpu_buffer *parts)
 {
     struct water_surface_params k = surface_params(w, p);
     k.rate = (float)curve_at(&job->rain.erosion, frame);
@@ -267,5 +267,5 @@ void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int fr
     k.most = (float)(WATER_DEPTH * p->h / kyr);
     GPU_RUN(gpu, water_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
             w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING],
-            p->field[ROCK_erodibility], intensity);
+            p->field[ROCK_erodibility], intensity, parts);
 }

@@ -119,10 +119,11 @@ void water_show(struct gpu *gpu, struct water *w, struct particles *p);
  * normals of the shape that was routed, cells included. Records only. */
 void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct particles *p);
 
-/* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14), held to what takes
+/* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14), and water's share goes
+ * into parts[i] as erosion.h has it. It is held to what takes
  * WATER_DEPTH spacings in `kyr`: below its surface a step reaches no further (erosion/carry). For the surface,
  * normals and erodibility of the shape that was routed. Records only. */
 void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
-                 struct particles *p, struct gpu_buffer *intensity);
+                 struct particles *p, struct gpu_buffer *intensity, struct gpu_buffer *parts);
 
 #endif

@@ -42,10 +42,10 @@ void wind_destroy(struct gpu *gpu, struct wind *w);
 MUST_USE status wind_update(struct gpu *gpu, struct wind *w, const struct job *job, int frame,
                             struct particles *p);
 
-/* intensity[i] = W of the surface's particle i (float [n_surface], in the order of p->surface). Needs surface
- * and stress of the current shape. Records only. */
+/* intensity[i] = W of the surface's particle i (float [n_surface], in the order of p->surface), and parts[i] (uint)
+ * deflation's share in it, as erosion.h has them. Needs surface and stress of the current shape. Records only. */
 void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, int frame, struct particles *p,
-                struct gpu_buffer *intensity);
+                struct gpu_buffer *intensity, struct gpu_buffer *parts);
 
 /* The averaged air around the rock: vec4 at the middles of n cells from `origin`, numbered (k n_y + j) n_x +
  * i: velocity as a share of `speed`, and the share of space that is air. */

@@ -100,6 +100,20 @@ code, said = hoodoo("aov", "own", "--set", "output.aov.layers=[dept]")
 check(code == 2 and "did you mean depth" in said, "a misspelt layer: " + said.strip())
 code, said = hoodoo("aov", "own", "--frames", "1-9")
 check(code == 3 and "1-9" in said, "frames that are not there: " + said.strip())
+code, said = hoodoo("run", JOB, "--frames", "1001-1003", "--out", "small", "--progress", "none", "--set", "output.vdb.precision=16bit",
+                    "--set", "output.vdb.half=true", "--set", "output.aov.cameras=[]")
+code2, said = hoodoo("aov", "small", "--camera", "main", "--frames", "1003", "--progress", "none")
+check(code == code2 == 0, "pictures of points in 16 bits and volumes in halves: " + said.strip())
+small, exact = channels("small/aov/twelve.main.1003.exr"), channels("own/aov/twelve.1003.exr")
+rock = (small["A"] > 0) & (exact["A"] > 0)
+off = np.abs(small["P.X"] - exact["P.X"])[rock]
+check(((small["A"] > 0) == (exact["A"] > 0)).mean() > 0.998 and (small["layer.id"] == exact["layer.id"]).mean() > 0.995 and np.median(off) < 2e-3,
+      f"they show the same rock ({100 * ((small['A'] > 0) == (exact['A'] > 0)).mean():.2f} % of the pixels; P within {np.median(off):.1e} m)")
+most = np.abs(exact["stress.von_mises"]).max()
+worse = np.abs(small["stress.von_mises"] - exact["stress.von_mises"])[rock].max() / most
+check(most > 65504 and worse < 1e-2, f"and the same stress, also beyond what halves can hold ({most:.3g} Pa; {worse:.1e} of it off at most)")
+code, said = hoodoo("mesh", "small", "--frames", "1003", "--progress", "none")
+check(code == 0 and os.path.getsize("small/mesh/twelve.1003.ply") > 10000, "and there is a mesh of it: " + said.strip())
 os.truncate("bare/points/twelve.1003.vdb", 1000)
 code, said = hoodoo("aov", "bare", "--frames", "1003")
 check(code == 3 and "twelve.1003.vdb" in said and not os.path.exists("bare/aov/twelve.main.1003.exr"), "a damaged file: " + said.strip()[-90:])

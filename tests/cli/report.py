@@ -115,6 +115,10 @@ volumes = [m["statistics"]["volume_m3"] for m in manifests]
 slopes = [(ys[i] - ys[0]) / (volumes[i] - volumes[0]) for i in range(1, 4)]
 check(len(line) == 4 and max(slopes) < 0 and max(slopes) - min(slopes) < 0.02 * -min(slopes) + 0.1 / (volumes[0] - volumes[1]),
       "the curve is the manifests' volumes", slopes)
+for process, words in (("deflation", "wind plucks grains"), ("abrasion", "blown sand")):
+    taken = -sum(m["change_m3"][process] for m in manifests)
+    shown = re.search(f'<td>{words}</td><td class="n">([^<]+)</td>', page.raw).group(1).replace("\u202f", "")
+    check(taken > 0 and abs(float(shown) / taken - 1) < 0.006, f"{words}: what the manifests add up to ({shown} m3)", taken)
 bars = [float(x.replace("\u202f", "")) for x in re.findall(r"to [^<]*: ([-0-9.e]+) %</title></rect>", page.raw)]
 check(len(bars) == 48 and abs(sum(bars) - 100) < 0.5, f"the stresses' shares add up to all ({sum(bars):.2f} %)")
 check("layer interlock" in page.text, "with the interlocking stress marked")

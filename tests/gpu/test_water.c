@@ -483,7 +483,7 @@ static void discharge_and_shear_are_those_of_the_equations(void **state)
     size_t n = bed.p.n_surface;
     float *erodibility = calloc(bed.p.n, 4), *before = calloc(n, 4), *after = calloc(n, 4);
     double *at_cell = calloc(r.ref.n, sizeof *at_cell);
-    struct gpu_buffer *intensity = NULL;
+    struct gpu_buffer *intensity = NULL, *parts = NULL;
     assert_non_null(erodibility);
     assert_non_null(before);
     assert_non_null(after);
@@ -498,7 +498,9 @@ static void discharge_and_shear_are_those_of_the_equations(void **state)
     assert_ok(gpu_upload(gpu, intensity, 0, before, n));
     assert_ok(gpu_upload(gpu, bed.p.field[ROCK_erodibility], 0, erodibility, bed.p.n));
     water_show(gpu, &r.water, &bed.p);
-    water_erode(gpu, &r.water, &job, 1, kyr, &bed.p, intensity);
+    assert_ok(gpu_buffer_create(gpu, "test", n, 4, &parts));
+    gpu_fill(gpu, parts, 0);
+    water_erode(gpu, &r.water, &job, 1, kyr, &bed.p, intensity, parts);
     struct rock rock;
     uint32_t *surface = download(gpu, bed.p.surface, n);
     assert_ok(gpu_download(gpu, intensity, 0, after, n));

@@ -165,7 +165,7 @@ static void a_sphere_splits_the_wind(void **state)
 static double struck(struct tunnel *t, const struct wind *w, int frame, const double n[2])
 {
     size_t n_surface = t->particles.n_surface, count = 0;
-    struct gpu_buffer *intensity = NULL;
+    struct gpu_buffer *intensity = NULL, *parts = NULL;
     struct rock rock;
     double sum = 0;
     float *value = malloc(4 * n_surface);
@@ -173,7 +173,8 @@ static double struck(struct tunnel *t, const struct wind *w, int frame, const do
     assert_non_null(value);
     assert_non_null(list);
     assert_ok(gpu_buffer_create(t->gpu, "intensity", n_surface, 4, &intensity));
-    wind_erode(t->gpu, w, t->job, frame, &t->particles, intensity);
+    assert_ok(gpu_buffer_create(t->gpu, "parts", n_surface, 4, &parts));
+    wind_erode(t->gpu, w, t->job, frame, &t->particles, intensity, parts);
     assert_ok(gpu_download(t->gpu, intensity, 0, value, n_surface));
     assert_ok(gpu_download(t->gpu, t->particles.surface, 0, list, n_surface));
     assert_ok(particles_download(t->gpu, &t->particles, DERIVED, &rock));

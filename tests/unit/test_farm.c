@@ -36,6 +36,7 @@ static void make_sample(int seed, struct sample *s)
         job->name = (char *)(uintptr_t) "sample";
         job->frames = (struct frame_range){first, first + step * pick(seed, 4, 0, 120), step};
         job->output.vdb.every = pick(seed, 5, 1, 7);
+        job->output.aov.every = 1;
         job->checkpoint.keep = pick(seed, 6, 1, 4);
         job->farm.block_frames = pick(seed, 7, 1, 60);
         job->farm.chunk_frames = pick(seed, 8, 1, 20);
@@ -51,7 +52,7 @@ static void make_sample(int seed, struct sample *s)
         s->wedge[i].estimate = (struct model_estimate){.n_particles = 1000,
                                                        .device_bytes = 1000000,
                                                        .host_bytes = 1000,
-                                                       .frame_bytes = 5000,
+                                                       .disk = {.points = 5000},
                                                        .checkpoint_bytes = 3000};
     }
 }

@@ -351,9 +351,12 @@ static void nothing_to_erode_is_an_error(void **state)
     struct job_node high = BOX(.min_m = {2, 2, 5.5}, .max_m = {9, 9, 9});
     job.scene = &high;
     assert_failed(scene_sample(&job, &rock), E_USAGE, "floats in the air", "z = 5 m");
-    size_t n;
-    assert_int_equal(scene_estimate(&job, &n), OK);
-    assert_int_equal(n, 7 * 7 * 4);
+    struct scene_size size;
+    assert_int_equal(scene_estimate(&job, &size), OK);
+    assert_int_equal(size.n_particles, 7 * 7 * 4);
+    assert_int_equal(size.n_points, 7 * 7 * 4);
+    assert_int_equal(size.n_surface, 7 * 7 * 4 - 5 * 5 * 2);
+    free(size.point);
 }
 
 static void estimates_are_close(void **state)
@@ -362,10 +365,11 @@ static void estimates_are_close(void **state)
     struct job_node a = SPHERE(.center_m = {5, 5, 4}, .radius_m = 4.5);
     struct job job = cube_job(&a, 150, 10.0 / 150);
     struct rock rock;
-    size_t n;
+    struct scene_size size;
     assert_int_equal(scene_sample(&job, &rock), OK);
-    assert_int_equal(scene_estimate(&job, &n), OK);
-    assert_close((double)n, (double)rock.n, 0.01);
+    assert_int_equal(scene_estimate(&job, &size), OK);
+    assert_close((double)size.n_particles, (double)rock.n, 0.01);
+    free(size.point);
     rock_free(&rock);
 }
 

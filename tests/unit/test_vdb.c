@@ -213,6 +213,87 @@ static void a_grid_with_its_own_lattice_comes_back(void **state)
     }
 }
 
+struct errors {
+    double place, share, angle, length;
+    size_t n, bytes;
+};
+
+/* The sample's particles, read back, against what they were. */
+static struct errors errors_of(const struct vdb_options *options)
+{
+    struct errors e = {0};
+    struct rock in, out;
+    struct vdb_bytes file;
+    size_t *of_id;
+    assert_int_equal(sample_rock(0.5, &in), OK);
+    in.viability[0] = 0;
+    in.viability[1] = 1;
+    in.viability[2] = 1e-6F;
+    assert_int_equal(vdb_points(&in, options, &file), OK);
+    assert_int_equal(atomic_file_write("small.vdb", file.bytes, file.size), OK);
+    e.bytes = file.size;
+    free(file.bytes);
+    assert_int_equal(vdb_points_read("small.vdb", &out), OK);
+    of_id = calloc(1 << 20, sizeof *of_id);
+    assert_non_null(of_id);
+    for (size_t i = 0; i < in.n; i++)
+        of_id[in.id[i]] = i;
+    e.n = out.n;
+    for (size_t k = 0; k < out.n; k++) {
+        const size_t i = of_id[out.id[k]];
+        double dot = 0, length[2] = {0, 0};
+        assert_int_equal(out.id[k], in.id[i]);
+        assert_int_equal(out.layer[k], in.layer[i]);
+        assert_int_equal(out.phase[k], in.phase[i]);
+        assert_true(out.stress[k] == in.stress[i] && out.erodibility[k] == in.erodibility[i]);
+        assert_true((out.viability[k] == 0) == (in.viability[i] == 0) &&
+                    (out.viability[k] == 1) == (in.viability[i] == 1));
+        if (in.viability[i] > 1e-5F)
+            e.share = fmax(e.share, fabs((double)out.viability[k] - (double)in.viability[i]));
+        for (size_t a = 0; a < 3; a++) {
+            e.place = fmax(e.place, fabs((double)out.P[4 * k + a] - (double)in.P[4 * i + a]));
+            dot += (double)out.N[4 * k + a] * (double)in.N[4 * i + a];
+            length[0] += pow((double)in.N[4 * i + a], 2);
+            length[1] += pow((double)out.N[4 * k + a], 2);
+        }
+        assert_true((length[0] > 0) == (length[1] > 0));
+        if (length[0] > 0) {
+            e.angle = fmax(e.angle, acos(fmin(1, dot / sqrt(length[0] * length[1]))));
+            e.length = fmax(e.length, fabs(sqrt(length[1]) - 1));
+        }
+    }
+    free(of_id);
+    rock_free(&in);
+    rock_free(&out);
+    return e;
+}
+
+static void points_in_16_bits_come_back_to_half_a_step(void **state)
+{
+    (void)state;
+    /* A voxel of points/ is two spacings. */
+    const double step = 2 * 0.5 / 65535, degree = acos(-1.0) / 180;
+    for (int up = 0; up < 2; up++)
+        for (int surface = 0; surface < 2; surface++) {
+            struct vdb_options options = options_of(up);
+            options.points = surface ? VDB_POINTS_SURFACE : VDB_POINTS_ALL;
+            const struct errors whole = errors_of(&options);
+            options.precision = VDB_PRECISION_16_BIT;
+            const struct errors e = errors_of(&options);
+            print_message(
+                "# %zu points, %zu bytes for %zu: P within %.3f of a step of %.3g m, shares within %.3f "
+                "of one, normals %.2g degrees and %.2g long\n",
+                e.n, e.bytes, whole.bytes, e.place / step, step, e.share * 65535, e.angle / degree, e.length);
+            assert_int_equal(e.n, whole.n);
+            assert_true(e.bytes < whole.bytes);
+            assert_true(whole.share == 0 && whole.place < 1e-6);
+            /* and the rounding of floats at 16 m */
+            assert_true(e.place <= 0.5 * step + 1e-6 && e.place > 0);
+            assert_true(e.share * 65535 <= 0.501);
+            assert_true(e.angle < (surface ? 2.5 : 0.05) * degree && e.length < 1e-3);
+        }
+}
+
 static void half_volumes_come_back_to_three_digits(void **state)
 {
     (void)state;
@@ -222,8 +303,11 @@ static void half_volumes_come_back_to_three_digits(void **state)
     write_volumes("half.vdb", 0.25, &options);
     assert_int_equal(sample_grids(0.25, &in), OK);
     assert_int_equal(vdb_volumes_read("half.vdb", &out), OK);
-    for (int v = 0; v < in.n[0] * in.n[1] * in.n[2]; v++)
+    for (int v = 0; v < in.n[0] * in.n[1] * in.n[2]; v++) {
         assert_true(fabsf(out.grid[1].value[v] - in.grid[1].value[v]) < 1e-3F);
+        /* beyond 65,504 Pa */
+        assert_true(in.grid[1].value[v] == 0 || out.grid[2].value[v] == in.grid[2].value[v]);
+    }
     sample_grids_free(&in);
     vdb_volumes_free(&out);
 }
@@ -598,6 +682,7 @@ int main(void)
         cmocka_unit_test(another_identity_is_another_archive),
         cmocka_unit_test(volumes_come_back),
         cmocka_unit_test(a_grid_with_its_own_lattice_comes_back),
+        cmocka_unit_test(points_in_16_bits_come_back_to_half_a_step),
         cmocka_unit_test(half_volumes_come_back_to_three_digits),
         cmocka_unit_test(points_come_back),
         cmocka_unit_test(surface_points_are_those_with_a_normal),

@@ -1,0 +1,51 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What erosion took of particles, off the rows of the processes that did it: by their share in the intensity. The
+// first two have theirs in `parts`, the third has the rest, so that nothing is lost.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+#include "erosion/budget.glsl"
+
+READ_U(0, spent)
+READ_U(1, parts)
+WRITE_U(2, sums)
+PARAMS(budget_params)
+
+uint share_of(uint whole, float share)
+{
+    return share >= 1.0 ? whole : min(uint(share * float(whole)), whole);
+}
+
+void take(uint row, uint lane, uvec2 sum)
+{
+    uint at = 2u * (row * BUDGET_LANES + lane);
+    uint borrow, low = usubBorrow(AT(sums, at), sum.x, borrow);
+    AT(sums, at) = low;
+    AT(sums, at + 1u) -= sum.y + borrow;
+}
+
+void main()
+{
+    uint lane = THREAD;
+    if (lane >= k.n)
+        return;
+    uvec2 deflation = uvec2(0u), water = uvec2(0u), abrasion = uvec2(0u);
+    for (uint i = lane; i < k.n_values; i += BUDGET_LANES) {
+        uint whole = LOAD_U(spent, i);
+        if (whole == 0u)
+            continue;
+        if (whole > uint(QUANTA)) { // less than none: the sliver that erosion/carry leaves was more than there was
+            abrasion = minus(abrasion, 0u - whole);
+            continue;
+        }
+        vec2 share = unpackUnorm2x16(LOAD_U(parts, i));
+        uint first = share_of(whole, share.x), rest = whole - first;
+        uint second = share.x + share.y >= 0.99999 ? rest : min(share_of(whole, share.y), rest);
+        deflation = plus(deflation, first);
+        water = plus(water, second);
+        abrasion = plus(abrasion, rest - second);
+    }
+    take(BUDGET_DEFLATION, lane, deflation);
+    take(BUDGET_WATER, lane, water);
+    take(BUDGET_ABRASION, lane, abrasion);
+}

@@ -1,0 +1,178 @@
+"""Is a file whole? By readers that are not ours where there are any: OpenVDB's vdb_print, OpenImageIO, ffprobe, plain parsers."""
+import hashlib
+import html.parser
+import json
+import os
+import re
+import struct
+import subprocess
+
+import OpenImageIO
+
+HOODOO = os.environ["HOODOO"]
+
+
+def quiet(*words):
+    done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    return done.returncode, done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def vdb(path):
+    code, _, said = quiet("vdb_print", "-l", path)
+    return code == 0 and "error" not in said.lower() and hoodoo(path)
+
+
+def hoodoo(path):
+    return quiet(HOODOO, "inspect", path)[0] == 0
+
+
+def picture(path):
+    file = OpenImageIO.ImageInput.open(path)
+    if not file:
+        return False
+    part, good = 0, True
+    while good and file.seek_subimage(part, 0):
+        good = file.read_image(part, 0, 0, file.spec().nchannels, OpenImageIO.FLOAT) is not None and not file.geterror()
+        part += 1
+    file.close()
+    if not good:
+        return False
+    ends = {"png": b"IEND\xaeB`\x82", "jpg": b"\xff\xd9"}
+    return part > 0 and read(path).endswith(ends.get(path.rsplit(".", 1)[1], b""))
+
+
+def ply(path):
+    data = read(path)
+    head, found, body = data.partition(b"end_header\n")
+    n, = map(int, re.findall(rb"element vertex (\d+)", head))
+    m, = map(int, re.findall(rb"element face (\d+)", head))
+    row = 4 * len(re.findall(rb"property float", head))
+    if not found or len(body) != n * row + m * 13:
+        return False
+    corners = [struct.unpack_from("<B3I", body, n * row + 13 * i) for i in range(m)]
+    return all(c[0] == 3 and max(c[1:]) < n for c in corners)
+
+
+def obj(path):
+    text = read(path).decode()
+    lines = text.split("\n")
+    n = sum(line.startswith("v ") for line in lines)
+    faces = [line for line in lines if line.startswith("f ")]
+    return text.endswith("\n") and n > 0 and n == sum(line.startswith("vn ") for line in lines) and bool(faces) and all(
+        len(f.split()) == 4 and max(int(c.split("//")[1]) for c in f.split()[1:]) <= n for f in faces) and closed(faces)
+
+
+def closed(faces):
+    """A solid's surface: each edge as often one way as the other. A file that ends early has open edges."""
+    edges = {}
+    for face in faces:
+        c = [int(w.split("//")[0]) for w in face.split()[1:]]
+        for a, b in zip(c, c[1:] + c[:1]):
+            edges[min(a, b), max(a, b)] = edges.get((min(a, b), max(a, b)), 0) + (1 if a < b else -1)
+    return not any(edges.values())
+
+
+def usdc(path):
+    data = read(path)
+    at, = struct.unpack_from("<q", data, 16)
+    n, = struct.unpack_from("<Q", data, at)
+    sections = [struct.unpack_from("<16sqq", data, at + 8 + 32 * i) for i in range(n)]
+    names = {name.rstrip(b"\0") for name, _, _ in sections}
+    return data[:8] == b"PXR-USDC" and len(data) == at + 8 + 32 * n and {b"TOKENS", b"SPECS", b"PATHS"} <= names and all(
+        0 < start and start + size <= at for _, start, size in sections)
+
+
+def usda(path):
+    text = read(path).decode()
+    bare = re.sub(r'@[^@]*@|"[^"]*"', "", text)
+    balanced = all(bare.count(a) == bare.count(b) for a, b in ("{}", "()", "[]"))
+    named = re.findall(r"@([^@]+)@", text)
+    folder = os.path.dirname(path)
+    return text.startswith("#usda") and text.rstrip().endswith("}" if "clips.usda" not in path else ("}", ")")) and balanced and all(
+        "#" in name or os.path.exists(os.path.join(folder, name)) for name in named)
+
+
+def mp4(path):
+    code, out, said = quiet("ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
+                            "stream=nb_frames,nb_read_frames", "-of", "csv=p=0", path)
+    counts = out.strip().split(",")
+    return code == 0 and said == "" and len(counts) == 2 and counts[0] == counts[1] and int(counts[0]) > 0
+
+
+class Page(html.parser.HTMLParser):
+    def __init__(self, folder):
+        super().__init__()
+        self.folder, self.open, self.good = folder, [], True
+
+    def handle_starttag(self, tag, attributes):
+        if tag not in ("meta", "img", "br", "input", "link", "source", "hr", "path", "line", "rect", "circle", "col"):
+            self.open.append(tag)
+        for key, value in attributes:
+            if key == "src" and value and not value.startswith("data:"):
+                self.good &= os.path.exists(os.path.join(self.folder, value))
+
+    def handle_endtag(self, tag):
+        if tag in self.open:
+            self.good &= self.open.pop() == tag
+
+
+def page(path):
+    text = read(path).decode()
+    reader = Page(os.path.dirname(path))
+    reader.feed(text)
+    return text.rstrip().endswith("</html>") and reader.good and not reader.open
+
+
+def lines(path):
+    return read(path).endswith(b"\n")
+
+
+def job(path):
+    return lines(path) and quiet(HOODOO, "plan", path, "--json")[0] == 0
+
+
+READERS = {"vdb": vdb, "exr": picture, "png": picture, "jpg": picture, "ply": ply, "obj": obj, "usdc": usdc, "usda": usda, "mp4": mp4,
+           "html": page, "json": lambda path: json.loads(read(path)) is not None, "yaml": job, "ckpt": hoodoo, "stacks": hoodoo,
+           "pov": lines, "inc": lines, "sh": lines, "mark": os.path.exists}
+# What is added to line by line, and the lock, may end anywhere; each line's reader knows.
+LOOSE = ("log/", "lock", "report/log", "preview/log", "turntable/log")
+
+
+known = {}  # what was whole once is whole wherever the same bytes stand
+ALONE = READERS.keys() - {"usda", "html"}  # these name others
+
+
+def is_whole(path, kind):
+    if kind not in ALONE:
+        return READERS[kind](path)
+    key = kind, hashlib.sha256(read(path)).digest()
+    if key not in known:
+        known[key] = READERS[kind](path)
+    return known[key]
+
+
+def files(root):
+    return sorted(os.path.relpath(os.path.join(at, name), root) for at, _, names in os.walk(root) for name in names)
+
+
+def wrong(root, seen=None):
+    """What is half there: paths, of all files in the folder that count. `seen` gathers the kinds that were read."""
+    bad = []
+    for path in files(root):
+        if path.startswith(LOOSE) or ".tmp-" in path or path.endswith((".log", ".jsonl")):
+            continue
+        kind = path.rsplit(".", 1)[-1] if "." in os.path.basename(path) else path
+        try:
+            good = is_whole(os.path.join(root, path), kind)
+        except Exception as error:  # whatever a reader stumbles over
+            good, path = False, f"{path} ({type(error).__name__}: {error})"
+        if seen is not None:
+            seen[kind] = seen.get(kind, 0) + 1
+        if not good:
+            bad.append(path)
+    return bad
