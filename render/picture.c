@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
-#include "model/terrain.h"
+#include "model/rocks.h"
 #include "output/folder.h"
 
 /* More shows as flat facets in raking light. */
@@ -113,8 +113,8 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     volumes_path(p, frame, volumes);
     snprintf(full, sizeof full, "%s/%s", p->root, volumes);
     TRY(vdb_mesh_read(full, terrain ? 0 : ADAPTIVITY, scene_values, SCENE_VALUES, SCENE_VALUES, &mesh));
-    if (terrain && p->job->arches.piles.rock_m > 0) {
-        TRY(terrain_tile(p->job, &tile));
+    if (job_piles(p->job)) {
+        TRY(rocks_tile(p->job, &tile));
         TRY(folder_path(full, p->root, p->job->name, FILE_ROCKS, frame, NULL));
         TRY(vdb_points_read(full, &rocks));
         scene.rocks = (struct scene_rocks){&tile, &rocks};
