@@ -112,34 +112,57 @@ status rocks_on_stacks(const struct job *job, const struct stacks *s, const stru
 
 /* ---- deposits */
 
-/* Which voxels hold deposits, a bit each, column by column. */
+enum { WIDEST = 3 };
+
+/* Which voxels hold deposits, and which other rock, a bit each, column by column with a free word around it. */
 struct held {
-    int n[3];
+    int n[3], reach; /* voxels: of the box around a voxel */
     double h;
     size_t words; /* of a column */
-    uint64_t *bit;
+    uint64_t *loose, *solid;
 };
-
-static bool is_held(const struct held *d, size_t column, int k)
-{
-    return d->bit[column * d->words + (size_t)k / 64] >> (k % 64) & 1;
-}
 
 static void hold(const struct rock *rock, struct held *d)
 {
     for (size_t i = 0; i < rock->n; i++) {
         const float *p = rock->P + 4 * i;
-        int x[3];
-        bool inside = rock->phase[i] == PHASE_DEPOSIT;
+        size_t x[3] = {0};
+        bool inside = true;
         for (int a = 0; a < 3; a++) {
             double at = floor((double)p[a] / d->h);
             inside &= at >= 0 && at < d->n[a];
-            x[a] = inside ? (int)at : 0;
+            x[a] = inside ? (size_t)at : 0;
         }
+        uint64_t *bits = rock->phase[i] == PHASE_DEPOSIT ? d->loose : d->solid;
         if (inside)
-            d->bit[((size_t)x[1] * (size_t)d->n[0] + (size_t)x[0]) * d->words + (size_t)x[2] / 64] |=
-                1ULL << (x[2] % 64);
+            bits[(x[1] * (size_t)d->n[0] + x[0]) * d->words + 1 + x[2] / 64] |= 1ULL << (x[2] % 64);
     }
+}
+
+/* How many of the voxels lo..lo + n - 1 of a column are set; n < 64, lo >= -64. */
+static int count(const uint64_t *column, int lo, int n)
+{
+    size_t word = (size_t)(lo + 64) / 64, shift = (size_t)(lo + 64) % 64;
+    uint64_t bits = column[word] >> shift | (shift ? column[word + 1] << (64 - shift) : 0);
+    return __builtin_popcountll(bits & ((1ULL << n) - 1));
+}
+
+/* Is voxel k of column (i, j) in the deposits, smoothed: of what is not rock around it, is half deposit? A
+ * surface that loses a grain here and gains one there keeps its rocks. Below the floor is rock. */
+static bool is_deposit(const struct held *d, int i, int j, int k)
+{
+    const int wide = 2 * d->reach + 1, below = k < d->reach ? d->reach - k : 0;
+    int loose = 0, air = 0;
+    for (int b = j - d->reach; b <= j + d->reach; b++)
+        for (int a = i - d->reach; a <= i + d->reach; a++) {
+            if (a < 0 || b < 0 || a >= d->n[0] || b >= d->n[1])
+                continue;
+            const size_t at = ((size_t)b * (size_t)d->n[0] + (size_t)a) * d->words;
+            const int some = count(d->loose + at, k - d->reach, wide);
+            loose += some;
+            air += wide - below - some - count(d->solid + at, k - d->reach, wide);
+        }
+    return loose > 0 && loose >= air;
 }
 
 static size_t deposit_layers(void *user, double x, double y, double (*span)[2], size_t most)
@@ -149,11 +172,10 @@ static size_t deposit_layers(void *user, double x, double y, double (*span)[2], 
     size_t found = 0;
     if (i >= d->n[0] || j >= d->n[1])
         return 0;
-    size_t column = (size_t)j * (size_t)d->n[0] + (size_t)i;
     for (int k = 0; k < d->n[2] && found < most; k++)
-        if (is_held(d, column, k)) {
+        if (is_deposit(d, i, j, k)) {
             span[found][0] = k * d->h;
-            while (k < d->n[2] && is_held(d, column, k))
+            while (k < d->n[2] && is_deposit(d, i, j, k))
                 k++;
             span[found++][1] = k * d->h;
         }
@@ -168,12 +190,16 @@ status rocks_on_deposits(const struct job *job, const struct rock *rock, const s
     if (tile->n == 0)
         return OK;
     TRY(scene_voxels(job, d.n));
-    d.words = (size_t)(d.n[2] + 63) / 64;
-    TRY(memory_alloc((size_t)d.n[0] * (size_t)d.n[1] * d.words, sizeof *d.bit, "deposits", &d.bit));
+    d.reach = (int)fmin(fmax(ceil(tile->radius / d.h), 2), WIDEST);
+    d.words = (size_t)(d.n[2] + 63) / 64 + 2;
+    size_t n = (size_t)d.n[0] * (size_t)d.n[1] * d.words;
+    TRY(memory_alloc(n, sizeof *d.loose, "deposits", &d.loose));
+    TRY(memory_alloc(n, sizeof *d.solid, "deposits", &d.solid));
     if (rock->phase)
         hold(rock, &d);
     TRY(place(job, tile, deposit_layers, &d, out));
 done:
-    free(d.bit);
+    free(d.loose);
+    free(d.solid);
     return st;
 }

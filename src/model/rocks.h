@@ -18,7 +18,8 @@ MUST_USE status rocks_tile(const struct job *job, struct pile_tile *out);
 MUST_USE status rocks_on_stacks(const struct job *job, const struct stacks *s, const struct pile_tile *tile,
                                 struct frame_rocks *out);
 
-/* The rocks where particles are deposits at rest: a layer is voxels above each other that hold any. */
+/* The rocks where particles are deposits: a layer is voxels above each other around which half of what is not
+ * rock is deposit, so that rocks do not come and go with grains. */
 MUST_USE status rocks_on_deposits(const struct job *job, const struct rock *rock,
                                   const struct pile_tile *tile, struct frame_rocks *out);
 
