@@ -50,10 +50,10 @@ static size_t voxel_count(const int n[3])
 /* ---- a frame */
 
 /* Noise of a tool's own scale; cheap to set up beside what is done with it. */
-static double tool_noise(const void *user, double scale, const double x[3])
+static double tool_noise(const void *user, double scale, double flatten, const double x[3])
 {
     const struct model *m = user;
-    struct job_noise of = {.scale_m = scale, .octaves = 3, .flatten = 1};
+    struct job_noise of = {.scale_m = scale, .octaves = 3, .flatten = flatten};
     struct noise noise = noise_init(&of, (uint32_t)m->job->seed);
     return noise_at(&noise, x);
 }
@@ -216,6 +216,7 @@ static status save(struct model *m, struct checkpoint *out)
     void *count, *layer, *data;
     *out = (struct checkpoint){.frame = m->frame,
                                .years = (m->frame - m->job->frames.first) * m->job->clock.years_per_frame};
+    TRY(section_add_domain(out, m->job));
     TRY(section_add(out, "stack counts", 4, (size_t)m->stacks.n[0] * (size_t)m->stacks.n[1], &count));
     TRY(section_add(out, "stack layers", 4, stacks_layers(&m->stacks), &layer));
     stacks_pack(&m->stacks, count, layer);
@@ -231,6 +232,7 @@ static status restore(struct model *m, const struct checkpoint *c)
 {
     status st = OK;
     const struct checkpoint_section *s, *layers;
+    TRY(section_check_domain(c, m->job));
     TRY(section_find(c, "ledger", 8, sizeof m->ledger / 8, &s));
     memcpy(&m->ledger, s->data, sizeof m->ledger);
     TRY(section_find(c, "stack counts", 4, (size_t)m->stacks.n[0] * (size_t)m->stacks.n[1], &s));
