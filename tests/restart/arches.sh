@@ -43,7 +43,7 @@ for other in again pieces; do
 done
 "$HOODOO" verify pieces >>log 2>&1
 say $? "and verifies"
-python3 - <<'PY'
+/usr/bin/python3 - <<'PY'
 import json, glob
 bad = 0
 for path in sorted(glob.glob("whole/frames/*.json")):
@@ -91,18 +91,18 @@ say $? "a mesh"
 [ -s whole/report/index.html ] && grep -q "terrain" whole/report/index.html
 say $? "a report"
 # Another tool from a frame on: a branch; it may not have another domain.
-sed 's/  - {tool: fill.*/&\n    - {tool: sweep, frames: 7, points_m: [[8, -1, 5, 2], [8, 13, 5, 2]]}/; s/name: terrain/name: other/' job.yaml >other.yaml
-"$HOODOO" run other.yaml --from whole@6 --out branch --progress none >>log 2>&1 && [ -s branch/frames/other.0008.json ] && [ ! -e branch/frames/other.0005.json ]
+sed 's/  - {tool: fill.*/&\n    - {tool: sweep, frames: 8, points_m: [[8, -1, 5, 2], [8, 13, 5, 2]]}/; s/name: terrain/name: other/' job.yaml >other.yaml
+"$HOODOO" run other.yaml --from whole@7 --out branch --progress none >>log 2>&1 && [ -s branch/frames/other.0008.json ] && [ ! -e branch/frames/other.0006.json ]
 say $? "a branch with a further tool"
 cmp -s whole/stacks/terrain.0008.stacks branch/stacks/other.0008.stacks
 [ $? = 1 ]
 say $? "is other terrain"
 sed 's/size_m: \[16, 12, 10\]/size_m: [16, 12, 11]/' other.yaml >taller.yaml
-"$HOODOO" run taller.yaml --from whole@6 --out taller --progress none >>log 2>&1
+"$HOODOO" run taller.yaml --from whole@7 --out taller --progress none >>log 2>&1
 [ $? = 7 ]
 say $? "a branch of another height is refused"
 # Images in and out: a height field as scene, a cover, and what a map says of them.
-python3 - <<'PY'
+/usr/bin/python3 - <<'PY'
 import numpy as np, OpenImageIO as oiio
 y, x = np.mgrid[0:24, 0:32]
 for name, value in (("height", 0.5 + 0.1 * np.sin(x / 6) * np.cos(y / 5)), ("sand", 0.5 - 0.5 * np.cos(x / 5) * np.cos(y / 4))):
@@ -122,7 +122,7 @@ arches: {maps: true, stacks: none, covers: [{file: sand.exr, material: sand, thi
 JOB
 "$HOODOO" run image.yaml --out image --progress none >>log 2>&1
 say $? "terrain from images"
-python3 - <<'PY'
+/usr/bin/python3 - <<'PY'
 import numpy as np, OpenImageIO as oiio
 def read(path):
     file = oiio.ImageInput.open(path)
