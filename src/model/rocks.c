@@ -39,6 +39,12 @@ done:
     return st;
 }
 
+uint32_t rocks_layer(const struct job *job)
+{
+    return (uint32_t)(job->model == MODEL_ARCHES ? job->n_strata + MATERIAL_ROCK - MATERIAL_SAND
+                                                 : job->n_strata - 1);
+}
+
 /* The corners of every shape. */
 static status bound(const struct pile_tile *tile, struct frame_rocks *out)
 {

@@ -14,6 +14,9 @@
 /* The tile of the job's piles (job_piles()); n = 0 if it has none. E_USAGE: rocks too small for the domain. */
 MUST_USE status rocks_tile(const struct job *job, struct pile_tile *out);
 
+/* The layer (palette.h) whose colour they have: rock's, or that of the top stratum, which they fell from. */
+uint32_t rocks_layer(const struct job *job);
+
 /* The rocks where the stacks have rock layers. Nothing where the tile has none. */
 MUST_USE status rocks_on_stacks(const struct job *job, const struct stacks *s, const struct pile_tile *tile,
                                 struct frame_rocks *out);

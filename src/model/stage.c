@@ -254,9 +254,7 @@ static status put_shapes(struct stage *s)
                                 .n_triangles = tile.n_triangles,
                                 .shape = shape,
                                 .triangle = tile.triangle};
-    palette_color(s->job,
-                  s->job->model == MODEL_ARCHES ? s->job->n_strata + MATERIAL_ROCK - MATERIAL_SAND : 0,
-                  shapes.color);
+    palette_color(s->job, rocks_layer(s->job), shapes.color);
     s->sequence.n_shapes = tile.n;
     if (snprintf(path, sizeof path, "%s/rocks/%s.shapes.usda", s->root, s->job->name) >= (int)sizeof path) {
         st = fail(E_OUTPUT, "%.200s...: the path is too long", s->root);
