@@ -60,9 +60,17 @@ frames: 1-2
 clock: {years_per_frame: 1000}
 domain: {size_m: [16, 12, 10], spacing_m: 1}
 scene: {stacks: {file: whole/stacks/terrain.0008.stacks}}
+deposition: {piles: {rock_m: 0.5, rocks: 20}}
+checkpoint: {every: 1}
 JOB
 "$HOODOO" run further.yaml --out further --progress none >>log 2>&1
 say $? "arenite weathers it"
+"$HOODOO" run further.yaml --out parts --frames 1 --progress none >>log 2>&1 &&
+    "$HOODOO" run further.yaml --out parts --progress none >>log 2>&1 && diff -r further/rocks parts/rocks >>log 2>&1
+say $? "in two parts, with the same rocks on its loose ground"
+n=$("$HOODOO" inspect --json further/rocks/further.0001.vdb | /usr/bin/python3 -c 'import json, sys; print(sum(g.get("points", 0) for g in json.load(sys.stdin)["grids"]))')
+[ "$n" -gt 20 ]
+say $? "which are there: $n"
 printf 'hoodoo.stck' >broken.stacks
 head -c 3000 /dev/urandom >>broken.stacks
 sed 's|whole/stacks/terrain.0008.stacks|broken.stacks|' further.yaml >broken.yaml
