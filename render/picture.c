@@ -10,7 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/version.h"
-#include "model/terrain.h"
+#include "model/rocks.h"
 #include "output/folder.h"
 #include "render/png.h"
 #include "render/slate.h"
@@ -166,8 +166,8 @@ static status write_scene(const struct preview *p, int frame, int views, const c
                           .file = strrchr(path, '/') + 1};
     const struct job_camera *own = chosen_camera(p);
     TRY(read_mesh(p, frame, &mesh));
-    if (p->job->model == MODEL_ARCHES && p->job->arches.piles.rock_m > 0) {
-        TRY(terrain_tile(p->job, &tile));
+    if (job_piles(p->job)) {
+        TRY(rocks_tile(p->job, &tile));
         TRY(folder_path(full, p->root, p->job->name, FILE_ROCKS, frame, NULL));
         TRY(vdb_points_read(full, &rocks));
         scene.rocks = (struct scene_rocks){&tile, &rocks};

@@ -309,6 +309,8 @@ status scene_write(const struct scene *s, struct text *out)
         add_strata(out, s);
         add_part(out, scene_sandstone);
         add_part(out, scene_scree);
+        if (!is_terrain(s) && s->rocks.tile)
+            text_add(out, "#declare Rubble = texture { Talus }\n");
         if (is_terrain(s)) {
             add_color(out, "Sand_Color", s->job, s->job->n_strata);
             add_color(out, "Rock_Color", s->job, s->job->n_strata + 1);

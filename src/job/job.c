@@ -116,6 +116,12 @@ const struct job *job_at(const struct job *job, int frame)
     return now;
 }
 
+const struct job_piles *job_piles(const struct job *job)
+{
+    const struct job_piles *p = job->model == MODEL_ARCHES ? &job->arches.piles : &job->deposition.piles;
+    return job->model != MODEL_GOBLINS && p->rock_m > 0 ? p : NULL;
+}
+
 bool job_marks(const struct job *job, int frame)
 {
     for (size_t i = 0; i < job->checkpoint.n_mark; i++)

@@ -183,6 +183,10 @@ MUST_USE status job_resolved(const struct job *job, struct text *out);
 /* The job as it is in a frame: with what the edits up to it set. Lives as long as `job`. */
 const struct job *job_at(const struct job *job, int frame);
 
+/* The rocks that frames show: of arches.piles, or lying on deposits of deposition.piles, as the job begins.
+ * NULL: none. */
+const struct job_piles *job_piles(const struct job *job);
+
 /* Whether checkpoint.mark holds the frame. */
 bool job_marks(const struct job *job, int frame);
 

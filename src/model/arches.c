@@ -18,6 +18,7 @@
 #include "field/aov.h"
 #include "field/field.h"
 #include "model/model.h"
+#include "model/rocks.h"
 #include "model/sections.h"
 #include "model/terrain.h"
 #include "particles/particles.h"
@@ -49,10 +50,10 @@ static size_t voxel_count(const int n[3])
 /* ---- a frame */
 
 /* Noise of a tool's own scale; cheap to set up beside what is done with it. */
-static double tool_noise(const void *user, double scale, const double x[3])
+static double tool_noise(const void *user, double scale, double flatten, const double x[3])
 {
     const struct model *m = user;
-    struct job_noise of = {.scale_m = scale, .octaves = 3, .flatten = 1};
+    struct job_noise of = {.scale_m = scale, .octaves = 3, .flatten = flatten};
     struct noise noise = noise_init(&of, (uint32_t)m->job->seed);
     return noise_at(&noise, x);
 }
@@ -168,29 +169,6 @@ done:
     return st;
 }
 
-static status add_rocks(struct model *m, struct frame *out)
-{
-    status st = OK;
-    struct pile_place *place = NULL;
-    size_t n;
-    struct rock *rock = &out->rocks.at;
-    TRY(terrain_rocks(m->job, &m->stacks, &m->tile, &place, &n));
-    out->rocks.wanted = m->tile.n > 0;
-    rock->n = n;
-    TRY(memory_alloc(4 * n, sizeof *rock->P, "rocks", &rock->P));
-    TRY(memory_alloc(n, sizeof *rock->id, "rocks", &rock->id));
-    TRY(memory_alloc(n, sizeof *rock->layer, "rocks", &rock->layer));
-    for (size_t i = 0; i < n; i++) {
-        for (size_t a = 0; a < 3; a++)
-            rock->P[4 * i + a] = (float)place[i].at[a];
-        rock->id[i] = (uint32_t)i;
-        rock->layer[i] = place[i].rock;
-    }
-done:
-    free(place);
-    return st;
-}
-
 /* Quanta in cubic metres. */
 static double volume_of(const struct model *m, uint64_t quanta)
 {
@@ -215,7 +193,7 @@ static status output(struct model *m, struct frame *out)
                           .start_volume_m3 = volume_of(m, m->ledger.start)};
     gpu_stage(m->gpu, "surface");
     TRY(terrain_look(&v));
-    TRY(add_rocks(m, out));
+    TRY(rocks_on_stacks(m->job, &m->stacks, &m->tile, &out->rocks));
     if (m->job->arches.stacks == STACKS_ALL ||
         (m->job->arches.stacks == STACKS_LAST && m->frame == m->job->frames.last))
         TRY(stacks_encode(&m->stacks, spaces_kinds(m->table, m->n_materials).solid, &out->stacks.bytes,
@@ -238,6 +216,7 @@ static status save(struct model *m, struct checkpoint *out)
     void *count, *layer, *data;
     *out = (struct checkpoint){.frame = m->frame,
                                .years = (m->frame - m->job->frames.first) * m->job->clock.years_per_frame};
+    TRY(section_add_domain(out, m->job));
     TRY(section_add(out, "stack counts", 4, (size_t)m->stacks.n[0] * (size_t)m->stacks.n[1], &count));
     TRY(section_add(out, "stack layers", 4, stacks_layers(&m->stacks), &layer));
     stacks_pack(&m->stacks, count, layer);
@@ -253,6 +232,7 @@ static status restore(struct model *m, const struct checkpoint *c)
 {
     status st = OK;
     const struct checkpoint_section *s, *layers;
+    TRY(section_check_domain(c, m->job));
     TRY(section_find(c, "ledger", 8, sizeof m->ledger / 8, &s));
     memcpy(&m->ledger, s->data, sizeof m->ledger);
     TRY(section_find(c, "stack counts", 4, (size_t)m->stacks.n[0] * (size_t)m->stacks.n[1], &s));
@@ -304,7 +284,7 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     TRY(scene_voxels(job, n));
     TRY(terrain_materials(job, m->table, &m->n_materials));
     TRY(terrain_create(job, &m->stacks));
-    TRY(terrain_tile(job, &m->tile));
+    TRY(rocks_tile(job, &m->tile));
     TRY(gpu_work_create(gpu, voxel_count(n) + 2, &m->work));
     TRY(field_create(gpu, n, job->domain.spacing_m, &m->field));
     if (aov_pixels(job))

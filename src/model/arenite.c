@@ -27,6 +27,7 @@
 #include "model/collapse.h"
 #include "model/edits.h"
 #include "model/model.h"
+#include "model/rocks.h"
 #include "model/sections.h"
 #include "particles/particles.h"
 #include "plants/plants.h"
@@ -61,6 +62,7 @@ struct model {
     struct deposit deposit;
     struct blocks blocks;
     bool deposits, plants; /* does the run ever have any? */
+    struct pile_tile tile; /* of rocks to show on deposits */
     struct field field;
     struct aov aov;
 };
@@ -461,6 +463,7 @@ static status output(struct model *m, struct frame *out)
     field_build(m->gpu, &m->field, &m->particles);
     TRY(particles_download(m->gpu, &m->particles, DERIVED, &out->rock));
     TRY(measure(m, out));
+    TRY(rocks_on_deposits(job, &out->rock, &m->tile, &out->rocks));
     TRY(field_download(m->gpu, &m->field, &m->particles, skin, n_skin, &out->grids));
     TRY(air_add(m->gpu, &m->wind, job, m->frame, &out->grids));
     gpu_stage(m->gpu, "pictures");
@@ -665,6 +668,7 @@ static void destroy(struct model **handle)
     destroy_particles(m);
     budget_destroy(m->gpu, &m->budget);
     gpu_work_destroy(m->gpu, &m->work);
+    pile_tile_destroy(&m->tile);
     free(m);
     *handle = NULL;
 }
@@ -694,6 +698,7 @@ static status create(struct gpu *gpu, const struct job *job, const struct checkp
     m->plants = plants_wanted(job) || edits_plant(job);
     m->deposits = ever(job, deposit_wanted);
     TRY(wind_create(gpu, job, voxels, &m->wind));
+    TRY(rocks_tile(job, &m->tile));
     TRY(field_create(gpu, voxels, h, &m->field));
     if (aov_pixels(job))
         TRY(aov_create(gpu, job, aov_pixels(job), &m->aov));

@@ -12,7 +12,7 @@
 #include "base/version.h"
 #include "job/palette.h"
 #include "mesh/trimesh.h"
-#include "model/terrain.h"
+#include "model/rocks.h"
 #include "output/folder.h"
 #include "output/mesh_file.h"
 #include "output/vdb.h"
@@ -226,7 +226,7 @@ static status write_rocks(const struct meshes *m, int frame)
     uint32_t *layer = NULL;
     TRY(folder_path(path, m->root, m->job->name, FILE_ROCKS, frame, NULL));
     TRY(vdb_points_read(path, &at));
-    TRY(terrain_tile(m->job, &tile));
+    TRY(rocks_tile(m->job, &tile));
     TRY(memory_alloc(tile.n, sizeof *shape, "rocks", &shape));
     for (size_t i = 0; i < tile.n; i++)
         TRY(rock_shape(m, &tile, i, &shape[i]));
@@ -236,7 +236,7 @@ static status write_rocks(const struct meshes *m, int frame)
     TRY(memory_alloc(all.n_vertices, sizeof *layer, "rocks", &layer));
     trimesh_normals(&all, normal);
     for (size_t i = 0; i < all.n_vertices; i++) {
-        layer[i] = (uint32_t)m->job->n_strata + 1;
+        layer[i] = rocks_layer(m->job);
         palette_color(m->job, layer[i], color[i]);
     }
     TRY(write_both(m, true, frame,
@@ -262,7 +262,7 @@ done:
 
 static bool has_rocks(const struct meshes *m)
 {
-    return m->rocks && m->job->model == MODEL_ARCHES && m->job->arches.piles.rock_m > 0;
+    return m->rocks && job_piles(m->job);
 }
 
 status meshes_write(const struct meshes *m, int frame)

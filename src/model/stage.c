@@ -10,6 +10,8 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "field/camera.h"
+#include "job/palette.h"
+#include "model/rocks.h"
 #include "output/folder.h"
 #include "output/usd.h"
 
@@ -20,8 +22,8 @@ struct stage {
     const char *root;
     struct usd_sequence sequence;
     struct usd_field field[MAX_FIELDS];
-    int *volumes, *points;     /* frames */
-    struct usd_camera *camera; /* their keys are owned too */
+    int *volumes, *points, *rocks; /* frames */
+    struct usd_camera *camera;     /* their keys are owned too */
 };
 
 /* ---- frames */
@@ -46,6 +48,7 @@ static status find_frames(struct stage *s, uint64_t job_hash, size_t *n_done)
     TRY(folder_frames(s->root, s->job->name, &frames, &n));
     TRY(memory_alloc(n, sizeof *s->volumes, "frame numbers", &s->volumes));
     TRY(memory_alloc(n, sizeof *s->points, "frame numbers", &s->points));
+    TRY(memory_alloc(n, sizeof *s->rocks, "frame numbers", &s->rocks));
     for (size_t i = 0; i < n; i++) {
         const char *bad = "";
         if (manifest_read(s->root, s->job->name, frames[i], &m) != OK)
@@ -57,6 +60,8 @@ static status find_frames(struct stage *s, uint64_t job_hash, size_t *n_done)
                 s->volumes[s->sequence.n_volumes++] = frames[i];
             if (lists(&m, "points/", ".usdc"))
                 s->points[s->sequence.n_points++] = frames[i];
+            if (lists(&m, "rocks/", ".usdc"))
+                s->rocks[s->sequence.n_rocks++] = frames[i];
         }
         manifest_free(&m);
     }
@@ -212,16 +217,54 @@ done:
 
 /* ---- files */
 
-static status put(const struct stage *s, const char *path,
-                  void (*write)(const struct usd_sequence *, struct text *))
+static status put(const char *path, struct text *t)
+{
+    status st = text_status(t);
+    if (st == OK)
+        st = atomic_file_write(path, t->data, t->size);
+    text_free(t);
+    return st;
+}
+
+static status put_clips(const struct stage *s, const struct usd_prim *prim)
+{
+    char path[4096];
+    struct text t = {0};
+    if (snprintf(path, sizeof path, "%s/%s/%s.clips.usda", s->root, prim->folder, s->job->name) >=
+        (int)sizeof path)
+        return fail(E_OUTPUT, "%.200s...: the path is too long", s->root);
+    usd_clips(&s->sequence, prim, &t);
+    return put(path, &t);
+}
+
+/* What the rocks look like: the same for all frames. */
+static status put_shapes(struct stage *s)
 {
     status st = OK;
+    char path[4096];
     struct text t = {0};
-    write(&s->sequence, &t);
-    TRY(text_status(&t));
-    TRY(atomic_file_write(path, t.data, t.size));
+    struct pile_tile tile;
+    struct usd_shape *shape = NULL;
+    TRY(rocks_tile(s->job, &tile));
+    TRY(memory_alloc(tile.n, sizeof *shape, "rocks", &shape));
+    for (size_t i = 0; i < tile.n; i++)
+        shape[i] = (struct usd_shape){tile.rock[i].n_vertices, tile.rock[i].vertex, tile.rock[i].normal};
+    struct usd_shapes shapes = {.up = s->job->output.up,
+                                .n = tile.n,
+                                .n_triangles = tile.n_triangles,
+                                .shape = shape,
+                                .triangle = tile.triangle};
+    palette_color(s->job, rocks_layer(s->job), shapes.color);
+    s->sequence.n_shapes = tile.n;
+    if (snprintf(path, sizeof path, "%s/rocks/%s.shapes.usda", s->root, s->job->name) >= (int)sizeof path) {
+        st = fail(E_OUTPUT, "%.200s...: the path is too long", s->root);
+        goto done;
+    }
+    usd_shapes(&shapes, &t);
+    TRY(put(path, &t));
 done:
-    text_free(&t);
+    free(shape);
+    pile_tile_destroy(&tile);
     return st;
 }
 
@@ -230,6 +273,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root)
     status st = OK;
     size_t n_done;
     char path[4096];
+    struct text t = {0};
     struct stage s = {.job = job,
                       .root = root,
                       .sequence = {.name = job->name,
@@ -245,17 +289,20 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root)
     s.sequence.field = s.field;
     s.sequence.volumes_frame = s.volumes;
     s.sequence.points_frame = s.points;
-    if (snprintf(path, sizeof path, "%s/points/%s.clips.usda", root, job->name) >= (int)sizeof path) {
-        st = fail(E_OUTPUT, "%.200s...: the path is too long", root);
-        goto done;
-    }
+    s.sequence.rocks_frame = s.rocks;
     if (s.sequence.n_points)
-        TRY(put(&s, path, usd_clips));
+        TRY(put_clips(&s, &usd_points_prim));
+    if (s.sequence.n_rocks) {
+        TRY(put_clips(&s, &usd_rocks_prim));
+        TRY(put_shapes(&s));
+    }
     snprintf(path, sizeof path, "%.3800s/%.200s.usda", root, job->name);
-    TRY(put(&s, path, usd_stage));
+    usd_stage(&s.sequence, &t);
+    TRY(put(path, &t));
 done:
     free(s.volumes);
     free(s.points);
+    free(s.rocks);
     for (size_t i = 0; i < s.sequence.n_cameras; i++)
         free((void *)s.camera[i].key);
     free(s.camera);

@@ -4,7 +4,6 @@
 
 #include "job/job.h"
 #include "particles/frame.h"
-#include "piles/piles.h"
 #include "stacks/stacks.h"
 
 /* The job's materials, by the number layers have them. E_USAGE: too many. */
@@ -40,12 +39,5 @@ void terrain_view_free(struct terrain_view *v);
 
 /* The heights and thicknesses of the layers as a picture from above, one pixel a stack: named "stacks". */
 MUST_USE status terrain_map(const struct stacks *s, int n_materials, struct aov_image *out);
-
-/* The tile of rocks that the job's piles are made of; n = 0 if it has none. */
-MUST_USE status terrain_tile(const struct job *job, struct pile_tile *out);
-
-/* The rocks where the stacks have rock layers. */
-MUST_USE status terrain_rocks(const struct job *job, const struct stacks *s, const struct pile_tile *tile,
-                              struct pile_place **out, size_t *n);
 
 #endif

@@ -19,7 +19,7 @@ static size_t sample_count(const struct terrain_view *v)
 static struct surface ground(const struct terrain_view *v)
 {
     uint32_t set = 0;
-    bool piles = v->job->arches.piles.rock_m > 0;
+    bool piles = job_piles(v->job);
     for (int m = MATERIAL_BEDROCK; m < v->n_materials; m++)
         if (m != MATERIAL_WATER && !(m == MATERIAL_ROCK && piles))
             set |= 1u << m;

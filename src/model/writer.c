@@ -115,9 +115,11 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         options.instances = true;
         options.points = VDB_POINTS_ALL;
         options.precision = VDB_PRECISION_EXACT;
-        options.spacing = job->arches.piles.rock_m;
+        options.spacing = job_piles(job)->rock_m;
         TRY(vdb_points(&frame->rocks.at, &options, &file));
         TRY(put_beside(root, job->name, FILE_ROCKS, frame->number, &file, manifest));
+        TRY(usd_rocks(&frame->rocks, &options, job->fps, &file));
+        TRY(put_beside(root, job->name, FILE_ROCKS_USD, frame->number, &file, manifest));
     }
 done:
     free(file.bytes);

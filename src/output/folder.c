@@ -21,6 +21,7 @@ static const struct {
     [FILE_CHECKPOINT] = {"checkpoint", "ckpt"},
     [FILE_MESH] = {"mesh", "ply"},
     [FILE_ROCKS] = {"rocks", "vdb"},
+    [FILE_ROCKS_USD] = {"rocks", "usdc"},
     [FILE_STACKS] = {"stacks", "stacks"},
     [FILE_USD] = {"points", "usdc"},
 };

@@ -19,6 +19,7 @@ enum folder_file {
     FILE_MESH,
     FILE_USD,
     FILE_ROCKS,
+    FILE_ROCKS_USD,
     FILE_STACKS
 };
 

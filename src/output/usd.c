@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/version.h"
-#include "output/usd_points.h"
 
 /* ---- words of the language */
 
@@ -110,35 +109,59 @@ static void add_volume(struct text *t, const struct usd_sequence *s, const char 
 }
 
 /* What the clips have values for; without declarations USD does not look into them. */
-static void add_declarations(struct text *t, const char *indent)
+static void add_declarations(struct text *t, const struct usd_prim *prim, const char *indent)
 {
-#define ROW(member, name, type, value, interpolation)                                                        \
-    text_add(t, "%s%s %s%s%s%s\n", indent, type, name, *interpolation ? " (interpolation = \"" : "",         \
-             interpolation, *interpolation ? "\")" : "");
-    USD_POINT_ATTRIBUTES(ROW)
-#undef ROW
+    for (size_t i = 0; i < prim->n; i++) {
+        const struct usd_attribute *a = &prim->attribute[i];
+        text_add(t, "%s%s %s%s%s%s\n", indent, a->type, a->name,
+                 *a->interpolation ? " (interpolation = \"" : "", a->interpolation,
+                 *a->interpolation ? "\")" : "");
+    }
+}
+
+/* A prim whose values are in a file a frame; its braces stay open. */
+static void begin_clips(struct text *t, const struct usd_sequence *s, const struct usd_prim *prim,
+                        const int *frame, size_t n)
+{
+    text_add(t,
+             "\n    def %s \"%s\" (\n        clips = {\n            dictionary default = {\n"
+             "                double2[] active = [",
+             prim->type, prim->name);
+    for (size_t i = 0; i < n; i++)
+        text_add(t, "%s(%d, %zu)", i ? ", " : "", frame[i], i);
+    text_add(t, "]\n                asset[] assetPaths = [");
+    for (size_t i = 0; i < n; i++) {
+        text_add(t, "%s\n                    ", i ? "," : "");
+        add_path(t, s, prim->folder, frame[i], "usdc");
+    }
+    text_add(t,
+             "\n                ]\n                asset manifestAssetPath = @./%s/%s.clips.usda@\n"
+             "                string primPath = \"/%s\"\n                double2[] times = [",
+             prim->folder, s->name, prim->name);
+    for (size_t i = 0; i < n; i++)
+        text_add(t, "%s(%d, %d)", i ? ", " : "", frame[i], frame[i]);
+    text_add(t, "]\n            }\n        }\n    )\n    {\n");
+    add_declarations(t, prim, "        ");
 }
 
 static void add_points(struct text *t, const struct usd_sequence *s)
 {
-    text_add(t, "\n    def Points \"points\" (\n        clips = {\n            dictionary default = {\n"
-                "                double2[] active = [");
-    for (size_t i = 0; i < s->n_points; i++)
-        text_add(t, "%s(%d, %zu)", i ? ", " : "", s->points_frame[i], i);
-    text_add(t, "]\n                asset[] assetPaths = [");
-    for (size_t i = 0; i < s->n_points; i++) {
-        text_add(t, "%s\n                    ", i ? "," : "");
-        add_path(t, s, "points", s->points_frame[i], "usdc");
-    }
-    text_add(t,
-             "\n                ]\n                asset manifestAssetPath = @./points/%s.clips.usda@\n"
-             "                string primPath = \"/points\"\n                double2[] times = [",
-             s->name);
-    for (size_t i = 0; i < s->n_points; i++)
-        text_add(t, "%s(%d, %d)", i ? ", " : "", s->points_frame[i], s->points_frame[i]);
-    text_add(t, "]\n            }\n        }\n    )\n    {\n");
-    add_declarations(t, "        ");
+    begin_clips(t, s, &usd_points_prim, s->points_frame, s->n_points);
     text_add(t, "    }\n");
+}
+
+/* Prototypes below an instancer show only where it puts them. */
+static void add_rocks(struct text *t, const struct usd_sequence *s, const char *root)
+{
+    begin_clips(t, s, &usd_rocks_prim, s->rocks_frame, s->n_rocks);
+    text_add(t, "        rel prototypes = [");
+    for (size_t i = 0; i < s->n_shapes; i++)
+        text_add(t, "%s</%s/rocks/prototypes/rock_%zu>", i ? ", " : "", root, i);
+    text_add(
+        t,
+        "]\n\n        def Scope \"prototypes\" (\n            prepend references = @./rocks/%s.shapes.usda@\n"
+        "        )\n        {\n        }\n    }\n",
+        s->name);
 }
 
 static void add_matrix(struct text *t, const double m[16])
@@ -254,15 +277,17 @@ void usd_stage(const struct usd_sequence *s, struct text *t)
         add_volume(t, s, root);
     if (s->n_points)
         add_points(t, s);
+    if (s->n_rocks)
+        add_rocks(t, s, root);
     if (s->n_cameras)
         add_cameras(t, s);
     text_add(t, "}\n");
 }
 
-void usd_clips(const struct usd_sequence *s, struct text *t)
+void usd_clips(const struct usd_sequence *s, const struct usd_prim *prim, struct text *t)
 {
-    add_head(t, s, "points");
-    text_add(t, "\ndef Points \"points\"\n{\n");
-    add_declarations(t, "    ");
+    add_head(t, s, prim->name);
+    text_add(t, "\ndef %s \"%s\"\n{\n", prim->type, prim->name);
+    add_declarations(t, prim, "    ");
     text_add(t, "}\n");
 }

@@ -5,6 +5,8 @@
  *                    clips, the cameras
  * points/NAME.1001.usdc      one frame's surface particles (usd_points), as a Points prim </points>
  * points/NAME.clips.usda     what these files may hold (usd_clips): USD's manifest of the clips
+ * rocks/NAME.1001.usdc       one frame's rocks (usd_rocks), as a PointInstancer </rocks>; rocks/NAME.clips.usda
+ * rocks/NAME.shapes.usda     their shapes (usd_shapes), which the stage has as the instancer's prototypes
  *
  * Units     Metres: metersPerUnit is 1. Axes are the files' (output.up). USD measures film in tenths of the
  *           scene's unit, so focal lengths and apertures are in decimetres; widths of points are diameters.
@@ -16,6 +18,7 @@
 #define HOODOO_USD_H
 
 #include "base/text.h"
+#include "output/usd_crate.h"
 #include "output/vdb.h"
 #include "particles/rock.h"
 
@@ -45,20 +48,41 @@ struct usd_sequence {
     int first, last; /* frames of the job */
     double fps;
     int up; /* OUTPUT_UP_* */
-    size_t n_fields, n_volumes, n_points, n_cameras;
+    size_t n_fields, n_volumes, n_points, n_rocks, n_cameras;
     const struct usd_field *field;
     double low[3], high[3];   /* m: the box of all fields, in the files' axes */
     const int *volumes_frame; /* those there are, ascending */
     const int *points_frame;
+    const int *rocks_frame;
+    size_t n_shapes; /* of rocks */
     const struct usd_camera *camera;
 };
 
 void usd_stage(const struct usd_sequence *s, struct text *out);
-void usd_clips(const struct usd_sequence *s, struct text *out);
+void usd_clips(const struct usd_sequence *s, const struct usd_prim *prim, struct text *out);
 
 /* The particles with a normal: positions, normals, widths, ids, the layer's colour, and as primvars stress,
  * von_mises, viability and layer. out->bytes is freed with free(). E_OUTPUT: more than a file can number. */
 MUST_USE status usd_points(const struct rock *rock, const struct vdb_options *options, double fps,
                            struct vdb_bytes *out);
+
+/* The rocks: positions, shapes, ids that stay with a rock, no turns. As above. */
+MUST_USE status usd_rocks(const struct frame_rocks *rocks, const struct vdb_options *options, double fps,
+                          struct vdb_bytes *out);
+
+/* What rocks look like: closed meshes around their positions, in the simulator's axes, m. */
+struct usd_shape {
+    size_t n_vertices;            /* 1 and more */
+    const float *vertex, *normal; /* [n_vertices][3] */
+};
+struct usd_shapes {
+    int up;
+    size_t n, n_triangles;
+    const struct usd_shape *shape;
+    const uint32_t *triangle; /* [n_triangles][3], of every shape */
+    float color[3];           /* linear */
+};
+
+void usd_shapes(const struct usd_shapes *s, struct text *out);
 
 #endif

@@ -16,6 +16,7 @@ void frame_free(struct frame *frame)
 {
     rock_free(&frame->rock);
     rock_free(&frame->rocks.at);
+    free(frame->rocks.box);
     free(frame->stacks.bytes);
     for (size_t g = 0; g < frame->grids.n_grids; g++)
         free(frame->grids.grid[g].value);

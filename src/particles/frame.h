@@ -78,11 +78,12 @@ struct frame_change {
 };
 enum { FRAME_CHANGES = 8 };
 
-/* Rocks to be put where the frame has piles of them: P, id, and in `layer` which of the tile's rocks. n = 0:
- * none are asked for. */
+/* Rocks to be put where the frame has piles of them: P, id, and in `layer` which of the tile's shapes. */
 struct frame_rocks {
     bool wanted;
     struct rock at;
+    size_t n_shapes;
+    float (*box)[2][3]; /* [n_shapes] m: the corners of each, from its P */
 };
 
 /* A file's bytes that a model made itself; NULL: none. */

@@ -54,13 +54,15 @@ void pile_tile_destroy(struct pile_tile *tile);
 struct pile_place {
     double at[3];  /* m: its centre */
     uint32_t rock; /* of the tile */
+    uint32_t id;   /* of the place: the same whenever a rock lies there */
 };
 
 /* Heights lo..hi of the layers of rocks over (x, y), ascending, into span[most][2]; how many. */
 typedef size_t (*pile_layers)(void *user, double x, double y, double (*span)[2], size_t most);
 
 /* The rocks of the repeated tile whose centres lie in layers of rocks over 0..size, no deeper below a layer's
- * top than twice the largest reach. In *out, freed with free(). */
+ * top than twice the largest reach. In *out, freed with free(). Heights are 0 and more; ids are of 32 bits, so
+ * that the tile's rocks times its repetitions in all three directions must be fewer. */
 MUST_USE status pile_place_all(const struct pile_tile *tile, const double size[2], pile_layers layers,
                                void *user, struct pile_place **out, size_t *n);
 

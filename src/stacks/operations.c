@@ -78,7 +78,7 @@ static double changed_field(void *user, double z, double *skip)
         g *= r * (2 - r);
     }
     if (g > 0)
-        g *= e->w->tools->noise(e->w->tools->user, e->w->op->scale_m, x);
+        g *= e->w->tools->noise(e->w->tools->user, e->w->op->scale_m, e->w->op->flatten, x);
     return f + fmin(fmax(g, -0.98), 0.98);
 }
 
@@ -215,7 +215,7 @@ static double inside(void *user, double z, double *skip)
         *skip = 0.8 * fmax(fabs(d) - 2.5 * op->roughness * radius, 0);
     if (op->roughness > 0 && fabs(d) < 2.5 * op->roughness * radius)
         d += op->roughness * radius *
-             fmin(fmax(e->w->tools->noise(e->w->tools->user, op->scale_m, x), -2.5), 2.5);
+             fmin(fmax(e->w->tools->noise(e->w->tools->user, op->scale_m, op->flatten, x), -2.5), 2.5);
     if (!e->line)
         return -d;
     /* Near the surface: the less deep, the farther from the tool's middle. */

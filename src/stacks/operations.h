@@ -21,8 +21,9 @@ struct tools {
     int n_materials;
     double sigma; /* m, of the surface */
 
-    /* Smooth noise of zero mean and unit variance, about `scale` metres coarse. */
-    double (*noise)(const void *user, double scale, const double x[3]);
+    /* Smooth noise of zero mean and unit variance, about `scale` metres coarse, `flatten` times less so in
+     * height. */
+    double (*noise)(const void *user, double scale, double flatten, const double x[3]);
     const void *user;
 };
 

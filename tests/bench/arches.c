@@ -32,9 +32,10 @@ static void check(status st)
     exit(1);
 }
 
-static double none(const void *user, double scale, const double x[3])
+static double none(const void *user, double scale, double flatten, const double x[3])
 {
     (void)user;
+    (void)flatten;
     return sin(x[0] / scale) * sin(x[1] / scale) * sin(x[2] / scale);
 }
 
@@ -94,7 +95,8 @@ static void edit(void)
                                .material = material,
                                .travel = true,
                                .strength = 1,
-                               .scale_m = 5};
+                               .scale_m = 5,
+                               .flatten = 1};
     int lo[2], hi[2];
     struct stabilise options = {.table = table, .n_materials = N_TABLE};
     struct stabilised out;

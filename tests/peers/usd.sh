@@ -1,5 +1,5 @@
 #!/bin/sh
-# Pixar's USD opens a run's stage: metres, axes, time, volumes, points, cameras; for both up axes of files, and half done.
+# Pixar's USD opens a run's stage: metres, axes, time, volumes, points, cameras, rocks in piles; for both up axes of files, and half done.
 set -u
 python=$HOODOO_TOP/build/venv-usd/bin/python
 job=$HOODOO_TOP/tests/peers/lib/usd.yaml
@@ -20,3 +20,8 @@ if cmp -s out_y/9-arches.usda out_z/9-arches.usda && ! cmp -s out_y/9-arches.usd
 cp out_y/9-arches.usda before.usda && rm out_y/9-arches.usda
 "$HOODOO" run "$job" --out out_y --progress none >log 2>&1
 if cmp -s out_y/9-arches.usda before.usda; then echo "ok"; else echo "not ok"; fi | sed 's/$/ a stage that was removed comes back without a frame made anew/'
+rocks=$HOODOO_TOP/tests/peers/lib/usd_rocks.yaml
+for up in y z; do
+    "$HOODOO" run "$rocks" --set "output.up=$up" --out "rocks_$up" --progress none >log 2>&1 || sed 's/^/not ok rocks: /' log
+    "$python" "$HOODOO_TOP/tests/peers/lib/in_usd_rocks.py" "rocks_$up" "$up"
+done

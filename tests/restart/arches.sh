@@ -43,7 +43,7 @@ for other in again pieces; do
 done
 "$HOODOO" verify pieces >>log 2>&1
 say $? "and verifies"
-python3 - <<'PY'
+/usr/bin/python3 - <<'PY'
 import json, glob
 bad = 0
 for path in sorted(glob.glob("whole/frames/*.json")):
@@ -60,9 +60,17 @@ frames: 1-2
 clock: {years_per_frame: 1000}
 domain: {size_m: [16, 12, 10], spacing_m: 1}
 scene: {stacks: {file: whole/stacks/terrain.0008.stacks}}
+deposition: {piles: {rock_m: 0.5, rocks: 20}}
+checkpoint: {every: 1}
 JOB
 "$HOODOO" run further.yaml --out further --progress none >>log 2>&1
 say $? "arenite weathers it"
+"$HOODOO" run further.yaml --out parts --frames 1 --progress none >>log 2>&1 &&
+    "$HOODOO" run further.yaml --out parts --progress none >>log 2>&1 && diff -r further/rocks parts/rocks >>log 2>&1
+say $? "in two parts, with the same rocks on its loose ground"
+n=$("$HOODOO" inspect --json further/rocks/further.0001.vdb | /usr/bin/python3 -c 'import json, sys; print(sum(g.get("points", 0) for g in json.load(sys.stdin)["grids"]))')
+[ "$n" -gt 20 ]
+say $? "which are there: $n"
 printf 'hoodoo.stck' >broken.stacks
 head -c 3000 /dev/urandom >>broken.stacks
 sed 's|whole/stacks/terrain.0008.stacks|broken.stacks|' further.yaml >broken.yaml
@@ -74,5 +82,67 @@ say $? "a damaged terrain is refused"
         -e 's|scene: .*|scene: {mesh: {file: further/mesh/further.0002.ply, up: y}}|' job.yaml >back.yaml &&
     "$HOODOO" run back.yaml --out back --progress none >>log 2>&1
 say $? "and what is left is terrain again"
+# What is made of a run's files later: the same pictures, a mesh, a report, a stage.
+"$HOODOO" run job.yaml --out bare --set 'output.aov.cameras=[]' --progress none >>log 2>&1 &&
+    "$HOODOO" aov bare --camera main --progress none >>log 2>&1
+say $? "pictures out of the files"
+same=0
+for frame in 1 4 8; do
+    cmp -s whole/aov/terrain.main.000$frame.exr bare/aov/terrain.main.000$frame.exr || same=1
+done
+say $same "are the run's own, byte for byte"
+cmp -s whole/terrain.usda pieces/terrain.usda && cmp -s whole/rocks/terrain.shapes.usda pieces/rocks/terrain.shapes.usda
+say $? "the stage of the pieces is that of the whole"
+"$HOODOO" mesh whole --frames 8 >>log 2>&1 && [ -s whole/mesh/terrain.0008.ply ]
+say $? "a mesh"
+"$HOODOO" report whole --out page >>log 2>&1 || "$HOODOO" report whole >>log 2>&1
+[ -s whole/report/index.html ] && grep -q "terrain" whole/report/index.html
+say $? "a report"
+# Another tool from a frame on: a branch; it may not have another domain.
+sed 's/  - {tool: fill.*/&\n    - {tool: sweep, frames: 8, points_m: [[8, -1, 5, 2], [8, 13, 5, 2]]}/; s/name: terrain/name: other/' job.yaml >other.yaml
+"$HOODOO" run other.yaml --from whole@7 --out branch --progress none >>log 2>&1 && [ -s branch/frames/other.0008.json ] && [ ! -e branch/frames/other.0006.json ]
+say $? "a branch with a further tool"
+cmp -s whole/stacks/terrain.0008.stacks branch/stacks/other.0008.stacks
+[ $? = 1 ]
+say $? "is other terrain"
+sed 's/size_m: \[16, 12, 10\]/size_m: [16, 12, 11]/' other.yaml >taller.yaml
+"$HOODOO" run taller.yaml --from whole@7 --out taller --progress none >>log 2>&1
+[ $? = 7 ]
+say $? "a branch of another height is refused"
+# Images in and out: a height field as scene, a cover, and what a map says of them.
+/usr/bin/python3 - <<'PY'
+import numpy as np, OpenImageIO as oiio
+y, x = np.mgrid[0:24, 0:32]
+for name, value in (("height", 0.5 + 0.1 * np.sin(x / 6) * np.cos(y / 5)), ("sand", 0.5 - 0.5 * np.cos(x / 5) * np.cos(y / 4))):
+    out = oiio.ImageOutput.create(name + ".exr")
+    out.open(name + ".exr", oiio.ImageSpec(32, 24, 1, oiio.FLOAT))
+    out.write_image(value.astype(np.float32).reshape(24, 32, 1))
+    out.close()
+PY
+cat >image.yaml <<'JOB'
+hoodoo: 1
+name: image
+model: arches
+frames: 1
+domain: {size_m: [16, 12, 10], spacing_m: 0.5}
+scene: {heightfield: {file: height.exr, min_m: [0, 0, 0], max_m: [16, 12, 8]}}
+arches: {maps: true, stacks: none, covers: [{file: sand.exr, material: sand, thickness_m: 1}]}
+JOB
+"$HOODOO" run image.yaml --out image --progress none >>log 2>&1
+say $? "terrain from images"
+/usr/bin/python3 - <<'PY'
+import numpy as np, OpenImageIO as oiio
+def read(path):
+    file = oiio.ImageInput.open(path)
+    names = file.spec().channelnames
+    return dict(zip(names, np.moveaxis(file.read_image(0, 0, 0, len(names), oiio.FLOAT), 2, 0)))
+map_, sand, height = read("image/aov/image.0001.exr"), next(iter(read("sand.exr").values())), next(iter(read("height.exr").values()))
+print("#", *map_)
+total = map_["bedrock.thickness"] + map_["sand.thickness"]
+good = np.allclose(map_["sand.thickness"], sand, atol=1e-5) and np.allclose(map_["height.Z"], total, atol=1e-5)
+print("ok" if good else "not ok", "- the map has the cover's thickness, and heights add up", abs(map_["sand.thickness"] - sand).max())
+worst = abs(map_["bedrock.thickness"] - 8 * height).max()
+print("ok" if worst < 0.05 else "not ok", "- bedrock is as high as the height field says, within", worst)
+PY
 grep -q "^not ok" log && cat log
 exit 0

@@ -20,10 +20,10 @@ static const struct material table[] = {{"air", 90, 0, {0}},
 enum { N_TABLE = 5 };
 
 /* Smooth and wavy: what noise is for here. */
-static double waves(const void *user, double scale, const double x[3])
+static double waves(const void *user, double scale, double flatten, const double x[3])
 {
     (void)user;
-    return 1.2 * sin(5 * x[0] / scale) * sin(4.3 * x[1] / scale + 1) * sin(4.7 * x[2] / scale + 2);
+    return 1.2 * sin(5 * x[0] / scale) * sin(4.3 * x[1] / scale + 1) * sin(4.7 * flatten * x[2] / scale + 2);
 }
 
 static struct job_operation tool(int which, double (*points)[4], size_t n)
@@ -39,7 +39,8 @@ static struct job_operation tool(int which, double (*points)[4], size_t n)
                                .thickness_m = 1,
                                .rocks = 0.5,
                                .depth = DEPTH_DEEP,
-                               .scale_m = 5};
+                               .scale_m = 5,
+                               .flatten = 1};
     op.material = none;
     return op;
 }

@@ -285,6 +285,67 @@ static void test_visible(void **state)
     stacks_destroy(&s);
 }
 
+static uint32_t material_at(const struct stacks *s, const double q[3])
+{
+    size_t n;
+    const uint32_t *layer = stacks_column(s, (int)q[0], (int)q[1], &n);
+    return column_at(layer, n, stacks_quanta(s, q[2]));
+}
+
+/* The same by counting faces of voxels of 1/16 m between air or water and all else. Boxes begin and end within
+ * voxels of 1/8 m, in which layers are whole. */
+static void test_visible_equals_faces(void **state)
+{
+    (void)state;
+    enum { N = 12, WIDE = 40 };
+    struct stacks s;
+    double worst = 0, most = 0;
+    int kinds[MATERIALS_MAX] = {0};
+    assert_ok(stacks_create((const int[]){N, N}, 1, STACK_TOP / 1048576.0, &s));
+    for (int j = 0; j < N; j++)
+        for (int i = 0; i < N; i++)
+            for (uint32_t k = 0; k < 6; k++) {
+                uint32_t at = (uint32_t)(j * N + i);
+                double lo = floor(8 * 14 * random_share(13, at, k)) / 8,
+                       size = 0.125 + floor(8 * 5 * random_share(14, at, k)) / 8;
+                put(&s, i, j, i, j, lo, lo + size, k % 5); /* air, bedrock, sand, rock, water */
+            }
+    struct surface f = {&s, ROCK_SET, 1.25};
+    for (uint32_t t = 0; t < 60; t++) {
+        double p[3], area[MATERIALS_MAX], counted[MATERIALS_MAX] = {0};
+        for (uint32_t a = 0; a < 3; a++)
+            p[a] = 2 + floor(8 * (a == 2 ? 12 : N - 4) * random_share(15, t, a)) / 8 + 1.0 / 16;
+        for (int c = 0; c < WIDE; c++)
+            for (int b = 0; b < WIDE; b++)
+                for (int a = 0; a < WIDE; a++) {
+                    const int x[3] = {a, b, c};
+                    double q[3], r[3];
+                    for (int d = 0; d < 3; d++)
+                        q[d] = p[d] - 1.25 + (x[d] + 0.5) / 16;
+                    uint32_t own = material_at(&s, q);
+                    for (int d = 0; d < 3; d++) {
+                        memcpy(r, q, sizeof q);
+                        r[d] += 1.0 / 16;
+                        uint32_t next = material_at(&s, r);
+                        bool open = own == MATERIAL_AIR || own == MATERIAL_WATER;
+                        if (x[d] + 1 < WIDE && open != (next == MATERIAL_AIR || next == MATERIAL_WATER))
+                            counted[open ? next : own] += 1.0 / 256;
+                    }
+                }
+        surface_visible(&f, p, area);
+        for (int m = 0; m < MATERIALS_MAX; m++) {
+            worst = fmax(worst, fabs(area[m] - counted[m]));
+            most = fmax(most, counted[m]);
+            kinds[m] += counted[m] > 0;
+        }
+    }
+    print_message("# what shows, against faces of voxels: within %.1e of up to %.1f m2\n", worst, most);
+    assert_true(worst < 1e-5 && kinds[MATERIAL_BEDROCK] > 30 && kinds[MATERIAL_SAND] > 30 &&
+                kinds[MATERIAL_ROCK] > 30);
+    assert_true(kinds[MATERIAL_AIR] == 0 && kinds[MATERIAL_WATER] == 0);
+    stacks_destroy(&s);
+}
+
 /* ---- coming to rest */
 
 /* The steepest that loose material stands above what it could slide into, deg over its repose: every pair of
@@ -476,6 +537,7 @@ int main(void)
         cmocka_unit_test(test_pure_and_half),
         cmocka_unit_test(test_equals_voxels),
         cmocka_unit_test(test_visible),
+        cmocka_unit_test(test_visible_equals_faces),
         cmocka_unit_test(test_a_heap),
         cmocka_unit_test(test_falls_through_and_over),
         cmocka_unit_test(test_chaos_comes_to_rest),

@@ -1,0 +1,311 @@
+#include "output/usd_crate.h"
+
+#include <string.h>
+
+#include "base/text.h"
+#include "job/job.h"
+
+/* ---- the container */
+
+enum { BOOTSTRAP = 88, SECTION_NAME = 16 };
+enum value_type { TOKEN_VECTOR = 41, SPECIFIER = 42, TIME_SAMPLES = 46, DOUBLE_VECTOR = 48 };
+enum spec_type { SPEC_ATTRIBUTE = 1, SPEC_PRIM = 6, SPEC_ROOT = 7 };
+static const uint64_t ARRAY = 1ULL << 63, INLINED = 1ULL << 62;
+
+enum { MAX_TOKENS = 64, MAX_FIELDS = 64, MAX_SPECS = 2 + USD_ATTRIBUTES_MAX };
+
+struct crate {
+    const struct usd_prim *prim;
+    struct text bytes;
+    const char *token[MAX_TOKENS];
+    uint32_t n_tokens, n_fields, n_set, n_specs;
+    uint32_t field_token[MAX_FIELDS];
+    uint64_t field_value[MAX_FIELDS];
+    uint32_t set[MAX_FIELDS + MAX_SPECS]; /* fields of a spec, ended by END_OF_SET */
+    uint32_t spec[MAX_SPECS][3];          /* path, where its set begins, type */
+};
+static const uint32_t END_OF_SET = UINT32_MAX;
+
+static void add_u64(struct crate *c, uint64_t value)
+{
+    text_add_bytes(&c->bytes, &value, sizeof value);
+}
+
+static void align(struct crate *c)
+{
+    static const char zero[8] = {0};
+    text_add_bytes(&c->bytes, zero, (8 - c->bytes.size % 8) % 8);
+}
+
+static uint32_t token(struct crate *c, const char *text)
+{
+    for (uint32_t i = 0; i < c->n_tokens; i++)
+        if (strcmp(c->token[i], text) == 0)
+            return i;
+    c->token[c->n_tokens] = text;
+    return c->n_tokens++;
+}
+
+/* A value's type, and where it is or, inlined, what it is. */
+static uint64_t value(enum value_type type, uint64_t payload)
+{
+    return (uint64_t)type << 48 | payload;
+}
+
+static uint64_t token_value(struct crate *c, const char *text)
+{
+    return INLINED | value((enum value_type)USD_TOKEN, token(c, text));
+}
+
+static uint64_t double_value(struct crate *c, double number)
+{
+    align(c);
+    const uint64_t at = c->bytes.size;
+    text_add_bytes(&c->bytes, &number, sizeof number);
+    return value((enum value_type)USD_DOUBLE, at);
+}
+
+static uint64_t tokens_value(struct crate *c, const char *const *text, size_t n)
+{
+    align(c);
+    const uint64_t at = c->bytes.size;
+    add_u64(c, n);
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t t = token(c, text[i]);
+        text_add_bytes(&c->bytes, &t, sizeof t);
+    }
+    return value(TOKEN_VECTOR, at);
+}
+
+/* An array of n items: how many, and the items. They begin at a multiple of 8, so that USD may map them. */
+static uint64_t array_value(struct crate *c, enum usd_type type, const void *items, size_t n,
+                            size_t item_size)
+{
+    if (n == 0)
+        return ARRAY | value((enum value_type)type, 0);
+    align(c);
+    const uint64_t at = c->bytes.size;
+    add_u64(c, n);
+    text_add_bytes(&c->bytes, items, n * item_size);
+    return ARRAY | value((enum value_type)type, at);
+}
+
+/* One sample at `time`. Both parts begin with how far it is to what follows them. */
+static uint64_t sample_value(struct crate *c, double time, uint64_t sample)
+{
+    align(c);
+    const uint64_t times = c->bytes.size;
+    add_u64(c, 1);
+    text_add_bytes(&c->bytes, &time, sizeof time);
+    const uint64_t at = c->bytes.size;
+    add_u64(c, 8);
+    add_u64(c, value(DOUBLE_VECTOR, times));
+    add_u64(c, 8);
+    add_u64(c, 1);
+    add_u64(c, sample);
+    return value(TIME_SAMPLES, at);
+}
+
+static void spec(struct crate *c, uint32_t path, enum spec_type type)
+{
+    const uint32_t row[3] = {path, c->n_set, type};
+    memcpy(c->spec[c->n_specs++], row, sizeof row);
+}
+
+static void field(struct crate *c, const char *name, uint64_t value_of)
+{
+    c->field_token[c->n_fields] = token(c, name);
+    c->field_value[c->n_fields] = value_of;
+    c->set[c->n_set++] = c->n_fields++;
+}
+
+static void end_spec(struct crate *c)
+{
+    c->set[c->n_set++] = END_OF_SET;
+}
+
+/* ---- sections */
+
+/* An LZ4 block of literals alone, after the byte that says there is one block; its size first. */
+static void add_packed(struct crate *c, const void *bytes, size_t n)
+{
+    static const unsigned char more = 255;
+    const unsigned char head[2] = {0, (unsigned char)((n < 15 ? n : 15) << 4)};
+    const size_t lengths = n < 15 ? 0 : (n - 15) / 255 + 1;
+    add_u64(c, sizeof head + lengths + n);
+    text_add_bytes(&c->bytes, head, sizeof head);
+    for (size_t i = 0; i + 1 < lengths; i++)
+        text_add_bytes(&c->bytes, &more, 1);
+    if (lengths) {
+        const unsigned char rest = (unsigned char)((n - 15) % 255);
+        text_add_bytes(&c->bytes, &rest, 1);
+    }
+    text_add_bytes(&c->bytes, bytes, n);
+}
+
+/* Differences, each in 32 bits: a commonest one that none makes use of, two bits a difference that say so (3),
+ * the differences. Each of `stride` words has one. */
+static void add_integers(struct crate *c, const uint32_t *word, uint32_t n, size_t stride)
+{
+    enum { MOST = 2 * MAX_FIELDS };
+    uint32_t packed[1 + MOST / 16 + 1 + MOST], before = 0;
+    const size_t codes = (n * 2 + 7) / 8;
+    unsigned char *at = (unsigned char *)packed;
+    memset(packed, 0, 4);
+    memset(at + 4, 0xff, codes);
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t difference = word[i * stride] - before;
+        before = word[i * stride];
+        memcpy(at + 4 + codes + 4 * (size_t)i, &difference, 4);
+    }
+    add_packed(c, packed, 4 + codes + 4 * (size_t)n);
+}
+
+static void add_tokens(struct crate *c)
+{
+    struct text names = {0};
+    for (uint32_t i = 0; i < c->n_tokens; i++)
+        text_add_bytes(&names, c->token[i], strlen(c->token[i]) + 1);
+    add_u64(c, c->n_tokens);
+    add_u64(c, names.size);
+    add_packed(c, names.data, names.size);
+    c->bytes.failed |= names.failed;
+    text_free(&names);
+}
+
+static void add_strings(struct crate *c)
+{
+    add_u64(c, 0);
+}
+
+static void add_fields(struct crate *c)
+{
+    add_u64(c, c->n_fields);
+    add_integers(c, c->field_token, c->n_fields, 1);
+    add_packed(c, c->field_value, c->n_fields * sizeof *c->field_value);
+}
+
+static void add_fieldsets(struct crate *c)
+{
+    add_u64(c, c->n_set);
+    add_integers(c, c->set, c->n_set, 1);
+}
+
+/* The tree, depth first: the root, its only prim, and that one's attributes. A property's name is negative;
+ * jumps tell what follows: -1 a child, 0 a sibling, -2 neither. */
+static void add_paths(struct crate *c)
+{
+    uint32_t row[MAX_SPECS][3];
+    for (uint32_t i = 0; i < c->n_specs; i++) {
+        const bool property = i >= 2;
+        const uint32_t name =
+            i == 0 ? 0 : token(c, property ? c->prim->attribute[i - 2].name : c->prim->name);
+        row[i][0] = i;
+        row[i][1] = property ? 0 - name : name;
+        row[i][2] = (uint32_t)(!property ? -1 : i + 1 < c->n_specs ? 0 : -2);
+    }
+    add_u64(c, c->n_specs); /* paths there are, and paths in the tree */
+    add_u64(c, c->n_specs);
+    for (int column = 0; column < 3; column++)
+        add_integers(c, &row[0][column], c->n_specs, 3);
+}
+
+static void add_specs(struct crate *c)
+{
+    add_u64(c, c->n_specs);
+    for (int column = 0; column < 3; column++)
+        add_integers(c, &c->spec[0][column], c->n_specs, 3);
+}
+
+static void add_sections(struct crate *c)
+{
+    static const struct {
+        const char *name;
+        void (*add)(struct crate *c);
+    } sections[] = {{"TOKENS", add_tokens},       {"STRINGS", add_strings}, {"FIELDS", add_fields},
+                    {"FIELDSETS", add_fieldsets}, {"PATHS", add_paths},     {"SPECS", add_specs}};
+    enum { N = sizeof sections / sizeof *sections };
+    struct {
+        char name[SECTION_NAME];
+        uint64_t start, size;
+    } table[N] = {0};
+    for (size_t i = 0; i < N; i++) {
+        align(c);
+        memcpy(table[i].name, sections[i].name, strlen(sections[i].name));
+        table[i].start = c->bytes.size;
+        sections[i].add(c);
+        table[i].size = c->bytes.size - table[i].start;
+    }
+    align(c);
+    const uint64_t at = c->bytes.size;
+    add_u64(c, N);
+    text_add_bytes(&c->bytes, table, sizeof table);
+    if (!c->bytes.failed)
+        memcpy(c->bytes.data + 16, &at, sizeof at);
+}
+
+/* ---- the prim */
+
+static void add_attribute(struct crate *c, uint32_t which, const struct usd_items *items, int frame)
+{
+    const struct usd_attribute *a = &c->prim->attribute[which];
+    const uint64_t array = array_value(c, a->value, items->at, items->n, a->size);
+    spec(c, which + 2, SPEC_ATTRIBUTE);
+    field(c, "typeName", token_value(c, a->type));
+    if (*a->interpolation)
+        field(c, "interpolation", token_value(c, a->interpolation));
+    field(c, "timeSamples", sample_value(c, frame, array));
+    end_spec(c);
+}
+
+static void add_prims(struct crate *c, int up, int frame, double fps)
+{
+    const struct usd_prim *p = c->prim;
+    const char *attribute[USD_ATTRIBUTES_MAX];
+    for (size_t i = 0; i < p->n; i++)
+        attribute[i] = p->attribute[i].name;
+    spec(c, 0, SPEC_ROOT);
+    field(c, "defaultPrim", token_value(c, p->name));
+    field(c, "endTimeCode", double_value(c, frame));
+    field(c, "metersPerUnit", double_value(c, 1));
+    field(c, "primChildren", tokens_value(c, &p->name, 1));
+    field(c, "startTimeCode", double_value(c, frame));
+    field(c, "timeCodesPerSecond", double_value(c, fps));
+    field(c, "upAxis", token_value(c, up == OUTPUT_UP_Y ? "Y" : "Z"));
+    end_spec(c);
+    spec(c, 1, SPEC_PRIM);
+    field(c, "properties", tokens_value(c, attribute, p->n));
+    field(c, "specifier", INLINED | value(SPECIFIER, 0));
+    field(c, "typeName", token_value(c, p->type));
+    end_spec(c);
+}
+
+status usd_crate(const struct usd_prim *prim, const struct usd_items *items, int up, int frame, double fps,
+                 struct vdb_bytes *out)
+{
+    static const unsigned char head[BOOTSTRAP] = {'P', 'X', 'R', '-', 'U', 'S', 'D', 'C', 0, 8, 0};
+    status st = OK;
+    struct crate c = {.prim = prim};
+    *out = (struct vdb_bytes){0};
+    text_add_bytes(&c.bytes, head, sizeof head);
+    token(&c, "defaultPrim"); /* the first name is number 0, which has no negative: no property's */
+    add_prims(&c, up, frame, fps);
+    for (uint32_t a = 0; a < prim->n; a++)
+        add_attribute(&c, a, &items[a], frame);
+    /* Every name is known before the section of names is written. */
+    add_sections(&c);
+    TRY(text_status(&c.bytes));
+    *out = (struct vdb_bytes){.bytes = c.bytes.data, .size = c.bytes.size};
+    c.bytes = (struct text){0};
+done:
+    text_free(&c.bytes);
+    return st;
+}
+
+/* To the files' axes; 0 - y: no negative zeros. */
+void usd_turn(const float from[3], int up, float to[3])
+{
+    to[0] = from[0];
+    to[1] = up == OUTPUT_UP_Y ? from[2] : from[1];
+    to[2] = up == OUTPUT_UP_Y ? 0 - from[1] : from[2];
+}
