@@ -8,6 +8,8 @@
  *            triangles, none cross, none lie in a face of the cell, and cells meet only in the segments on
  *            their faces. Vertices keep a small share of an edge away from samples, so no triangle is a
  *            point. Vertices of equal lattice coordinate have equal floats, so rounding changes none of this.
+ *            (Where two corners are cut off at opposite ends of a cell, their triangles lie on both sides of
+ *            its middle.)
  * Smooth     Taubin's two steps (1995), in and out, along the normals; the volume stays. See trimesh_smooth().
  * Simplify   Vertices are drawn into a neighbour while every vertex of the first surface stays within a
  *            tolerance of the new one.

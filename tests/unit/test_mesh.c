@@ -209,12 +209,76 @@ static void crossings_are_found(void **state)
     }
 }
 
+/* A rough ball in two colours, smoothed and simplified: closed, of its volume, no vertex gone farther than it may,
+ * and the same from the same. */
+static void a_rough_ball_keeps_its_shape(void **state)
+{
+    (void)state;
+    enum { N = 26 };
+    static float field[N * N * N], again[N * N * N];
+    const struct trimesh_lattice l = {.n = {N, N, N}, .voxel = 0.5};
+    const double tolerance = 0.1;
+    for (int i = 0; i < N * N * N; i++) {
+        double x = i % N - 12.3, y = i / N % N - 12.6, z = i / N / N - 12.1;
+        field[i] = again[i] = (float)(0.5 * (sqrt(x * x + y * y + z * z) - 9 + 0.4 * (uniform() - 0.5)));
+    }
+    struct trimesh fine, ball, twin;
+    uint32_t *kept, *kept_twin, *label;
+    size_t crossings;
+    assert_int_equal(trimesh_march(field, &l, &ball), OK);
+    assert_int_equal(trimesh_march(again, &l, &twin), OK);
+    label = calloc(ball.n_vertices, sizeof *label);
+    for (size_t v = 0; v < ball.n_vertices; v++)
+        label[v] = ball.vertex[3 * v + 2] > 7;
+    const double volume = trimesh_volume(&ball);
+    assert_int_equal(trimesh_smooth(&ball, label, 10, 0.2), OK);
+    assert_int_equal(trimesh_smooth(&twin, label, 10, 0.2), OK);
+    assert_true(fabs(trimesh_volume(&ball) / volume - 1) < 1e-3);
+    fine = (struct trimesh){.n_vertices = ball.n_vertices, .n_triangles = ball.n_triangles};
+    fine.vertex = malloc(3 * fine.n_vertices * sizeof *fine.vertex);
+    memcpy(fine.vertex, ball.vertex, 3 * fine.n_vertices * sizeof *fine.vertex);
+    assert_int_equal(trimesh_simplify(&ball, label, tolerance, 4, &kept), OK);
+    assert_int_equal(trimesh_simplify(&twin, label, tolerance, 4, &kept_twin), OK);
+    assert_int_equal(ball.n_triangles, twin.n_triangles);
+    assert_memory_equal(ball.triangle, twin.triangle, 3 * ball.n_triangles * sizeof *ball.triangle);
+    assert_memory_equal(ball.vertex, twin.vertex, 3 * ball.n_vertices * sizeof *ball.vertex);
+    for (size_t v = 0; v < ball.n_vertices; v++)
+        assert_memory_equal(ball.vertex + 3 * v, fine.vertex + 3 * kept[v], 3 * sizeof *ball.vertex);
+    double farthest = 0;
+    for (size_t v = 0; v < fine.n_vertices; v++) {
+        double p[3], least = INFINITY;
+        for (int d = 0; d < 3; d++)
+            p[d] = (double)fine.vertex[3 * v + (size_t)d];
+        for (size_t t = 0; t < ball.n_triangles; t++) {
+            double x[3][3];
+            for (int k = 0; k < 3; k++)
+                for (int d = 0; d < 3; d++)
+                    x[k][d] = (double)ball.vertex[3 * (size_t)ball.triangle[3 * t + (size_t)k] + (size_t)d];
+            least = fmin(least, triangle_distance2(p, (const double(*)[3])x));
+        }
+        farthest = fmax(farthest, sqrt(least));
+    }
+    print_message("# %zu of %zu triangles, %.4f m off at most\n", ball.n_triangles, fine.n_triangles,
+                  farthest);
+    assert_true(ball.n_triangles < fine.n_triangles / 2 && farthest <= tolerance);
+    assert_true(is_closed(&ball));
+    assert_int_equal(trimesh_crossings(&ball, &crossings), OK);
+    assert_int_equal(crossings, 0);
+    trimesh_free(&ball);
+    trimesh_free(&twin);
+    free(fine.vertex);
+    free(kept);
+    free(kept_twin);
+    free(label);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(triangles_in_general_position), cmocka_unit_test(triangles_in_a_plane),
         cmocka_unit_test(every_case_is_closed),          cmocka_unit_test(nothing_gives_nothing),
         cmocka_unit_test(too_far_away_is_refused),       cmocka_unit_test(crossings_are_found),
+        cmocka_unit_test(a_rough_ball_keeps_its_shape),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
