@@ -185,12 +185,13 @@ status cli_preview(int argc, char **argv)
         {"view", "RANGE", OPTION_RANGE, &w.which,
          "these of the views alone, such as 0-11 (default: all); with --only views, so that several machines "
          "can share an orbit"},
-        {"show", "rock|stress|von_mises|viability|discharge|vegetation|deposit", OPTION_CHOICE, &w.show,
-         "a value of the surface as colours, with a legend (default rock: as it looks)"},
+        {"show", "rock|stress|von_mises|viability|discharge|vegetation|deposit|erodibility", OPTION_CHOICE,
+         &w.show, "a value of the surface as colours, with a legend (default rock: as it looks)"},
         {"range", "job|data|LO:HI", OPTION_TEXT, &w.range,
          "what the colours span: job (default), the same for all pictures of a job (stress from the weight "
          "of "
-         "the rock, discharge from its water, shares 0 to 1); data, all but the outermost hundredths of "
+         "the rock, discharge from its water, erodibility from its strata, shares 0 to 1); data, all but the "
+         "outermost hundredths of "
          "these "
          "frames' values; or LO:HI in the legend's unit"},
         {"camera", "NAME", OPTION_TEXT, &w.camera, "of the job (default: its first)"},
