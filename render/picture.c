@@ -460,7 +460,7 @@ status picture_orbit(struct preview *p, int frame, int views, struct frame_range
     int width, height;
     volumes_path(p, frame, source);
     size_of(p, chosen_camera(p), true, &width, &height);
-    for (int view = which.first; view <= which.last; view += which.step) {
+    for (int view = which.first, k = 0; view <= which.last; view += which.step, k++) {
         picture_view_path(p, frame, view, path);
         tag_of(p, width, height, view, views, tag);
         if (current_as_asked(p, path, source, tag))
@@ -477,6 +477,7 @@ status picture_orbit(struct preview *p, int frame, int views, struct frame_range
         snprintf(number, sizeof number, "view %03d", view); /* as its file is called */
         describe(p, frame, number, &picture->slate);
         TRY(start(p, picture, scene, view));
+        progress_note(p->progress, (size_t)k, range_count(which), what);
     }
     TRY(children_wait(&p->children));
 done:

@@ -6,23 +6,23 @@
 #include <string.h>
 
 static const struct {
-    const char *name, *unit;
+    const char *unit;
     double scale;
     bool logarithmic, diverging;
 } table[SHOWS] = {
-    [SHOW_ROCK] = {"", "", 1, false, false},
-    [SHOW_STRESS] = {"stress", "MPa", 1e-6, false, true},
-    [SHOW_VON_MISES] = {"von_mises", "MPa", 1e-6, false, false},
-    [SHOW_VIABILITY] = {"viability", "", 1, false, false},
-    [SHOW_DISCHARGE] = {"discharge", "m3/yr", 1, true, false},
-    [SHOW_VEGETATION] = {"vegetation", "", 1, false, false},
-    [SHOW_DEPOSIT] = {"deposit", "", 1, false, false},
-    [SHOW_ERODIBILITY] = {"erodibility", "m/kyr", 1, true, false},
+    [SHOW_ROCK] = {"", 1, false, false},
+    [SHOW_STRESS] = {"MPa", 1e-6, false, true},
+    [SHOW_VON_MISES] = {"MPa", 1e-6, false, false},
+    [SHOW_VIABILITY] = {"", 1, false, false},
+    [SHOW_DISCHARGE] = {"m3/yr", 1, true, false},
+    [SHOW_VEGETATION] = {"", 1, false, false},
+    [SHOW_DEPOSIT] = {"", 1, false, false},
+    [SHOW_ERODIBILITY] = {"m/kyr", 1, true, false},
 };
 
 const char *show_name(enum show show)
 {
-    return table[show].name;
+    return show == SHOW_ROCK ? "" : surface_value_names[show - 1];
 }
 
 const char *show_unit(enum show show)
@@ -136,7 +136,7 @@ status show_parse_range(enum show show, const char *text, struct show_range *out
                     *table[show].unit ? " in " : "", table[show].unit);
     if (table[show].logarithmic && r.low <= 0)
         return fail(E_USAGE, "--range %.40s: %s is shown by its logarithm, LO must be above 0", text,
-                    table[show].name);
+                    show_name(show));
     *out = r;
     return OK;
 }

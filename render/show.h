@@ -11,7 +11,7 @@
 
 #include "job/job.h"
 
-/* In the order of --show's words; SHOW_ROCK is the rock as it looks. */
+/* In the order of --show's words; SHOW_ROCK is the rock as it looks, the others are surface_value_names. */
 enum show {
     SHOW_ROCK,
     SHOW_STRESS,
