@@ -65,6 +65,13 @@ void farm_command(const struct farm *f, const struct farm_task *t, const char *d
         add_made(c, "%s", root);
         add(c, "--only=sheet");
         break;
+    case FARM_SHOW:
+        add(c, "preview");
+        add_made(c, "%s", root);
+        add_made(c, "--frames=%s", frames);
+        add(c, "--only=stills");
+        add_made(c, "--show=%s", t->show);
+        break;
     case FARM_VIEW:
         add(c, "preview");
         add_made(c, "%s", root);

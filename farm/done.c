@@ -131,6 +131,11 @@ status farm_task_done(const struct farm *f, const struct farm_task *t, bool *don
             snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);
             *done = !graph_has_still(job, frame) || current(root, made, from);
             break;
+        case FARM_SHOW:
+            snprintf(made, sizeof made, "preview/%s.%.15s.%04d.png", name, t->show, frame);
+            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);
+            *done = !graph_has_still(job, frame) || current(root, made, from);
+            break;
         case FARM_SHEET:
             snprintf(made, sizeof made, "%s.contact.png", name);
             snprintf(from, sizeof from, "preview/%s.%04d.png", name, frame);

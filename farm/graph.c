@@ -21,7 +21,7 @@ enum {
 
 const char *graph_kind(enum farm_kind kind)
 {
-    static const char *const names[FARM_KINDS] = {"sim",     "derive", "derive", "preview",
+    static const char *const names[FARM_KINDS] = {"sim",     "derive", "derive", "preview", "preview",
                                                   "preview", "finish", "finish", "finish"};
     return names[kind];
 }
@@ -54,7 +54,7 @@ bool graph_needs_device(enum farm_kind kind)
 static status add_task(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind,
                        struct frame_range frames, struct farm_task **out)
 {
-    static const char *const names[FARM_KINDS] = {"sim",   "mesh",  "aov",       "still",
+    static const char *const names[FARM_KINDS] = {"sim",   "mesh",  "aov",       "still", "show",
                                                   "views", "sheet", "turntable", "wedges"};
     char wedge[16] = "", range[48];
     status st = memory_grow(&g->task, &g->capacity, g->n + 1, sizeof *g->task, "the tasks");
@@ -116,6 +116,7 @@ static void estimate_task(struct farm_task *t, const struct farm_wedge *w, bool 
         t->disk_bytes = (uint64_t)n * w->job->farm.n_cameras * AOV_BYTES;
         break;
     case FARM_STILL:
+    case FARM_SHOW:
         t->seconds = n * (STILL_S + STILL_PARTICLE_S * particles);
         t->disk_bytes = (uint64_t)n * STILL_BYTES;
         break;
@@ -156,17 +157,32 @@ static bool next_chunk(const struct job *job, bool (*wanted)(const struct job *,
     return n > 0;
 }
 
+/* "show.1001-1010" to "show.von-mises.1001-1010": '_' is none of a name's letters. */
+static void name_after(struct farm_task *t, const char *show)
+{
+    char value[48], *under;
+    const char *range = strrchr(t->name, '.');
+    snprintf(value, sizeof value, ".%.15s%.30s", show, range);
+    while ((under = strchr(value, '_')))
+        *under = '-';
+    snprintf(t->name + (range - t->name), 48, "%s", value);
+    t->show = show;
+}
+
 static status add_chunks(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind,
-                         struct frame_range block, size_t sim)
+                         const char *show, struct frame_range block, size_t sim)
 {
     status st = OK;
     struct farm_task *t;
     struct frame_range chunk;
-    bool (*wanted)(const struct job *, int) = kind == FARM_STILL ? graph_has_still
+    bool still = kind == FARM_STILL || kind == FARM_SHOW;
+    bool (*wanted)(const struct job *, int) = still              ? graph_has_still
                                               : kind == FARM_AOV ? has_points
                                                                  : graph_has_volumes;
     for (int frame = block.first; next_chunk(w->job, wanted, block, &frame, &chunk);) {
         TRY(add_task(g, w, kind, chunk, &t));
+        if (show)
+            name_after(t, show);
         estimate_task(t, w, false);
         TRY(add_after(g, sim));
     }
@@ -244,10 +260,12 @@ static status add_wedge(struct farm_graph *g, const struct farm_wedge *w, size_t
         if (before != SIZE_MAX)
             TRY(add_after(g, before));
         if (w->job->farm.meshes)
-            TRY(add_chunks(g, w, FARM_MESH, block, sim));
+            TRY(add_chunks(g, w, FARM_MESH, NULL, block, sim));
         if (w->job->farm.n_cameras)
-            TRY(add_chunks(g, w, FARM_AOV, block, sim));
-        TRY(add_chunks(g, w, FARM_STILL, block, sim));
+            TRY(add_chunks(g, w, FARM_AOV, NULL, block, sim));
+        TRY(add_chunks(g, w, FARM_STILL, NULL, block, sim));
+        for (size_t i = 0; i < w->job->farm.n_show; i++)
+            TRY(add_chunks(g, w, FARM_SHOW, w->job->farm.show[i], block, sim));
     }
     TRY(add_finish(g, w, first, sim, sheet));
 done:

@@ -2,7 +2,7 @@
  *
  *   sim        frames a-b simulated; block n+1 of a wedge goes on from block n's last checkpoint
  *   derive     meshes and AOVs of some frames, once their block is done
- *   preview    stills of some frames, once their block is done; views of the last frame's turntable
+ *   preview    stills of some frames, of the rock or of a value, once their block is done; views of the last frame's turntable
  *   finish     contact sheet, turntable's video, and a sheet across the wedges
  *
  * Order       A task stands behind all it waits for: the list can be worked off from its start.
@@ -20,6 +20,7 @@ enum farm_kind {
     FARM_MESH,
     FARM_AOV,
     FARM_STILL,
+    FARM_SHOW,
     FARM_VIEW,
     FARM_SHEET,
     FARM_TURNTABLE,
@@ -38,6 +39,7 @@ struct farm_task {
     enum farm_kind kind;
     int wedge;                 /* wedge.index of its job; 0: the only one, or all of them */
     struct frame_range frames; /* the ones it makes; FARM_SHEET and below: those it shows */
+    const char *show;          /* FARM_SHOW: which value; the job's own text */
     struct frame_range views;  /* FARM_VIEW: which of farm.turntable views */
     char name[80];             /* unique: "w0001.sim.1001-1050". Letters, digits, dots, '-' */
     size_t after, n_after;     /* graph->after[after ...]: tasks it waits for, all before it */

@@ -290,6 +290,20 @@ static void put_finish(const struct farm *f, const char *last_sim, struct text *
                                 .args = {"preview", "{{Param.OutDir}}", "", "--frames={{Task.Param.Frames}}",
                                          "--only=stills", "--progress=openjd", camera, NULL}},
                  t);
+        for (size_t i = 0; i < job->farm.n_show; i++) {
+            char name[64], show[64];
+            snprintf(name, sizeof name, "Stills_%.40s", job->farm.show[i]);
+            snprintf(show, sizeof show, "--show=%.40s", job->farm.show[i]);
+            put_step(
+                f,
+                &(struct step){.name = name,
+                               .after = last_sim,
+                               .frames = "{{Param.StillFrames}}",
+                               .chunk = job->farm.chunk_frames,
+                               .args = {"preview", "{{Param.OutDir}}", "", "--frames={{Task.Param.Frames}}",
+                                        "--only=stills", show, "--progress=openjd", camera, NULL}},
+                t);
+        }
         put_step(f,
                  &(struct step){
                      .name = "Sheet",

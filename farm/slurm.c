@@ -205,8 +205,9 @@ static status words_status(const struct words *w)
 /* Tasks that stand together, of one kind and wedge, and wait for the same ones. */
 static bool alike(const struct farm_graph *g, const struct farm_task *a, const struct farm_task *b)
 {
-    return a->kind == b->kind && a->wedge == b->wedge &&
-           (a->kind == FARM_MESH || a->kind == FARM_AOV || a->kind == FARM_STILL || a->kind == FARM_VIEW) &&
+    return a->kind == b->kind && a->show == b->show && a->wedge == b->wedge &&
+           (a->kind == FARM_MESH || a->kind == FARM_AOV || a->kind == FARM_STILL || a->kind == FARM_SHOW ||
+            a->kind == FARM_VIEW) &&
            a->n_after == 1 && b->n_after == 1 && g->after[a->after] == g->after[b->after];
 }
 

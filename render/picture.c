@@ -12,6 +12,7 @@
 #include "base/version.h"
 #include "model/rocks.h"
 #include "output/folder.h"
+#include "render/closest.h"
 #include "render/png.h"
 #include "render/slate.h"
 
@@ -134,16 +135,48 @@ static double orbit_start(const struct preview *p, int frame)
     return own ? curve_at(&own->orbit.azimuth_deg, frame) : -55;
 }
 
+/* What only particles have, at the vertices: of the closest one. */
+static status read_from_points(const struct preview *p, int frame, struct vdb_mesh *mesh)
+{
+    status st = OK;
+    char path[4096];
+    struct rock rock = {0};
+    float *value = NULL;
+    TRY(folder_path(path, p->root, p->job->name, FILE_POINTS, frame, NULL));
+    TRY(vdb_points_read(path, &rock));
+    if (!rock.erodibility) {
+        st = fail(E_INPUT, "%s: its points have no %s", path, show_name(p->show));
+        goto done;
+    }
+    TRY(memory_alloc(mesh->n_vertices + 1, sizeof *value, "values", &value));
+    TRY(closest_values(mesh->vertex, mesh->n_vertices, rock.P, rock.erodibility, rock.n,
+                       2.5 * p->job->domain.spacing_m, value));
+    mesh->value = value;
+    value = NULL;
+done:
+    free(value);
+    rock_free(&rock);
+    return st;
+}
+
 static status read_mesh(const struct preview *p, int frame, struct vdb_mesh *mesh)
 {
+    status st = OK;
     char full[4700], volumes[512];
     const char *const value = show_name(p->show);
     volumes_path(p, frame, volumes);
     snprintf(full, sizeof full, "%s/%s", p->root, volumes);
+    if (p->show == SHOW_ERODIBILITY) {
+        TRY(vdb_mesh_read(full, 0, NULL, 0, 0, mesh));
+        TRY(read_from_points(p, frame, mesh));
+        goto done;
+    }
     if (p->show != SHOW_ROCK)
         return vdb_mesh_read(full, 0, &value, 1, 0, mesh);
     double adaptivity = p->job->model == MODEL_ARCHES ? 0 : ADAPTIVITY;
-    return vdb_mesh_read(full, adaptivity, scene_values, SCENE_VALUES, SCENE_VALUES, mesh);
+    TRY(vdb_mesh_read(full, adaptivity, scene_values, SCENE_VALUES, SCENE_VALUES, mesh));
+done:
+    return st;
 }
 
 /* Writes the frame's scene, with one camera (views = 0) or an orbit of them, to `path` under root. */
@@ -427,7 +460,7 @@ status picture_orbit(struct preview *p, int frame, int views, struct frame_range
     int width, height;
     volumes_path(p, frame, source);
     size_of(p, chosen_camera(p), true, &width, &height);
-    for (int view = which.first; view <= which.last; view += which.step) {
+    for (int view = which.first, k = 0; view <= which.last; view += which.step, k++) {
         picture_view_path(p, frame, view, path);
         tag_of(p, width, height, view, views, tag);
         if (current_as_asked(p, path, source, tag))
@@ -444,6 +477,7 @@ status picture_orbit(struct preview *p, int frame, int views, struct frame_range
         snprintf(number, sizeof number, "view %03d", view); /* as its file is called */
         describe(p, frame, number, &picture->slate);
         TRY(start(p, picture, scene, view));
+        progress_note(p->progress, (size_t)k, range_count(which), what);
     }
     TRY(children_wait(&p->children));
 done:

@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #include "base/ranges.h"
+#include "cli/progress.h"
 #include "job/job.h"
 #include "render/child.h"
 #include "render/povray.h"
@@ -20,6 +21,7 @@ struct preview {
     const char *root;
     const struct job *job;
     struct children children;
+    struct progress *progress; /* told of every picture that is begun */
     enum preset preset;
     int width, height;  /* 0: the preset's */
     const char *camera; /* of the job, or NULL: its first, or an orbit if it has none */

@@ -75,14 +75,14 @@ static size_t with_stills(const struct preview *p, int *frames, size_t n)
     return k;
 }
 
-static status stills(struct preview *p, int *frames, size_t n, int only, struct progress *progress)
+static status stills(struct preview *p, int *frames, size_t n, int only)
 {
     status st = OK;
     char line[64];
     for (size_t i = 0; i < n && only != ONLY_SHEET; i++) {
         TRY(picture_still(p, frames[i]));
         snprintf(line, sizeof line, "still of frame %d", frames[i]);
-        progress_note(progress, i, n, line); /* it is under way */
+        progress_note(p->progress, i, n, line); /* it is under way */
     }
     TRY(children_wait(&p->children));
     if (only == ONLY_STILLS)
@@ -196,12 +196,13 @@ status cli_preview(int argc, char **argv)
         {"view", "RANGE", OPTION_RANGE, &w.which,
          "these of the views alone, such as 0-11 (default: all); with --only views, so that several machines "
          "can share an orbit"},
-        {"show", "rock|stress|von_mises|viability|discharge|vegetation|deposit", OPTION_CHOICE, &w.show,
-         "a value of the surface as colours, with a legend (default rock: as it looks)"},
+        {"show", "rock|stress|von_mises|viability|discharge|vegetation|deposit|erodibility", OPTION_CHOICE,
+         &w.show, "a value of the surface as colours, with a legend (default rock: as it looks)"},
         {"range", "job|data|LO:HI", OPTION_TEXT, &w.range,
          "what the colours span: job (default), the same for all pictures of a job (stress from the weight "
          "of "
-         "the rock, discharge from its water, shares 0 to 1); data, all but the outermost hundredths of "
+         "the rock, discharge from its water, erodibility from its strata, shares 0 to 1); data, all but the "
+         "outermost hundredths of "
          "these "
          "frames' values; or LO:HI in the legend's unit"},
         {"camera", "NAME", OPTION_TEXT, &w.camera, "of the job (default: its first)"},
@@ -243,10 +244,11 @@ status cli_preview(int argc, char **argv)
     TRY(make_folder(p.root, w.turntable ? "turntable" : "preview"));
     signals_install();
     progress_begin_notes(&progress, (enum progress_style)w.common.progress);
+    p.progress = &progress;
     children_begin(&p.children, p.root, "log/preview.log", w.jobs);
     if (w.range && strcmp(w.range, "data") == 0)
         TRY(picture_data_range(&p, w.turntable ? frames + n - 1 : frames, w.turntable ? 1 : n, &p.range));
-    TRY(w.turntable ? turntable(&p, &w, frames, n) : stills(&p, frames, n, w.only, &progress));
+    TRY(w.turntable ? turntable(&p, &w, frames, n) : stills(&p, frames, n, w.only));
     progress_note(&progress, 1, 1, w.turntable ? "turntable made" : "pictures made");
 done:
     progress_end(&progress);

@@ -6,22 +6,23 @@
 #include <string.h>
 
 static const struct {
-    const char *name, *unit;
+    const char *unit;
     double scale;
     bool logarithmic, diverging;
 } table[SHOWS] = {
-    [SHOW_ROCK] = {"", "", 1, false, false},
-    [SHOW_STRESS] = {"stress", "MPa", 1e-6, false, true},
-    [SHOW_VON_MISES] = {"von_mises", "MPa", 1e-6, false, false},
-    [SHOW_VIABILITY] = {"viability", "", 1, false, false},
-    [SHOW_DISCHARGE] = {"discharge", "m3/yr", 1, true, false},
-    [SHOW_VEGETATION] = {"vegetation", "", 1, false, false},
-    [SHOW_DEPOSIT] = {"deposit", "", 1, false, false},
+    [SHOW_ROCK] = {"", 1, false, false},
+    [SHOW_STRESS] = {"MPa", 1e-6, false, true},
+    [SHOW_VON_MISES] = {"MPa", 1e-6, false, false},
+    [SHOW_VIABILITY] = {"", 1, false, false},
+    [SHOW_DISCHARGE] = {"m3/yr", 1, true, false},
+    [SHOW_VEGETATION] = {"", 1, false, false},
+    [SHOW_DEPOSIT] = {"", 1, false, false},
+    [SHOW_ERODIBILITY] = {"m/kyr", 1, true, false},
 };
 
 const char *show_name(enum show show)
 {
-    return table[show].name;
+    return show == SHOW_ROCK ? "" : surface_value_names[show - 1];
 }
 
 const char *show_unit(enum show show)
@@ -46,6 +47,26 @@ static double two_digits(double x, bool up)
     return copysign(n * unit, x);
 }
 
+/* From the slowest strong to the fastest weak layer, in whole decades: noise and paint move them a little. */
+static struct show_range rates(const struct job *job)
+{
+    double low = INFINITY, high = 0;
+    for (size_t i = 0; i < job->n_strata; i++) {
+        double weak = curve_max(&job->strata[i].weak_m_per_kyr),
+               strong = curve_at(&job->strata[i].strong_m_per_kyr, job->frames.first);
+        high = fmax(high, fmax(weak, strong));
+        if (strong > 0)
+            low = fmin(low, strong);
+        if (weak > 0)
+            low = fmin(low, weak);
+    }
+    if (!(high > 0))
+        return (struct show_range){1e-3, 1};
+    low = pow(10, floor(log10(low) + 1e-9));
+    high = pow(10, ceil(log10(high) - 1e-9));
+    return (struct show_range){low, fmax(high, 10 * low)};
+}
+
 struct show_range show_job_range(enum show show, const struct job *job)
 {
     double weight_MPa = job->rock.density_kg_m3 * job->rock.gravity_m_s2 * job->domain.size_m[2] * 1e-6;
@@ -64,6 +85,8 @@ struct show_range show_job_range(enum show show, const struct job *job)
         for (size_t i = 0; i < job->n_sources; i++)
             water += curve_max(&job->sources[i].m3_per_yr);
         return (struct show_range){1, fmax(10, pow(10, ceil(log10(fmax(water, 1)) - 1e-9)))};
+    case SHOW_ERODIBILITY:
+        return rates(job);
     default:
         return (struct show_range){0, 1};
     }
@@ -81,7 +104,7 @@ struct show_range show_data_range(enum show show, float *values, size_t n)
     size_t first = 0;
     qsort(values, n, sizeof *values, ascending);
     /* Most of a surface is dry: of a logarithm, only what there is counts. */
-    while (table[show].logarithmic && first < n && values[first] < 1e-3F)
+    while (table[show].logarithmic && first < n && values[first] < 1e-6F)
         first++;
     if (first < n) {
         size_t count = n - first;
@@ -91,7 +114,7 @@ struct show_range show_data_range(enum show show, float *values, size_t n)
     if (table[show].diverging) /* zero is always on it */
         r = (struct show_range){fmin(r.low, 0), fmax(r.high, 0)};
     if (table[show].logarithmic)
-        r.low = fmax(r.low, 1e-3);
+        r.low = fmax(r.low, 1e-6);
     if (!(r.high > r.low))
         r.high = r.low + (table[show].logarithmic ? 9 * r.low : 1);
     return r;
@@ -113,7 +136,7 @@ status show_parse_range(enum show show, const char *text, struct show_range *out
                     *table[show].unit ? " in " : "", table[show].unit);
     if (table[show].logarithmic && r.low <= 0)
         return fail(E_USAGE, "--range %.40s: %s is shown by its logarithm, LO must be above 0", text,
-                    table[show].name);
+                    show_name(show));
     *out = r;
     return OK;
 }

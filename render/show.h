@@ -11,7 +11,7 @@
 
 #include "job/job.h"
 
-/* In the order of --show's words; SHOW_ROCK is the rock as it looks. */
+/* In the order of --show's words; SHOW_ROCK is the rock as it looks, the others are surface_value_names. */
 enum show {
     SHOW_ROCK,
     SHOW_STRESS,
@@ -20,6 +20,7 @@ enum show {
     SHOW_DISCHARGE,
     SHOW_VEGETATION,
     SHOW_DEPOSIT,
+    SHOW_ERODIBILITY,
     SHOWS
 };
 
@@ -28,7 +29,8 @@ struct show_range {
     double low, high;
 };
 
-/* "stress": the grid of a frame's volumes, and part of file names. SHOW_ROCK has "". */
+/* "stress": the grid of a frame's volumes (erodibility: the attribute of its points), and part of file names.
+ * SHOW_ROCK has "". */
 const char *show_name(enum show show);
 const char *show_unit(enum show show); /* "MPa", or "" */
 

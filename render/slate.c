@@ -201,7 +201,7 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
 
 void slate_when(const struct job *job, int frame, char out[96])
 {
-    double frames = frame - job->frames.first, years = frames * job->clock.years_per_frame;
+    double frames = frame - job->frames.first, years = job_years(job, job->frames.first, frame);
     if (job->clock.seconds_per_frame > 0)
         snprintf(out, 96, "frame %d   %.2f s", frame, frames * job->clock.seconds_per_frame);
     else if (years >= 1000)

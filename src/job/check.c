@@ -207,6 +207,26 @@ static status check_farm_cameras(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+static status check_farm_show(const struct yaml *root, const struct job *job)
+{
+    const struct yaml *farm = yaml_get(root, "farm"), *list = farm ? yaml_get(farm, "show") : NULL;
+    for (size_t i = 0; i < job->farm.n_show; i++) {
+        const char *name = job->farm.show[i];
+        bool found = false;
+        for (size_t k = 0; k < SURFACE_VALUE_COUNT; k++)
+            found |= strcmp(name, surface_value_names[k]) == 0;
+        if (!found) {
+            const char *near = nearest_word(name, surface_value_names, SURFACE_VALUE_COUNT);
+            return yaml_fail(yaml_item(list, i), NULL, "no value '%s'%s%s", name,
+                             near ? "; did you mean " : " (see jobs/README.md)", near ? near : "");
+        }
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(name, job->farm.show[k]) == 0)
+                return yaml_fail(yaml_item(list, i), NULL, "value '%s' is listed twice", name);
+    }
+    return OK;
+}
+
 static status check_aov_layers(const struct yaml *root, const struct job *job)
 {
     const struct job_aov *aov = &job->output.aov;
@@ -338,6 +358,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_wedge(root, &job->wedge));
     TRY(check_aov_layers(root, job));
     TRY(check_farm_cameras(root, job));
+    TRY(check_farm_show(root, job));
 done:
     return st;
 }

@@ -153,6 +153,9 @@ double job_years(const struct job *job, int from, int to)
     return years + (to - from) * job_at(job, to)->clock.years_per_frame;
 }
 
+const char *const surface_value_names[SURFACE_VALUE_COUNT] = {
+    "stress", "von_mises", "viability", "discharge", "vegetation", "deposit", "erodibility"};
+
 const char *const aov_layer_names[AOV_LAYER_COUNT] = {
 #define AOV_LAYER(name) #name,
     AOV_LAYERS(AOV_LAYER)

@@ -153,6 +153,10 @@ enum aov_layer {
 };
 extern const char *const aov_layer_names[AOV_LAYER_COUNT];
 
+/* Values of the surface that previews show as colours: preview --show, farm.show. */
+enum { SURFACE_VALUE_COUNT = 7 };
+extern const char *const surface_value_names[SURFACE_VALUE_COUNT];
+
 /* Whether the job wants a layer. */
 bool job_wants_layer(const struct job *job, enum aov_layer layer);
 

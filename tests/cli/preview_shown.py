@@ -67,7 +67,7 @@ DRAFT = ("--preset", "draft", "--resolution", f"{W}x{H}", "--only", "stills")
 
 # A block that nothing has touched yet: viability is 1 everywhere on its faces.
 job = {"hoodoo": 1, "name": "block", "frames": "1001-1002", "clock": {"years_per_frame": 1500}, "domain": {"size_m": [16, 16, 16], "spacing_m": 1},
-       "scene": {"box": {"min_m": [3, 3, 0], "max_m": [13, 13, 14]}}, "strata": [{"to_m": 16, "interlock_MPa": 0.2}], "wind": {"speed_m_s": 10},
+       "scene": {"box": {"min_m": [3, 3, 0], "max_m": [13, 13, 14]}}, "strata": [{"to_m": 16, "weak_m_per_kyr": 0.1, "strong_m_per_kyr": 0.1, "interlock_MPa": 0.2}], "wind": {"speed_m_s": 10},
        "cameras": {"front": {"position_m": [8, -40, 9], "target_m": [8, 4, 7]}}}
 with open("block.json", "w") as file:
     json.dump(job, file)
@@ -115,6 +115,11 @@ for span, t in (("0:2", 0.5), ("1.5:3", 0), ("0.1:0.5", 1)):
     face = [picture[y][x] for y in range(70, 130, 6) for x in range(145, 172, 5)]
     check(code == 0 and all(same_hue(p, VIRIDIS[t]) for p in face), f"--range {span}: the colour at {t}, {face[20]} {said}")
 
+code, said = hoodoo("preview", "o", *DRAFT, "--show", "erodibility", "--frames", "1001", "--range", "0.01:1")
+picture = pixels("o/preview/block.erodibility.1001.png")
+face = [picture[y][x] for y in range(70, 130, 6) for x in range(145, 172, 5)]
+check(code == 0 and all(same_hue(p, VIRIDIS[0.5]) for p in face), f"rock that retreats 0.1 m/kyr is half way from 0.01 to 1: {face[20]} {said}")
+os.remove("o/preview/block.erodibility.1001.png")
 code, said = hoodoo("preview", "o", *DRAFT, "--show", "stress")
 picture = pixels("o/preview/block.stress.1001.png")
 column = next(x for x in range(int(0.6 * W), W) if sum(near(picture[y][x], COMPRESSION, 10) for y in range(H)) > 1) + 2

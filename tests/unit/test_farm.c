@@ -44,6 +44,9 @@ static void make_sample(int seed, struct sample *s)
         static char *shot[] = {(char *)(uintptr_t) "shot"};
         job->farm.n_cameras = (size_t)pick(seed, 12, 0, 1);
         job->farm.cameras = shot;
+        static char *values[] = {(char *)(uintptr_t) "stress", (char *)(uintptr_t) "von_mises"};
+        job->farm.n_show = (size_t)pick(seed, 14, 0, 2);
+        job->farm.show = values;
         job->farm.still_every = pick(seed, 10, 0, 5);
         job->farm.turntable = pick(seed, 11, 0, 1) * pick(seed, 13, 1, 72);
         job->wedge.index = s->n > 1 ? (int)i + 1 : 0;
@@ -114,6 +117,10 @@ static void every_frame_is_made_exactly_once(void **state)
                                  own && graph_has_still(job, frame));
                 if (own && graph_has_still(job, frame))
                     assert_true(waits_for(&g, other, sim));
+                assert_int_equal(made(&g, FARM_SHOW, index, frame, &other),
+                                 own && graph_has_still(job, frame) ? job->farm.n_show : 0);
+                if (own && graph_has_still(job, frame) && job->farm.n_show)
+                    assert_true(waits_for(&g, other, sim));
             }
         }
         graph_free(&g);
@@ -150,6 +157,45 @@ static void every_view_is_made_exactly_once(void **state)
         graph_free(&g);
     }
     print_message("# %zu views in %zu tasks\n", views, tasks);
+}
+
+/* Of each value every still, once. */
+static void every_value_is_shown(void **state)
+{
+    (void)state;
+    size_t n = 0;
+    for (int seed = 0; seed < JOBS; seed++) {
+        struct sample s;
+        struct farm_graph g = {0};
+        struct farm f = {.root = "/x", .hoodoo = "hoodoo"};
+        struct farm_command *c;
+        assert_ok(memory_alloc(1, sizeof *c, "a command", &c));
+        make_sample(seed, &s);
+        f.wedge = s.wedge;
+        f.n_wedges = s.n;
+        assert_ok(graph_make(s.wedge, s.n, &g));
+        const struct job *job = &s.job[0];
+        for (size_t v = 0; v < job->farm.n_show; v++)
+            for (int frame = job->frames.first; frame <= job->frames.last; frame++) {
+                int times = 0;
+                for (size_t i = 0; i < g.n; i++) {
+                    const struct farm_task *t = &g.task[i];
+                    if (t->kind != FARM_SHOW || t->wedge != (int)job->wedge.index ||
+                        !range_holds(t->frames, frame) || strcmp(t->show, job->farm.show[v]) != 0)
+                        continue;
+                    times++;
+                    farm_command(&f, t, NULL, c);
+                    assert_non_null(strstr(c->argv[c->n - 1], "--show="));
+                    assert_string_equal(c->argv[c->n - 1] + 7, job->farm.show[v]);
+                    assert_non_null(strstr(t->name, v ? "show.von-mises." : "show.stress."));
+                }
+                assert_int_equal(times, range_holds(job->frames, frame) && graph_has_still(job, frame));
+                n += (size_t)times;
+            }
+        graph_free(&g);
+        free(c);
+    }
+    print_message("# %zu stills of values\n", n);
 }
 
 static void tasks_stand_behind_what_they_wait_for(void **state)
@@ -315,6 +361,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_frame_is_made_exactly_once),
         cmocka_unit_test(every_view_is_made_exactly_once),
+        cmocka_unit_test(every_value_is_shown),
         cmocka_unit_test(tasks_stand_behind_what_they_wait_for),
         cmocka_unit_test(longer_jobs_take_longer),
         cmocka_unit_test(a_shell_takes_quoted_words_as_they_are),
