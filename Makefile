@@ -3,9 +3,10 @@
 PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers \
 	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
 	libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
-TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy
+TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
+	libcgal-dev libeigen3-dev
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
-PEER_WHEELS = usd-core==26.11 numpy==2.2.6
+PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1
 DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
 
 MAKEFLAGS += --jobs=$(shell nproc)
@@ -34,7 +35,7 @@ LIB_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/main.c,$(SRC))) $(SHIM:%.
 	$(BUILD)/gen/gpu/kernels.o $(BUILD)/gen/render/scene_parts.o
 TEST_SRC = $(wildcard tests/*/test_*.c)
 TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
-BENCH_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/*.c))
+BENCH_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/*.c)) $(BUILD)/tests/bench/surface
 TEST_HELP = $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/ref/*.c))
 
 ## all: build build/hoodoo (installs what is missing when root)
@@ -115,8 +116,14 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/libhoodoo.a $(TEST_HELP) | $(BUILD)/.deps-t
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) -Itests $(CFLAGS) $(EXR_FLAGS) -MMD -MP -o $@ $< $(TEST_HELP) $(BUILD)/libhoodoo.a \
 		-lcmocka $(LDLIBS)
 
+# CGAL judges meshes. It is not part of hoodoo, nor linked with it: its licence is the GPL.
+JUDGE = $(CXX) -std=c++17 -O2 -frounding-math -w -DCGAL_EIGEN3_ENABLED -isystem /usr/include/eigen3 -isystem /usr/include/Imath
+$(BUILD)/tests/ref/mesh_check $(BUILD)/tests/bench/surface: $(BUILD)/%: %_shim.cpp | $(BUILD)/.deps-test
+	@echo "c++ $<"
+	$(Q)mkdir -p $(@D) && $(JUDGE) -o $@ $< -lopenvdb -ltbb -lImath-3_1 -lmpfr -lgmp -lpthread
+
 ## test: build and run the tests (under 20 minutes on 2 cores)
-test: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
+test: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN) $(BUILD)/tests/ref/mesh_check
 	$(Q)sh tests/run.sh $(BUILD) unit gpu physics restart cli
 
 ## test-peers: read what we write with Blender, USD, Chromium and other programs (large packages)

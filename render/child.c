@@ -20,11 +20,12 @@ void children_begin(struct children *c, const char *folder, const char *log, int
         c->at_once = CHILDREN_MAX;
 }
 
-static void become(const struct children *c, const char *const *argv)
+static void become(const struct children *c, const char *const *argv, pid_t parent)
 {
     signals_reset();
-    /* Were we killed, nobody would want what it makes. */
-    if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0)
+    /* What a killed parent has begun nobody waits for any more. */
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
         _exit(126);
     if (chdir(c->folder) != 0)
         _exit(126);
@@ -89,11 +90,12 @@ status children_run(struct children *c, const char *const *argv, const char *wha
     if (stop_requested())
         return fail(STOPPED, "stopped; run the same command again to go on");
     fflush(NULL);
+    const pid_t self = getpid();
     pid_t pid = fork();
     if (pid < 0)
         return fail(E_MEMORY, "%s: no new process: %s", what, strerror(errno));
     if (pid == 0)
-        become(c, argv);
+        become(c, argv, self);
     c->child[c->n].pid = pid;
     c->child[c->n].what = what;
     c->child[c->n].done = done;

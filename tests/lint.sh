@@ -30,7 +30,7 @@ git grep -nE 'std::|openvdb::' -- '*.c' '*.h' && say "C++ outside *_shim.cpp"
 # Includes point down: a folder may include those of lower rank, and itself.
 rank() {
     case $1 in
-    base) echo 0 ;; gpu | job) echo 1 ;; particles | stacks) echo 2 ;;
+    base) echo 0 ;; gpu | job | mesh) echo 1 ;; particles | stacks) echo 2 ;;
     scene | stress | erosion | blocks | mpm | voxels | field | output | checkpoint | wind | water | deposit | plants | piles) echo 3 ;;
     model) echo 4 ;; farm) echo 5 ;; cli) echo 6 ;; render) echo 7 ;; *) echo 9 ;;
     esac

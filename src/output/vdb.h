@@ -67,17 +67,34 @@ void vdb_volumes_free(struct frame_grids *grids);
 MUST_USE status vdb_points_read(const char *path, struct rock *out);
 
 /* The zero surface of `surface` as triangles with outward normals, in the simulator's axes, and the values of
- * other grids at the vertices (trilinear). */
+ * other grids at the vertices (trilinear). Closed, manifold and free of crossings (mesh/trimesh.h). */
 struct vdb_mesh {
     size_t n_vertices, n_triangles;
     float *vertex;      /* [n_vertices][3] m */
-    float *normal;      /* [n_vertices][3], from the level set's gradient */
+    float *normal;      /* [n_vertices][3], from the level set's gradient, of the triangles where smoothed */
     uint32_t *triangle; /* [n_triangles][3], counter-clockwise from outside */
     float *value;       /* [n_values][n_vertices], NULL if none were asked for */
+    uint32_t *label;    /* [n_vertices], NULL if none were asked for */
 };
 
-/* adaptivity 0..1: larger merges flat parts into fewer triangles. The last n_optional values are 0 where the
- * file has no grid of that name. */
+struct vdb_mesh_options {
+    /* 0..1: for fewer triangles, no vertex that goes is farther than so many voxels from the surface left. */
+    double adaptivity;
+    int smooth; /* passes */
+    const char *const *values;
+    size_t n_values,
+        n_optional; /* the last n_optional values are 0 where the file has no grid of that name */
+    /* Labels of the n vertices, whose borders both keep; NULL: none. */
+    status (*label)(void *user, const float (*vertex)[3], size_t n, uint32_t *label);
+    void *user;
+};
+
+/* No vertex is smoothed farther than this, in voxels. */
+#define VDB_MESH_SMOOTH_REACH 0.5
+
+MUST_USE status vdb_mesh_make(const char *path, const struct vdb_mesh_options *options, struct vdb_mesh *out);
+
+/* The same without smoothing and labels. */
 MUST_USE status vdb_mesh_read(const char *path, double adaptivity, const char *const *values, size_t n_values,
                               size_t n_optional, struct vdb_mesh *out);
 void vdb_mesh_free(struct vdb_mesh *mesh);

@@ -2,9 +2,12 @@
  * vertices. */
 #include "output/vdb_shim.hpp"
 
+extern "C" {
+#include "mesh/trimesh.h"
+}
+
 #include <openvdb/io/File.h>
 #include <openvdb/tools/Interpolation.h>
-#include <openvdb/tools/VolumeToMesh.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
@@ -19,6 +22,11 @@ using openvdb::Coord;
 using openvdb::FloatGrid;
 using openvdb::Vec3d;
 using openvdb::Vec3s;
+
+/* No simplified edge is longer, in voxels: values vary along it. */
+constexpr double LONGEST = 12;
+/* Indices of voxels are less. */
+constexpr double FARTHEST = 1 << 24;
 
 FloatGrid::Ptr read_float_grid(openvdb::io::File &file, const std::string &name)
 {
@@ -87,38 +95,103 @@ template <class T> T *allocate(size_t n)
     return p;
 }
 
-/* Quads are cut along the shorter diagonal. OpenVDB winds clockwise seen from outside; here it is
- * counter-clockwise. */
-void set_triangles(vdb_mesh &mesh, const std::vector<Vec3s> &points,
-                   const std::vector<openvdb::Vec3I> &triangles, const std::vector<openvdb::Vec4I> &quads)
-{
-    mesh.n_triangles = triangles.size() + 2 * quads.size();
-    mesh.triangle = allocate<uint32_t>(3 * mesh.n_triangles);
-    uint32_t *t = mesh.triangle;
-    const auto add = [&t](uint32_t a, uint32_t b, uint32_t c) {
-        t[0] = a, t[1] = c, t[2] = b;
-        t += 3;
-    };
-    for (const openvdb::Vec3I &p : triangles)
-        add(p[0], p[1], p[2]);
-    for (const openvdb::Vec4I &q : quads) {
-        if ((points[q[0]] - points[q[2]]).lengthSqr() <= (points[q[1]] - points[q[3]]).lengthSqr()) {
-            add(q[0], q[1], q[2]);
-            add(q[0], q[2], q[3]);
-        } else {
-            add(q[1], q[2], q[3]);
-            add(q[1], q[3], q[0]);
+/* A level set's samples around its surface, in the simulator's axes, with one more on every side. */
+struct samples {
+    trimesh_lattice lattice;
+    std::vector<float> value;
+
+    samples(const FloatGrid &grid, bool y_up)
+    {
+        const double voxel = grid.voxelSize()[0];
+        if (!grid.hasUniformVoxels() || !(voxel > 0) || !std::isfinite(voxel))
+            throw std::runtime_error("the voxels of 'surface' are not cubes");
+        openvdb::CoordBBox box;
+        if (!grid.tree().evalActiveVoxelBoundingBox(box))
+            box = openvdb::CoordBBox(Coord(0), Coord(0));
+        double n = 1;
+        for (int d = 0; d < 3; d++) {
+            if (std::abs(double(box.min()[d])) > FARTHEST || std::abs(double(box.max()[d])) > FARTHEST)
+                throw std::runtime_error("'surface' has voxels too far from its origin");
+            n *= box.max()[d] - box.min()[d] + 3;
         }
+        if (n > double(memory_available()) / sizeof(float) / 2)
+            throw std::runtime_error("'surface' is larger than this machine's memory");
+        box.expand(1);
+        const Coord a = vdb::sim_from_file(box.min(), y_up), b = vdb::sim_from_file(box.max(), y_up);
+        const Coord lo = Coord::minComponent(a, b), hi = Coord::maxComponent(a, b);
+        const Vec3d origin = vdb::sim_from_file(grid.indexToWorld(Vec3d(0)), y_up);
+        lattice.voxel = voxel;
+        for (int d = 0; d < 3; d++) {
+            lattice.n[d] = hi[d] - lo[d] + 1;
+            lattice.origin[d] = origin[d] + voxel * lo[d];
+        }
+        value.resize(size_t(n));
+        const size_t rows = size_t(lattice.n[1]) * size_t(lattice.n[2]);
+        tbb::parallel_for(tbb::blocked_range<size_t>(0, rows, 64), [&](const tbb::blocked_range<size_t> &r) {
+            const FloatGrid::ConstAccessor at = grid.getConstAccessor();
+            for (size_t row = r.begin(); row < r.end(); row++) {
+                const Coord first =
+                    lo.offsetBy(0, int(row % size_t(lattice.n[1])), int(row / size_t(lattice.n[1])));
+                float *to = value.data() + row * size_t(lattice.n[0]);
+                for (int x = 0; x < lattice.n[0]; x++)
+                    to[x] = at.getValue(vdb::file_from_sim(first.offsetBy(x, 0, 0), y_up));
+            }
+        });
     }
+};
+
+/* Freed unless it is handed on. */
+struct triangles {
+    trimesh m{};
+    ~triangles()
+    {
+        trimesh_free(&m);
+    }
+};
+
+/* Labels, smooths, simplifies. */
+status work_on(trimesh &m, const vdb_mesh_options &o, double voxel, vdb_mesh &out)
+{
+    status st = OK;
+    if (o.label) {
+        out.label = allocate<uint32_t>(m.n_vertices);
+        st = o.label(o.user, reinterpret_cast<const float(*)[3]>(m.vertex), m.n_vertices, out.label);
+    }
+    if (st == OK && o.smooth > 0)
+        st = trimesh_smooth(&m, out.label, o.smooth, VDB_MESH_SMOOTH_REACH * voxel);
+    uint32_t *kept = nullptr;
+    if (st == OK && o.adaptivity > 0)
+        st = trimesh_simplify(&m, out.label, o.adaptivity * voxel, LONGEST * voxel, &kept);
+    for (size_t i = 0; kept && st == OK && out.label && i < m.n_vertices; i++)
+        out.label[i] = out.label[kept[i]];
+    std::free(kept);
+    return st;
+}
+
+void set_normals(const trimesh &m, const FloatGrid &surface, bool y_up, bool of_triangles, float *normal)
+{
+    if (of_triangles) {
+        trimesh_normals(&m, normal);
+        return;
+    }
+    for_each(m.n_vertices, [&](size_t begin, size_t end) {
+        const FloatGrid::ConstAccessor at = surface.getConstAccessor();
+        for (size_t i = begin; i < end; i++) {
+            const Vec3d x = vdb::file_from_sim(Vec3d(Vec3s(m.vertex + 3 * i)), y_up);
+            const Vec3d n = vdb::sim_from_file(gradient(at, surface.worldToIndex(x)), y_up);
+            for (int a = 0; a < 3; a++)
+                normal[3 * i + size_t(a)] = float(n[a]);
+        }
+    });
 }
 } // namespace
 
-extern "C" status vdb_mesh_read(const char *path, double adaptivity, const char *const *values,
-                                size_t n_values, size_t n_optional, struct vdb_mesh *out)
+extern "C" status vdb_mesh_make(const char *path, const struct vdb_mesh_options *options,
+                                struct vdb_mesh *out)
 try {
     *out = vdb_mesh{};
     /* In a child process first: what gets through there is safe to read here. */
-    const status st = vdb_check(path);
+    status st = vdb_check(path);
     if (st != OK)
         return st;
     vdb::start();
@@ -126,14 +199,6 @@ try {
     file.open(/*delayLoad=*/false);
     const bool y_up = vdb::is_y_up(*file.getMetadata());
     const FloatGrid::Ptr surface = read_float_grid(file, "surface");
-    const double voxel = surface->voxelSize()[0];
-    if (!surface->hasUniformVoxels() || !(voxel > 0) || !std::isfinite(voxel))
-        throw std::runtime_error("the voxels of 'surface' are not cubes");
-
-    std::vector<Vec3s> points;
-    std::vector<openvdb::Vec3I> triangles;
-    std::vector<openvdb::Vec4I> quads;
-    openvdb::tools::volumeToMesh(*surface, points, triangles, quads, 0.0, adaptivity);
 
     struct owner {
         vdb_mesh mesh{};
@@ -143,40 +208,50 @@ try {
         }
     } made;
     vdb_mesh &mesh = made.mesh;
-    if (points.size() > UINT32_MAX)
-        throw std::runtime_error("more than 2^32 vertices");
-    set_triangles(mesh, points, triangles, quads);
-    mesh.n_vertices = points.size();
-    mesh.vertex = allocate<float>(3 * mesh.n_vertices);
+    triangles t;
+    double voxel;
+    {
+        samples s(*surface, y_up);
+        voxel = s.lattice.voxel;
+        st = trimesh_march(s.value.data(), &s.lattice, &t.m);
+    }
+    if (st == OK)
+        st = work_on(t.m, *options, voxel, mesh);
+    if (st != OK)
+        return fail(st, "%s: %s", path, std::string(status_message()).c_str());
+    mesh.n_vertices = t.m.n_vertices;
+    mesh.n_triangles = t.m.n_triangles;
     mesh.normal = allocate<float>(3 * mesh.n_vertices);
-    for_each(points.size(), [&](size_t begin, size_t end) {
-        const FloatGrid::ConstAccessor at = surface->getConstAccessor();
-        for (size_t i = begin; i < end; i++) {
-            const Vec3s x = vdb::sim_from_file(points[i], y_up);
-            const Vec3d n = vdb::sim_from_file(gradient(at, surface->worldToIndex(Vec3d(points[i]))), y_up);
-            for (int a = 0; a < 3; a++) {
-                mesh.vertex[3 * i + size_t(a)] = x[a];
-                mesh.normal[3 * i + size_t(a)] = float(n[a]);
-            }
-        }
-    });
-    if (n_values)
-        mesh.value = allocate<float>(n_values * mesh.n_vertices);
-    for (size_t k = 0; k < n_values; k++) {
-        if (k + n_optional >= n_values && !file.hasGrid(values[k]))
+    set_normals(t.m, *surface, y_up, options->smooth > 0, mesh.normal);
+    if (options->n_values)
+        mesh.value = allocate<float>(options->n_values * mesh.n_vertices);
+    for (size_t k = 0; k < options->n_values; k++) {
+        const char *name = options->values[k];
+        if (k + options->n_optional >= options->n_values && !file.hasGrid(name))
             continue;
-        const FloatGrid::Ptr grid = read_float_grid(file, values[k]);
-        for_each(points.size(), [&](size_t begin, size_t end) {
+        const FloatGrid::Ptr grid = read_float_grid(file, name);
+        for_each(mesh.n_vertices, [&](size_t begin, size_t end) {
             const FloatGrid::ConstAccessor at = grid->getConstAccessor();
-            for (size_t i = begin; i < end; i++)
-                mesh.value[k * mesh.n_vertices + i] = value_at(at, grid->worldToIndex(Vec3d(points[i])));
+            for (size_t i = begin; i < end; i++) {
+                const Vec3d x = vdb::file_from_sim(Vec3d(Vec3s(t.m.vertex + 3 * i)), y_up);
+                mesh.value[k * mesh.n_vertices + i] = value_at(at, grid->worldToIndex(x));
+            }
         });
     }
+    std::swap(mesh.vertex, t.m.vertex);
+    std::swap(mesh.triangle, t.m.triangle);
     *out = mesh;
     mesh = vdb_mesh{};
     return OK;
 }
 SHIM_CATCH(E_INPUT, path)
+
+extern "C" status vdb_mesh_read(const char *path, double adaptivity, const char *const *values,
+                                size_t n_values, size_t n_optional, struct vdb_mesh *out)
+{
+    const vdb_mesh_options options = {adaptivity, 0, values, n_values, n_optional, nullptr, nullptr};
+    return vdb_mesh_make(path, &options, out);
+}
 
 extern "C" void vdb_mesh_free(struct vdb_mesh *mesh)
 {
@@ -184,5 +259,6 @@ extern "C" void vdb_mesh_free(struct vdb_mesh *mesh)
     std::free(mesh->normal);
     std::free(mesh->triangle);
     std::free(mesh->value);
+    std::free(mesh->label);
     *mesh = vdb_mesh{};
 }

@@ -1,0 +1,291 @@
+#include "model/meshes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/atomic_file.h"
+#include "base/memory.h"
+#include "base/version.h"
+#include "job/palette.h"
+#include "mesh/trimesh.h"
+#include "model/terrain.h"
+#include "output/folder.h"
+#include "output/mesh_file.h"
+#include "output/vdb.h"
+#include "particles/layers.h"
+
+/* A job without water, plants or deposits has no such grids: 0. Only terrains have the last ones: the share of
+ * each material around. */
+static const char *const values[] = {"stress",  "von_mises", "viability", "discharge", "vegetation",
+                                     "deposit", "bedrock",   "rock",      "sand",      "water"};
+enum { BEDROCK = 6, ROCK, SAND, WATER, VALUES = sizeof values / sizeof *values, OPTIONAL = 7 };
+
+static size_t value_count(const struct job *job)
+{
+    return job->model == MODEL_ARCHES ? VALUES : BEDROCK;
+}
+
+/* ---- layers and colours */
+
+struct labels {
+    const struct job *job;
+    const struct layers *layers; /* NULL: by height */
+};
+
+static status set_labels(void *user, const float (*vertex)[3], size_t n, uint32_t *label)
+{
+    const struct labels *l = user;
+    const size_t most = palette_size(l->job);
+#pragma omp parallel for
+    for (size_t i = 0; i < n; i++)
+        if (!l->layers || !layers_at(l->layers, vertex[i], &label[i]) || label[i] >= most)
+            label[i] = (uint32_t)job_layer_at(l->job, (double)vertex[i][2]);
+    return OK;
+}
+
+/* The layer's; on terrain mixed by the materials' shares, the rest being the layer's. */
+static void color_of(const struct job *job, const struct vdb_mesh *m, size_t i, float rgb[3])
+{
+    palette_color(job, m->label[i], rgb);
+    if (job->model != MODEL_ARCHES)
+        return;
+    double height = (double)m->vertex[3 * i + 2], rest = 1, sum[3] = {0};
+    const size_t color[] = {job_layer_at(job, height), job->n_strata + 1, job->n_strata, job->n_strata + 2};
+    for (size_t k = BEDROCK; k < VALUES; k++) {
+        float own[3];
+        double share = (double)m->value[k * m->n_vertices + i];
+        palette_color(job, color[k - BEDROCK], own);
+        for (int c = 0; c < 3; c++)
+            sum[c] += share * (double)own[c];
+        rest -= share;
+    }
+    for (int c = 0; c < 3; c++)
+        rgb[c] = (float)(sum[c] + (rest > 0 ? rest : 0) * (double)rgb[c]);
+}
+
+/* ---- files */
+
+/* mesh/NAME.FRAME.EXT, or mesh/NAME.rocks.FRAME.EXT */
+static status mesh_path(const struct meshes *m, bool rocks, int frame, const char *extension, char out[4096])
+{
+    status st = OK;
+    char name[300];
+    snprintf(name, sizeof name, "%.255s%s", m->job->name, rocks ? ".rocks" : "");
+    TRY(folder_path(out, m->root, name, FILE_MESH, frame, NULL));
+    strcpy(out + strlen(out) - 3, extension);
+done:
+    return st;
+}
+
+static status write_both(const struct meshes *m, bool rocks, int frame, struct mesh_file *file)
+{
+    status st = OK;
+    char path[4096], comment[400];
+    struct text text = {0};
+    snprintf(comment, sizeof comment, "hoodoo %s: %.255s, frame %d; metres, %s up", hoodoo_version,
+             m->job->name, frame, m->job->output.up == OUTPUT_UP_Y ? "y" : "z");
+    file->name = m->job->name;
+    file->comment = comment;
+    file->up = m->job->output.up;
+    TRY(mesh_path(m, rocks, frame, "ply", path));
+    mesh_file_ply(file, &text);
+    TRY(text_status(&text));
+    TRY(atomic_file_write(path, text.data, text.size));
+    text_free(&text);
+    TRY(mesh_path(m, rocks, frame, "obj", path));
+    mesh_file_obj(file, &text);
+    TRY(text_status(&text));
+    TRY(atomic_file_write(path, text.data, text.size));
+done:
+    text_free(&text);
+    return st;
+}
+
+static status write_surface(const struct meshes *m, int frame)
+{
+    status st = OK;
+    char path[4096];
+    struct rock rock = {0};
+    struct layers layers = {0};
+    struct labels labels = {.job = m->job};
+    struct vdb_mesh mesh = {0};
+    float(*color)[3] = NULL;
+    TRY(folder_path(path, m->root, m->job->name, FILE_POINTS, frame, NULL));
+    if (access(path, R_OK) == 0) {
+        TRY(vdb_points_read(path, &rock));
+        if (rock.layer) {
+            TRY(layers_create(&rock, m->job->domain.spacing_m, &layers));
+            labels.layers = &layers;
+        }
+    }
+    const struct vdb_mesh_options options = {.adaptivity = m->adaptivity,
+                                             .smooth = m->smooth,
+                                             .values = values,
+                                             .n_values = value_count(m->job),
+                                             .n_optional = value_count(m->job) - (VALUES - OPTIONAL),
+                                             .label = set_labels,
+                                             .user = &labels};
+    TRY(folder_path(path, m->root, m->job->name, FILE_VOLUMES, frame, NULL));
+    TRY(vdb_mesh_make(path, &options, &mesh));
+    TRY(memory_alloc(mesh.n_vertices, sizeof *color, "colours", &color));
+#pragma omp parallel for
+    for (size_t i = 0; i < mesh.n_vertices; i++)
+        color_of(m->job, &mesh, i, color[i]);
+    TRY(write_both(m, false, frame,
+                   &(struct mesh_file){.n_vertices = mesh.n_vertices,
+                                       .n_triangles = mesh.n_triangles,
+                                       .vertex = mesh.vertex,
+                                       .normal = mesh.normal,
+                                       .triangle = mesh.triangle,
+                                       .n_values = value_count(m->job),
+                                       .value_name = values,
+                                       .value = mesh.value,
+                                       .layer = mesh.label,
+                                       .color = (const float(*)[3])color}));
+done:
+    free(color);
+    vdb_mesh_free(&mesh);
+    layers_destroy(&layers);
+    rock_free(&rock);
+    return st;
+}
+
+/* ---- rocks */
+
+/* A tile's rock, simplified like the surface, and by a share of its radius at least: there may be thousands. */
+static status rock_shape(const struct meshes *m, const struct pile_tile *tile, size_t which,
+                         struct trimesh *out)
+{
+    status st = OK;
+    const struct pile_rock *r = &tile->rock[which];
+    uint32_t *kept = NULL;
+    double tolerance = fmax(m->adaptivity * m->job->domain.spacing_m, 0.02 * tile->radius);
+    *out = (struct trimesh){.n_vertices = r->n_vertices, .n_triangles = tile->n_triangles};
+    TRY(memory_alloc(out->n_vertices, 3 * sizeof *out->vertex, "a rock", &out->vertex));
+    TRY(memory_alloc(out->n_triangles, 3 * sizeof *out->triangle, "a rock", &out->triangle));
+    memcpy(out->vertex, r->vertex, out->n_vertices * 3 * sizeof *out->vertex);
+    memcpy(out->triangle, tile->triangle, out->n_triangles * 3 * sizeof *out->triangle);
+    TRY(trimesh_simplify(out, NULL, tolerance, 4 * tile->radius, &kept));
+done:
+    free(kept);
+    return st;
+}
+
+/* All of them in one mesh. */
+static status join_rocks(const struct rock *at, const struct trimesh *shape, size_t n_shapes,
+                         struct trimesh *out)
+{
+    status st = OK;
+    struct trimesh all = {0};
+    for (size_t i = 0; i < at->n; i++) {
+        if (at->layer[i] >= n_shapes) {
+            st = fail(E_INPUT, "a rock of shape %u, of %zu there are: not of this job", at->layer[i],
+                      n_shapes);
+            goto done;
+        }
+        all.n_vertices += shape[at->layer[i]].n_vertices;
+        all.n_triangles += shape[at->layer[i]].n_triangles;
+    }
+    if (all.n_vertices > INT32_MAX) {
+        st =
+            fail(E_OUTPUT, "%zu vertices of rocks are too many for one mesh; use --adaptivity, or --no-rocks",
+                 all.n_vertices);
+        goto done;
+    }
+    TRY(memory_alloc(all.n_vertices, 3 * sizeof *all.vertex, "rocks", &all.vertex));
+    TRY(memory_alloc(all.n_triangles, 3 * sizeof *all.triangle, "rocks", &all.triangle));
+    float *vertex = all.vertex;
+    uint32_t *triangle = all.triangle, first = 0;
+    for (size_t i = 0; i < at->n; i++) {
+        const struct trimesh *s = &shape[at->layer[i]];
+        for (size_t v = 0; v < 3 * s->n_vertices; v++)
+            *vertex++ = at->P[4 * i + v % 3] + s->vertex[v];
+        for (size_t c = 0; c < 3 * s->n_triangles; c++)
+            *triangle++ = first + s->triangle[c];
+        first += (uint32_t)s->n_vertices;
+    }
+    *out = all;
+    all = (struct trimesh){0};
+done:
+    trimesh_free(&all);
+    return st;
+}
+
+static status write_rocks(const struct meshes *m, int frame)
+{
+    status st = OK;
+    char path[4096];
+    struct pile_tile tile = {0};
+    struct rock at = {0};
+    struct trimesh *shape = NULL, all = {0};
+    float *normal = NULL, (*color)[3] = NULL;
+    uint32_t *layer = NULL;
+    TRY(folder_path(path, m->root, m->job->name, FILE_ROCKS, frame, NULL));
+    TRY(vdb_points_read(path, &at));
+    TRY(terrain_tile(m->job, &tile));
+    TRY(memory_alloc(tile.n, sizeof *shape, "rocks", &shape));
+    for (size_t i = 0; i < tile.n; i++)
+        TRY(rock_shape(m, &tile, i, &shape[i]));
+    TRY(join_rocks(&at, shape, tile.n, &all));
+    TRY(memory_alloc(all.n_vertices, 3 * sizeof *normal, "rocks", &normal));
+    TRY(memory_alloc(all.n_vertices, sizeof *color, "rocks", &color));
+    TRY(memory_alloc(all.n_vertices, sizeof *layer, "rocks", &layer));
+    trimesh_normals(&all, normal);
+    for (size_t i = 0; i < all.n_vertices; i++) {
+        layer[i] = (uint32_t)m->job->n_strata + 1;
+        palette_color(m->job, layer[i], color[i]);
+    }
+    TRY(write_both(m, true, frame,
+                   &(struct mesh_file){.n_vertices = all.n_vertices,
+                                       .n_triangles = all.n_triangles,
+                                       .vertex = all.vertex,
+                                       .normal = normal,
+                                       .triangle = all.triangle,
+                                       .layer = layer,
+                                       .color = (const float(*)[3])color}));
+done:
+    for (size_t i = 0; shape && i < tile.n; i++)
+        trimesh_free(&shape[i]);
+    free(shape);
+    trimesh_free(&all);
+    free(normal);
+    free(color);
+    free(layer);
+    rock_free(&at);
+    pile_tile_destroy(&tile);
+    return st;
+}
+
+static bool has_rocks(const struct meshes *m)
+{
+    return m->rocks && m->job->model == MODEL_ARCHES && m->job->arches.piles.rock_m > 0;
+}
+
+status meshes_write(const struct meshes *m, int frame)
+{
+    status st = OK;
+    TRY(write_surface(m, frame));
+    if (has_rocks(m))
+        TRY(write_rocks(m, frame));
+done:
+    return st;
+}
+
+bool meshes_current(const struct meshes *m, int frame)
+{
+    static const char *const extension[] = {"ply", "obj"};
+    char path[4096];
+    struct stat from, made;
+    if (folder_path(path, m->root, m->job->name, FILE_VOLUMES, frame, NULL) != OK || stat(path, &from) != 0)
+        return false;
+    for (int rocks = 0; rocks <= has_rocks(m); rocks++)
+        for (int e = 0; e < 2; e++)
+            if (mesh_path(m, rocks, frame, extension[e], path) != OK || stat(path, &made) != 0 ||
+                made.st_mtim.tv_sec < from.st_mtim.tv_sec)
+                return false;
+    return true;
+}
