@@ -104,7 +104,9 @@ def fill_up(step, before, grown):
         finally:
             subprocess.run(["umount", "disk"], check=True)
     check(not bad, f"{step[0]}: on a full disk what is there is whole, and with room it finishes (exit codes {codes})", *bad)
-    check(4 in codes, f"{step[0]}: a full disk is exit code 4")
+    # a report without its pictures is one; a template fits into what is left of a page
+    if step[0] not in ("report", "submit"):
+        check(4 in codes, f"{step[0]}: a full disk is exit code 4")
 
 
 def kill_at(step, before, length, moments):
@@ -112,7 +114,8 @@ def kill_at(step, before, length, moments):
     bad, killed, halves = [], 0, 0
     for i in range(3):
         for folder in ("killed", "killed_terrain"):
-            shutil.rmtree(folder, ignore_errors=True)
+            while os.path.isdir(folder):  # what was killed may still be going
+                shutil.rmtree(folder, ignore_errors=True)
         if os.path.isdir(before):
             shutil.copytree(before, "killed")
         child = start(words_of(step, "killed"))

@@ -128,6 +128,14 @@ def page(path):
     return text.rstrip().endswith("</html>") and reader.good and not reader.open
 
 
+def stacks(path):
+    """Its head says how many columns and layers follow; a column has as many layers as its count says."""
+    data = read(path)
+    nx, ny, layers = *struct.unpack_from("<2i", data, 16), *struct.unpack_from("<Q", data, 32)
+    counts = struct.unpack_from(f"<{nx * ny}I", data, 56)
+    return data.startswith(b"hoodoo.stck") and len(data) == 56 + 4 * (nx * ny + layers) + 8 and sum(counts) == layers
+
+
 def lines(path):
     return read(path).endswith(b"\n")
 
@@ -137,7 +145,7 @@ def job(path):
 
 
 READERS = {"vdb": vdb, "exr": picture, "png": picture, "jpg": picture, "ply": ply, "obj": obj, "usdc": usdc, "usda": usda, "mp4": mp4,
-           "html": page, "json": lambda path: json.loads(read(path)) is not None, "yaml": job, "ckpt": hoodoo, "stacks": hoodoo,
+           "html": page, "json": lambda path: json.loads(read(path)) is not None, "yaml": job, "ckpt": hoodoo, "stacks": stacks,
            "pov": lines, "inc": lines, "sh": lines, "mark": os.path.exists}
 # What is added to line by line, and the lock, may end anywhere; each line's reader knows.
 LOOSE = ("log/", "lock", "report/log", "preview/log", "turntable/log")
