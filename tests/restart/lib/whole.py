@@ -46,16 +46,32 @@ def picture(path):
     return part > 0 and read(path).endswith(ends.get(path.rsplit(".", 1)[1], b""))
 
 
+SIZES = {"char": 1, "uchar": 1, "short": 2, "ushort": 2, "int": 4, "uint": 4, "float": 4, "double": 8}
+
+
 def ply(path):
-    data = read(path)
-    head, found, body = data.partition(b"end_header\n")
-    n, = map(int, re.findall(rb"element vertex (\d+)", head))
-    m, = map(int, re.findall(rb"element face (\d+)", head))
-    row = 4 * len(re.findall(rb"property float", head))
-    if not found or len(body) != n * row + m * 13:
-        return False
-    corners = [struct.unpack_from("<B3I", body, n * row + 13 * i) for i in range(m)]
-    return all(c[0] == 3 and max(c[1:]) < n for c in corners)
+    """As long as its head says, and no triangle of a vertex that is not there."""
+    head, found, body = read(path).partition(b"end_header\n")
+    elements = []  # name, count, bytes before the list, bytes after it
+    for line in head.decode().split("\n"):
+        words = line.split()
+        if words[:1] == ["element"]:
+            elements.append([words[1], int(words[2]), 0, None])
+        elif words[:2] == ["property", "list"]:
+            elements[-1][3] = 0
+        elif words[:1] == ["property"]:
+            elements[-1][2 if elements[-1][3] is None else 3] += SIZES[words[1]]
+    at, n = 0, elements[0][1]
+    for name, count, before, after in elements:
+        if after is None:
+            at += count * before
+            continue
+        row = before + 13 + after
+        corners = [struct.unpack_from("<B3I", body, at + row * i + before) for i in range(count)]
+        if not all(c[0] == 3 and max(c[1:]) < n for c in corners):
+            return False
+        at += row * count
+    return bool(found) and elements[0][0] == "vertex" and n > 0 and len(body) == at
 
 
 def obj(path):
@@ -146,7 +162,7 @@ def job(path):
 
 READERS = {"vdb": vdb, "exr": picture, "png": picture, "jpg": picture, "ply": ply, "obj": obj, "usdc": usdc, "usda": usda, "mp4": mp4,
            "html": page, "json": lambda path: json.loads(read(path)) is not None, "yaml": job, "ckpt": hoodoo, "stacks": stacks,
-           "pov": lines, "inc": lines, "sh": lines, "mark": os.path.exists}
+           "pov": lines, "inc": lines, "sh": lines, "mtl": lines, "mark": os.path.exists}
 # What is added to line by line, and the lock, may end anywhere; each line's reader knows.
 LOOSE = ("log/", "lock", "report/log", "preview/log", "turntable/log")
 
