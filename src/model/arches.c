@@ -2,7 +2,7 @@
  *
  * One frame:
  *
- *   tools at work in it, in the job's order -> stabilise -> ledger
+ *   tools at work in it, in the job's order -> what nothing holds -> stabilise -> ledger
  *
  * output() then samples the smooth surface over the stacks, and where rock layers are, places rocks. The state
  * between frames is the stacks and the ledger. The ledger counts quanta (stacks.h): volume, exactly; tools that
@@ -25,6 +25,7 @@
 #include "scene/noise.h"
 #include "scene/scene.h"
 #include "stacks/file.h"
+#include "stacks/loosen.h"
 #include "stacks/operations.h"
 #include "stacks/stabilise.h"
 
@@ -93,6 +94,14 @@ static status settle(struct model *m, const int lo[2], const int hi[2])
     return OK;
 }
 
+static void extend(int lo[2], int hi[2], const int from[2], const int to[2])
+{
+    for (int a = 0; a < 2; a++) {
+        lo[a] = from[a] < lo[a] ? from[a] : lo[a];
+        hi[a] = to[a] > hi[a] ? to[a] : hi[a];
+    }
+}
+
 /* The tools of this frame, and what follows from them. `all`: whatever else may slide, does. */
 static status work(struct model *m, bool all)
 {
@@ -103,20 +112,16 @@ static status work(struct model *m, bool all)
                           .sigma = job->sigma * m->stacks.cell,
                           .noise = tool_noise,
                           .user = m};
-    int lo[2] = {m->stacks.n[0], m->stacks.n[1]}, hi[2] = {-1, -1};
+    int lo[2] = {m->stacks.n[0], m->stacks.n[1]}, hi[2] = {-1, -1}, from[2], to[2];
     gpu_stage(m->gpu, "tools");
     for (size_t i = 0; i < job->n_operations; i++) {
         char path[64];
-        int from[2], to[2];
         if (!operation_active(&job->operations[i], m->frame))
             continue;
         snprintf(path, sizeof path, "arches.operations.%zu", i);
         TRY(operation_apply(&m->stacks, &tools, &job->operations[i], path, m->frame, from, to));
         balance(m, 0);
-        for (int a = 0; a < 2; a++) {
-            lo[a] = from[a] < lo[a] ? from[a] : lo[a];
-            hi[a] = to[a] > hi[a] ? to[a] : hi[a];
-        }
+        extend(lo, hi, from, to);
     }
     /* Where slides go on from frame to frame, anything may be under way. */
     if (all || job->sweeps)
@@ -124,6 +129,10 @@ static status work(struct model *m, bool all)
             lo[a] = 0;
             hi[a] = m->stacks.n[a] - 1;
         }
+    if (job->unheld == UNHELD_FALL && lo[0] <= hi[0]) {
+        TRY(loosen(&m->stacks, spaces_kinds(m->table, m->n_materials).solid, from, to));
+        extend(lo, hi, from, to);
+    }
     gpu_stage(m->gpu, "stabilise");
     TRY(settle(m, lo, hi));
 done:
