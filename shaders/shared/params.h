@@ -265,7 +265,8 @@ SHARED_SIZE(plants_params, 48)
 struct mpm_params {
     uint n;
     uint cx, cy, cz;             /* cells of the domain */
-    uint n_cells;                /* occupied */
+    uint n_parts;                /* rows of partial sums */
+    uint bodies;                 /* 1: pieces may part; 0: all is one body */
     uint rock;                   /* 1: resting rock is an obstacle */
     float dx;                    /* m */
     float dt;                    /* s */
@@ -278,8 +279,9 @@ struct mpm_params {
     float fastest;               /* m/s: nodes are not let go faster */
     float lift;                  /* cells: of the domain above the nodes that are its ground */
     float rebound;               /* share of elastic energy that comes back from an impact */
+    float touching;              /* kg: at a node with less, bodies do not touch */
 };
-SHARED_SIZE(mpm_params, 76)
+SHARED_SIZE(mpm_params, 84)
 
 /* 1/s: unloading this fast gives back no more than the rebound's share; slower, more. */
 #define MPM_REBOUND_RATE 0.2f
@@ -290,8 +292,25 @@ struct mpm_load_params {
     float strength; /* Pa */
     float joint;    /* Pa: at joints */
     float block;    /* m: size of the pieces that joints cut; 0: no joints */
+    float width;    /* blocks: half of a joint's */
+    uint nx, ny;    /* lattice of the pieces' seeds, one longer than the domain at both ends */
 };
-SHARED_SIZE(mpm_load_params, 20)
+SHARED_SIZE(mpm_load_params, 32)
+
+/* Loose grains are of no piece, and particles that are not at a joint have none. */
+#define MPM_LOOSE 0u
+#define MPM_NO_JOINT 0xffffffffu
+
+/* A joint lies between a piece and one of those after it, at most two seeds away on every axis. */
+#define MPM_JOINTS 62u
+
+/* What becomes of a joint: it holds, it has broken, what it joined has come apart. */
+#define MPM_HOLDS 0u
+#define MPM_BREAKS 1u
+#define MPM_PARTS 2u
+
+/* Bodies that a node tells apart. */
+#define MPM_BODIES 8
 
 /* Of a particle that has not broken; others hold how much they have come apart, as a volume strain. */
 #define MPM_WHOLE (-1.0f)

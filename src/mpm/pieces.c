@@ -1,0 +1,139 @@
+/* Pieces of jointed rock: which joints have broken, and which pieces those that have not keep together. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "mpm/internal.h"
+
+/* Share of a joint's particles that crack before all of it does; half of a joint's width in pieces, and at least in
+ * particles. */
+static const double BRITTLE = 0.25, WIDTH = 0.1, LEAST_WIDTH = 0.75;
+
+static size_t count(const int n[3])
+{
+    return (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
+}
+
+/* m: a piece is resolved from four cells on; smaller ones are made as large as two. */
+static double size_of(const struct mpm *m)
+{
+    return m->options.block > 0 ? fmax(m->options.block, 2 * m->dx) : 0;
+}
+
+uint64_t mpm_pieces_bytes(const int cells[3])
+{
+    return (uint64_t)(cells[0] / 2 + 3) * (uint64_t)(cells[1] / 2 + 3) * (uint64_t)(cells[2] / 2 + 3) *
+           (3 * MPM_JOINTS + 1) * 4;
+}
+
+status mpm_pieces_create(struct gpu *gpu, struct mpm *m)
+{
+    status st = OK;
+    struct mpm_pieces *s = &m->pieces;
+    double size = size_of(m);
+    for (int a = 0; a < 3 && size > 0; a++)
+        s->n[a] = (int)floor(m->cells[a] * m->dx / size) + 3;
+    size_t n = count(s->n), joints = n > 0 ? n * MPM_JOINTS : 1;
+    TRY(gpu_buffer_create(gpu, "mpm bodies", n + 2, 4, &s->body));
+    TRY(gpu_buffer_create(gpu, "mpm joints' counts", 2 * joints, 4, &s->counts));
+    TRY(gpu_buffer_create(gpu, "mpm joints' fates", joints, 4, &s->fate));
+    TRY(memory_alloc(n + 2, 4, "bodies", &s->host_body));
+    TRY(memory_alloc(2 * joints, 4, "joints' counts", &s->host_counts));
+    TRY(memory_alloc(joints, 4, "joints' fates", &s->host_fate));
+done:
+    return st;
+}
+
+void mpm_pieces_destroy(struct gpu *gpu, struct mpm *m)
+{
+    struct mpm_pieces *s = &m->pieces;
+    gpu_buffer_destroy(gpu, &s->body);
+    gpu_buffer_destroy(gpu, &s->counts);
+    gpu_buffer_destroy(gpu, &s->fate);
+    free(s->host_body);
+    free(s->host_counts);
+    free(s->host_fate);
+    *s = (struct mpm_pieces){0};
+}
+
+struct mpm_load_params mpm_load_params_of(const struct mpm *m, size_t n)
+{
+    double size = size_of(m);
+    return (struct mpm_load_params){
+        .n = (uint)n,
+        .seed = m->options.seed,
+        .strength = (float)m->options.strength,
+        .joint = (float)(m->options.strength * m->options.joint),
+        .block = (float)size,
+        .width = (float)(size > 0 ? fmax(WIDTH, LEAST_WIDTH * 0.5 * m->dx / size) : 0),
+        .nx = (uint)m->pieces.n[0],
+        .ny = (uint)m->pieces.n[1],
+    };
+}
+
+/* ---- bodies */
+
+static uint32_t root_of(uint32_t *body, uint32_t i)
+{
+    while (body[i] != i)
+        i = body[i] = body[body[i]];
+    return i;
+}
+
+/* The piece on a joint's other side, as shaders/mpm/load.comp.glsl numbers them. */
+static uint32_t beyond(const int n[3], uint32_t joint)
+{
+    int d = (int)(joint % MPM_JOINTS) + 1, z = (d + 12) / 25, y = (d - 25 * z + 12) / 5 - 2,
+        x = d - 25 * z - 5 * y;
+    return (uint32_t)((int)(joint / MPM_JOINTS) + (z * n[1] + y) * n[0] + x);
+}
+
+static bool holds(const uint32_t count_of[2])
+{
+    return count_of[0] > 0 && count_of[1] < BRITTLE * count_of[0];
+}
+
+status mpm_pieces_look(struct gpu *gpu, struct mpm *m)
+{
+    status st = OK;
+    struct mpm_pieces *s = &m->pieces;
+    uint32_t n = (uint32_t)count(s->n), *body = s->host_body + 1;
+    struct count_params all = {(uint)m->n};
+    struct mpm_load_params k = mpm_load_params_of(m, m->n);
+    bool news = false;
+    if (n == 0)
+        return OK;
+    gpu_fill(gpu, s->counts, 0);
+    GPU_RUN(gpu, mpm_crack, m->n, all, m->word[MPM_JOINT], m->word[MPM_APART], s->counts);
+    TRY(gpu_download(gpu, s->counts, 0, s->host_counts, 2 * (size_t)n * MPM_JOINTS));
+    for (uint32_t i = 0; i < n; i++)
+        body[i] = i;
+    for (uint32_t j = 0; j < n * MPM_JOINTS; j++)
+        if (holds(s->host_counts + 2 * (size_t)j)) {
+            uint32_t a = root_of(body, j / MPM_JOINTS), b = root_of(body, beyond(s->n, j));
+            body[a < b ? b : a] = a < b ? a : b;
+        }
+    for (uint32_t i = 0; i < n; i++)
+        body[i] = root_of(body, i);
+    for (uint32_t j = 0; j < n * MPM_JOINTS; j++) {
+        const uint32_t *c = s->host_counts + 2 * (size_t)j;
+        s->host_fate[j] = MPM_HOLDS;
+        if (c[0] == 0 || holds(c))
+            continue;
+        s->host_fate[j] = body[j / MPM_JOINTS] == body[beyond(s->n, j)] ? MPM_BREAKS : MPM_PARTS;
+        news |= s->host_fate[j] == MPM_PARTS || c[1] < c[0];
+    }
+    /* Loose grains are body 0. */
+    for (uint32_t i = 0; i < n; i++)
+        body[i]++;
+    s->host_body[0] = 0;
+    TRY(gpu_upload(gpu, s->body, 0, s->host_body, n + 1));
+    if (news) {
+        TRY(gpu_upload(gpu, s->fate, 0, s->host_fate, (size_t)n * MPM_JOINTS));
+        GPU_RUN(gpu, mpm_part, m->n, k, s->fate, m->word[MPM_JOINT], m->word[MPM_APART],
+                m->word[MPM_STRENGTH]);
+    }
+done:
+    return st;
+}
