@@ -72,7 +72,8 @@ void main()
     AT(viability, j) = 0.0;
     bool loose = LOAD_U(phase, j) == PHASE_DEPOSIT;
     AT(apart, i) = loose ? 0.0 : MPM_WHOLE;
-    AT(strength, i) = joint_of != MPM_NO_JOINT ? k.joint : k.strength;
+    // Rubble has come apart where its joints were.
+    AT(strength, i) = joint_of != MPM_NO_JOINT && LOAD_U(phase, j) == PHASE_ROCK ? k.joint : k.strength;
     AT(id, i) = LOAD_U(ids, j);
     AT(origin, i) = j;
     AT(piece, i) = own + 1u;

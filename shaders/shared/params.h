@@ -279,7 +279,7 @@ struct mpm_params {
     float fastest;               /* m/s: nodes are not let go faster */
     float lift;                  /* cells: of the domain above the nodes that are its ground */
     float rebound;               /* share of elastic energy that comes back from an impact */
-    float touching;              /* kg: at a node with less, bodies do not touch */
+    float full;                  /* kg: of a node's room full of rock */
 };
 SHARED_SIZE(mpm_params, 84)
 
@@ -308,6 +308,11 @@ SHARED_SIZE(mpm_load_params, 32)
 #define MPM_HOLDS 0u
 #define MPM_BREAKS 1u
 #define MPM_PARTS 2u
+
+/* Bodies touch where they fill this share of a node's room, and each that of it: flat faces stop a third of a cell
+ * apart, edges do not stop short of faces. */
+#define MPM_TOUCHING 0.75f
+#define MPM_MEETING 0.1f
 
 /* Bodies that a node tells apart. */
 #define MPM_BODIES 8

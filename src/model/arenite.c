@@ -74,7 +74,9 @@ static status count_rock(struct model *m)
 {
     status st = OK;
     uint32_t n_deposits = 0;
-    if (m->deposits || m->collapse.falls)
+    if (m->blocks.rubble)
+        return collapse_count(m->gpu, &m->particles, &m->ledger);
+    if (m->deposits)
         TRY(deposit_count(m->gpu, m->work, &m->particles, &n_deposits));
     m->ledger.deposit = n_deposits;
     m->ledger.rock = m->particles.n - n_deposits;
@@ -186,6 +188,9 @@ static status create_particles(struct model *m, const struct rock *rock)
     TRY(particles_create(m->gpu, m->work, rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     TRY(erosion_create(m->gpu, m->job, m->particles.n_max, &m->erosion));
     TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+    m->blocks.rubble |= m->collapse.falls;
+    for (size_t i = 0; i < rock->n && !m->blocks.rubble; i++)
+        m->blocks.rubble = rock->phase[i] == PHASE_FALLING;
 done:
     return st;
 }
@@ -289,6 +294,7 @@ static status edit(struct model *m)
     if (kind != EDITS_ROCK) {
         collapse_destroy(m->gpu, &m->collapse);
         TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+        m->blocks.rubble |= m->collapse.falls;
     }
     if (kind == EDITS_ROCK) {
         TRY(particles_download(m->gpu, &m->particles, STATE, &rock));
@@ -607,7 +613,7 @@ static status begin(struct model *m)
         TRY(collapse_load(m->gpu, &m->collapse, &m->particles));
     else
         TRY(remove_unsupported(m));
-    if (m->ledger.fallen)
+    if (m->ledger.fallen && !m->blocks.rubble)
         log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out",
                  m->frame, (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start);
     rock_free(&rock);

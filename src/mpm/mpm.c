@@ -4,10 +4,6 @@
 
 #include "mpm/internal.h"
 
-/* Share of a node's room that rock has to fill for bodies to touch there: flat faces then stop a quarter of a cell
- * apart. */
-static const double TOUCHING = 0.75;
-
 const char *const mpm_vector_names[MPM_VECTORS] = {"mpm place",    "mpm velocity",  "mpm affine x",
                                                    "mpm affine y", "mpm stretch x", "mpm stretch y"};
 const char *const mpm_word_names[MPM_WORDS] = {"mpm share", "mpm apart", "mpm strength", "mpm id",
@@ -134,7 +130,7 @@ struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt)
         .fastest = 1e30f,
         .lift = (float)o->lift,
         .rebound = (float)o->rebound,
-        .touching = (float)(TOUCHING * o->density * pow(m->dx, 3)),
+        .full = (float)(o->density * pow(m->dx, 3)),
     };
 }
 

@@ -125,6 +125,11 @@ MUST_USE status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, d
  * been indexed since mpm_load() or mpm_follow(); those whose point is gone keep viability 0. */
 void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p, bool moving);
 
+/* After mpm_store(), of a fall that is over: fragments, whole rock of one body that faces of voxels connect, are
+ * rubble (PHASE_FALLING) if they have the volume of a cube of `rubble` m, deposits if they are smaller, as loose
+ * grains are. Waits. */
+MUST_USE status mpm_settle(struct gpu *gpu, struct mpm *m, struct particles *p, double rubble);
+
 /* After p was indexed: where each point's particle is now, by id. All ids are below n_ids; `table` is scratch of
  * n_ids words. */
 void mpm_follow(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_buffer *table);
