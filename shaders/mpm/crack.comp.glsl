@@ -1,21 +1,29 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Of each joint, how many particles it has and how many of them have cracked.
+// Of each joint, how many particles it has and how many of them have cracked; and, after those, how many whole ones
+// each piece has.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, joint)
 READ_F(1, apart)
-WRITE_U(2, count)
-PARAMS(count_params)
+READ_U(2, piece)
+WRITE_U(3, count)
+PARAMS(mpm_load_params)
+#include "mpm/broken.glsl"
 
 void main()
 {
     uint i = THREAD;
-    uint j = i < k.n ? LOAD_U(joint, i) : MPM_NO_JOINT;
+    if (i >= k.n)
+        return;
+    uint j = LOAD_U(joint, i);
+    bool cracked = LOAD_F(apart, i) >= 0.0;
+    if (!is_loose(LOAD_F(apart, i), j))
+        atomicAdd(AT(count, 2u * MPM_JOINTS * k.pieces + LOAD_U(piece, i) - 1u), 1u);
     if (j == MPM_NO_JOINT)
         return;
     atomicAdd(AT(count, 2u * j), 1u);
-    if (LOAD_F(apart, i) >= 0.0)
+    if (cracked)
         atomicAdd(AT(count, 2u * j + 1u), 1u);
 }

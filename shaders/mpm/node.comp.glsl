@@ -17,6 +17,10 @@ PARAMS(mpm_params)
 #include "mpm/sum.glsl"
 #include "mpm/contact.glsl"
 
+// Where there are pieces, what is slower than this, m/s, loses this share of its speed in a second: piles come to
+// rest instead of creeping. A quarter of its weight pulls a body away.
+const float STILL = 0.06, STILLING = 40.0;
+
 void main()
 {
     uint i = THREAD;
@@ -28,6 +32,8 @@ void main()
     float speed = length(v);
     if (speed > k.fastest)
         v *= k.fastest / speed;
+    if (k.bodies != 0u && speed < STILL)
+        v *= max(1.0 - STILLING * k.dt, 0.0);
     AT(velocity, i) = vec4(off_walls(v, LOAD_V(wall, node), node), sum.w);
     AT(mass, i) = sum.w;
 }

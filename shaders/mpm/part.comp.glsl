@@ -1,11 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A joint that has broken carries no tension anywhere. Once it has parted two bodies, what lies along it is whole
-// rock, each side with its own.
+// Where a joint has parted two pieces, what lies along it is whole rock, each side with its own.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, fate)
+READ_U(0, holds)
 WRITE_U(1, joint)
 WRITE_F(2, apart)
 WRITE_F(3, strength)
@@ -15,14 +14,9 @@ void main()
 {
     uint i = THREAD;
     uint j = i < k.n ? AT(joint, i) : MPM_NO_JOINT;
-    if (j == MPM_NO_JOINT)
+    if (j == MPM_NO_JOINT || LOAD_U(holds, j) != 0u)
         return;
-    uint now = LOAD_U(fate, j);
-    if (now == MPM_BREAKS)
-        AT(apart, i) = max(AT(apart, i), 0.0);
-    if (now == MPM_PARTS) {
-        AT(joint, i) = MPM_NO_JOINT;
-        AT(apart, i) = MPM_WHOLE;
-        AT(strength, i) = k.strength;
-    }
+    AT(joint, i) = MPM_NO_JOINT;
+    AT(apart, i) = MPM_WHOLE;
+    AT(strength, i) = k.strength;
 }

@@ -8,11 +8,10 @@ READ_U(0, home)
 READ_U(1, group)
 READ_U(2, flags)
 READ_U(3, place)
-READ_U(4, body)
-WRITE_U(5, part)
-WRITE_U(6, part_first)
-WRITE_U(7, part_cell)
-WRITE_U(8, part_body)
+WRITE_U(4, part)
+WRITE_U(5, part_first)
+WRITE_U(6, part_cell)
+WRITE_U(7, part_body)
 PARAMS(count_params)
 
 void main()
@@ -28,5 +27,5 @@ void main()
         return;
     AT(part_first, p) = i;
     AT(part_cell, p) = LOAD_U(home, i);
-    AT(part_body, p) = LOAD_U(body, LOAD_U(group, i));
+    AT(part_body, p) = LOAD_U(group, i);
 }

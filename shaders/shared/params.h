@@ -266,7 +266,7 @@ struct mpm_params {
     uint n;
     uint cx, cy, cz;             /* cells of the domain */
     uint n_parts;                /* rows of partial sums */
-    uint bodies;                 /* 1: pieces may part; 0: all is one body */
+    uint bodies;                 /* 1: there are pieces; 0: all is one body */
     uint rock;                   /* 1: resting rock is an obstacle */
     float dx;                    /* m */
     float dt;                    /* s */
@@ -294,8 +294,9 @@ struct mpm_load_params {
     float block;    /* m: size of the pieces that joints cut; 0: no joints */
     float width;    /* blocks: half of a joint's */
     uint nx, ny;    /* lattice of the pieces' seeds, one longer than the domain at both ends */
+    uint pieces;    /* how many seeds there are */
 };
-SHARED_SIZE(mpm_load_params, 32)
+SHARED_SIZE(mpm_load_params, 36)
 
 /* Loose grains are of no piece, and particles that are not at a joint have none. */
 #define MPM_LOOSE 0u
@@ -304,17 +305,7 @@ SHARED_SIZE(mpm_load_params, 32)
 /* A joint lies between a piece and one of those after it, at most two seeds away on every axis. */
 #define MPM_JOINTS 62u
 
-/* What becomes of a joint: it holds, it has broken, what it joined has come apart. */
-#define MPM_HOLDS 0u
-#define MPM_BREAKS 1u
-#define MPM_PARTS 2u
-
-/* Bodies touch where they fill this share of a node's room, and each that of it: flat faces stop a third of a cell
- * apart, edges do not stop short of faces. */
-#define MPM_TOUCHING 0.75f
-#define MPM_MEETING 0.1f
-
-/* Bodies that a node tells apart. */
+/* Pieces that a node tells apart. */
 #define MPM_BODIES 8
 
 /* Of a particle that has not broken; others hold how much they have come apart, as a volume strain. */

@@ -87,15 +87,15 @@ struct mpm {
     struct gpu_buffer *first, *meeting;                           /* uint [nodes]: a node's entries */
     struct gpu_buffer *wall;                                      /* vec4 [nodes] */
     struct gpu_buffer *partial, *reach;                           /* for each part, by node; see room */
-    struct gpu_buffer *entry_node, *entry_body, *mass, *velocity, *product;
+    struct gpu_buffer *entry_node, *entry_body, *entry_group, *mass, *velocity, *product;
     struct gpu_buffer *scalars;
     struct gpu_buffer *fill; /* float [voxels]: resting rock; borrowed, NULL: none */
     struct gpu_buffer *nothing;
     struct mpm_pieces {
-        int n[3];                                /* seeds; 0: no joints */
-        struct gpu_buffer *body, *counts, *fate; /* uint: by piece; by joint, two each; by joint */
-        uint32_t *host_body, *host_counts, *host_fate;
-        size_t n_bodies; /* that have parted since the last look */
+        int n[3];                          /* seeds; 0: no joints */
+        struct gpu_buffer *counts, *holds; /* uint: by joint, two each, and by piece; by joint */
+        uint32_t *host_counts, *host_holds;
+        uint32_t *body; /* by piece: a number that pieces which joints connect share */
     } pieces;
     size_t n_parts, n_nodes, n_entries, n_mixed;
     size_t room_parts, room_entries; /* in what is made as it is needed */

@@ -7,7 +7,8 @@
 #include "mpm/internal.h"
 
 /* Share of a joint's particles that crack before all of it does; half of a joint's width in pieces, and at least in
- * particles. */
+ * particles. Slivers, pieces of fewer particles than two cells hold, stay with their neighbours. */
+enum { SLIVER = 16 };
 static const double BRITTLE = 0.25, WIDTH = 0.1, LEAST_WIDTH = 0.75;
 
 static size_t count(const int n[3])
@@ -35,12 +36,11 @@ status mpm_pieces_create(struct gpu *gpu, struct mpm *m)
     for (int a = 0; a < 3 && size > 0; a++)
         s->n[a] = (int)floor(m->cells[a] * m->dx / size) + 3;
     size_t n = count(s->n), joints = n > 0 ? n * MPM_JOINTS : 1;
-    TRY(gpu_buffer_create(gpu, "mpm bodies", n + 2, 4, &s->body));
-    TRY(gpu_buffer_create(gpu, "mpm joints' counts", 2 * joints, 4, &s->counts));
-    TRY(gpu_buffer_create(gpu, "mpm joints' fates", joints, 4, &s->fate));
-    TRY(memory_alloc(n + 2, 4, "bodies", &s->host_body));
-    TRY(memory_alloc(2 * joints, 4, "joints' counts", &s->host_counts));
-    TRY(memory_alloc(joints, 4, "joints' fates", &s->host_fate));
+    TRY(gpu_buffer_create(gpu, "mpm joints' counts", 2 * joints + n, 4, &s->counts));
+    TRY(gpu_buffer_create(gpu, "mpm joints that hold", joints, 4, &s->holds));
+    TRY(memory_alloc(n + 1, 4, "bodies", &s->body));
+    TRY(memory_alloc(2 * joints + n, 4, "joints' counts", &s->host_counts));
+    TRY(memory_alloc(joints, 4, "joints that hold", &s->host_holds));
 done:
     return st;
 }
@@ -48,12 +48,11 @@ done:
 void mpm_pieces_destroy(struct gpu *gpu, struct mpm *m)
 {
     struct mpm_pieces *s = &m->pieces;
-    gpu_buffer_destroy(gpu, &s->body);
     gpu_buffer_destroy(gpu, &s->counts);
-    gpu_buffer_destroy(gpu, &s->fate);
-    free(s->host_body);
+    gpu_buffer_destroy(gpu, &s->holds);
     free(s->host_counts);
-    free(s->host_fate);
+    free(s->host_holds);
+    free(s->body);
     *s = (struct mpm_pieces){0};
 }
 
@@ -69,6 +68,7 @@ struct mpm_load_params mpm_load_params_of(const struct mpm *m, size_t n)
         .width = (float)(size > 0 ? fmax(WIDTH, LEAST_WIDTH * 0.5 * m->dx / size) : 0),
         .nx = (uint)m->pieces.n[0],
         .ny = (uint)m->pieces.n[1],
+        .pieces = (uint)count(m->pieces.n),
     };
 }
 
@@ -89,51 +89,37 @@ static uint32_t beyond(const int n[3], uint32_t joint)
     return (uint32_t)((int)(joint / MPM_JOINTS) + (z * n[1] + y) * n[0] + x);
 }
 
-static bool holds(const uint32_t count_of[2])
-{
-    return count_of[0] > 0 && count_of[1] < BRITTLE * count_of[0];
-}
-
 status mpm_pieces_look(struct gpu *gpu, struct mpm *m)
 {
     status st = OK;
     struct mpm_pieces *s = &m->pieces;
-    uint32_t n = (uint32_t)count(s->n), *body = s->host_body + 1;
-    struct count_params all = {(uint)m->n};
+    uint32_t n = (uint32_t)count(s->n), *body = s->body + 1;
     struct mpm_load_params k = mpm_load_params_of(m, m->n);
-    bool news = false;
+    const uint32_t *of_piece = s->host_counts + 2 * (size_t)n * MPM_JOINTS;
+    bool parted = false;
     if (n == 0)
         return OK;
     gpu_fill(gpu, s->counts, 0);
-    GPU_RUN(gpu, mpm_crack, m->n, all, m->word[MPM_JOINT], m->word[MPM_APART], s->counts);
-    TRY(gpu_download(gpu, s->counts, 0, s->host_counts, 2 * (size_t)n * MPM_JOINTS));
+    GPU_RUN(gpu, mpm_crack, m->n, k, m->word[MPM_JOINT], m->word[MPM_APART], m->word[MPM_PIECE], s->counts);
+    TRY(gpu_download(gpu, s->counts, 0, s->host_counts, (2 * MPM_JOINTS + 1) * (size_t)n));
     for (uint32_t i = 0; i < n; i++)
         body[i] = i;
-    for (uint32_t j = 0; j < n * MPM_JOINTS; j++)
-        if (holds(s->host_counts + 2 * (size_t)j)) {
+    for (uint32_t j = 0; j < n * MPM_JOINTS; j++) {
+        const uint32_t *c = s->host_counts + 2 * (size_t)j;
+        bool sliver = c[0] > 0 && (of_piece[j / MPM_JOINTS] < SLIVER || of_piece[beyond(s->n, j)] < SLIVER);
+        s->host_holds[j] = c[0] > 0 && (sliver || c[1] < BRITTLE * c[0]);
+        parted |= c[0] > 0 && !s->host_holds[j];
+        if (s->host_holds[j]) {
             uint32_t a = root_of(body, j / MPM_JOINTS), b = root_of(body, beyond(s->n, j));
             body[a < b ? b : a] = a < b ? a : b;
         }
+    }
     for (uint32_t i = 0; i < n; i++)
         body[i] = root_of(body, i);
-    for (uint32_t j = 0; j < n * MPM_JOINTS; j++) {
-        const uint32_t *c = s->host_counts + 2 * (size_t)j;
-        s->host_fate[j] = MPM_HOLDS;
-        if (c[0] == 0 || holds(c))
-            continue;
-        s->host_fate[j] = body[j / MPM_JOINTS] == body[beyond(s->n, j)] ? MPM_BREAKS : MPM_PARTS;
-        news |= s->host_fate[j] == MPM_PARTS || c[1] < c[0];
-    }
-    /* Loose grains are body 0. */
-    for (uint32_t i = 0; i < n; i++)
-        body[i]++;
-    s->host_body[0] = 0;
-    TRY(gpu_upload(gpu, s->body, 0, s->host_body, n + 1));
-    if (news) {
-        TRY(gpu_upload(gpu, s->fate, 0, s->host_fate, (size_t)n * MPM_JOINTS));
-        GPU_RUN(gpu, mpm_part, m->n, k, s->fate, m->word[MPM_JOINT], m->word[MPM_APART],
+    TRY(gpu_upload(gpu, s->holds, 0, s->host_holds, (size_t)n * MPM_JOINTS));
+    if (parted)
+        GPU_RUN(gpu, mpm_part, m->n, k, s->holds, m->word[MPM_JOINT], m->word[MPM_APART],
                 m->word[MPM_STRENGTH]);
-    }
 done:
     return st;
 }

@@ -55,8 +55,8 @@ void mpm_step(struct gpu *gpu, struct mpm *m, const struct mpm_params *params, b
             m->velocity, m->mass);
     k.n = (uint)m->n_mixed;
     if (m->n_mixed)
-        GPU_RUN(gpu, mpm_touch, k.n, k, m->mixed, m->node_list, m->first, m->meeting, m->entry_body, m->mass,
-                m->wall, m->velocity);
+        GPU_RUN(gpu, mpm_touch, k.n, k, m->mixed, m->node_list, m->first, m->meeting, m->entry_body,
+                m->entry_group, m->mass, m->wall, m->velocity);
     k.n = (uint)m->n;
     if (last) /* the next frame's steps may have another length: mpm_prime */
         k.push = 0;

@@ -25,7 +25,7 @@ static bool is_whole(const struct fragments *f, size_t i)
 
 static uint32_t body_of(const struct fragments *f, size_t i)
 {
-    return f->pieces->n[0] ? f->pieces->host_body[f->piece[i]] : 0;
+    return f->pieces->n[0] ? f->pieces->body[f->piece[i]] : 0;
 }
 
 static uint32_t root_of(uint32_t *parent, uint32_t i)

@@ -34,12 +34,14 @@ static status room_for_entries(struct gpu *gpu, struct mpm *m)
         return OK;
     gpu_buffer_destroy(gpu, &m->entry_node);
     gpu_buffer_destroy(gpu, &m->entry_body);
+    gpu_buffer_destroy(gpu, &m->entry_group);
     gpu_buffer_destroy(gpu, &m->mass);
     gpu_buffer_destroy(gpu, &m->velocity);
     m->room_entries = 0;
     size_t room = m->n_entries + m->n_entries / 4;
     TRY(gpu_buffer_create(gpu, "mpm entries", room, 4, &m->entry_node));
     TRY(gpu_buffer_create(gpu, "mpm entries' bodies", room, 4, &m->entry_body));
+    TRY(gpu_buffer_create(gpu, "mpm entries' groups", room, 4, &m->entry_group));
     TRY(gpu_buffer_create(gpu, "mpm entries' mass", room, 4, &m->mass));
     TRY(gpu_buffer_create(gpu, "mpm entries' velocity", room, 16, &m->velocity));
     m->room_entries = room;
@@ -53,8 +55,8 @@ static status find_parts(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
     struct count_params all = {(uint)m->n}, each = {0};
     GPU_RUN(gpu, mpm_begins, m->n, all, m->home, m->group, m->order);
     TRY(gpu_compact(gpu, work, m->order, m->unordered, m->part_first, m->n, &m->n_parts));
-    GPU_RUN(gpu, mpm_parts, m->n, all, m->home, m->group, m->order, m->unordered, m->pieces.body, m->part,
-            m->part_first, m->part_cell, m->part_body);
+    GPU_RUN(gpu, mpm_parts, m->n, all, m->home, m->group, m->order, m->unordered, m->part, m->part_first,
+            m->part_cell, m->part_body);
     gpu_fill(gpu, m->slot, 0);
     each.n = (uint)m->n_parts;
     GPU_RUN(gpu, mpm_slots, m->n_parts, each, m->part_cell, m->slot, m->many);
@@ -94,6 +96,11 @@ static status find_entries(struct gpu *gpu, struct gpu_work *work, struct mpm *m
     GPU_RUN(gpu, mpm_reach, k.n, k, m->part_cell, m->part_body, m->first, m->meeting, m->entry_body,
             m->reach);
     k.n = (uint)m->n_nodes;
+    if (m->n_mixed) {
+        struct mpm_load_params seeds = mpm_load_params_of(m, m->n_mixed);
+        GPU_RUN(gpu, mpm_bond, m->n_mixed, seeds, m->mixed, m->node_list, m->first, m->meeting, m->entry_body,
+                m->pieces.holds, m->entry_group);
+    }
     if (m->fill)
         GPU_RUN(gpu, mpm_walls, m->n_nodes, k, m->node_list, m->fill, m->wall);
 done:
