@@ -65,10 +65,17 @@ void farm_command(const struct farm *f, const struct farm_task *t, const char *d
         add_made(c, "%s", root);
         add(c, "--only=sheet");
         break;
+    case FARM_VIEW:
+        add(c, "preview");
+        add_made(c, "%s", root);
+        add(c, "--only=views");
+        add_made(c, "--views=%d", (int)farm_job(f, t)->farm.turntable);
+        add_made(c, "--view=%s", range_text(t->views, frames));
+        break;
     case FARM_TURNTABLE:
         add(c, "preview");
         add_made(c, "%s", root);
-        add(c, "--turntable");
+        add(c, "--only=video");
         add_made(c, "--views=%d", (int)farm_job(f, t)->farm.turntable);
         break;
     case FARM_WEDGES:

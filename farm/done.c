@@ -136,6 +136,13 @@ status farm_task_done(const struct farm *f, const struct farm_task *t, bool *don
             snprintf(from, sizeof from, "preview/%s.%04d.png", name, frame);
             *done = !graph_has_still(job, frame) || current(root, made, from);
             break;
+        case FARM_VIEW:
+            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, last);
+            for (int view = t->views.first; view <= t->views.last && *done; view++) {
+                snprintf(made, sizeof made, "turntable/%s.%04d.%03d.png", name, last, view);
+                *done = current(root, made, from);
+            }
+            break;
         case FARM_TURNTABLE:
             snprintf(made, sizeof made, "%s.turntable.mp4", name);
             snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, last);

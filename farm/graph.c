@@ -3,19 +3,26 @@
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
 /* Seconds of one core, measured on jobs/demo.yaml's frames; they only tell a minute from an hour. */
 static const double MESH_S = 0.2, AOV_S = 1, MESH_PARTICLE_S = 4e-6, STILL_S = 1.5, STILL_PARTICLE_S = 2e-6,
-                    VIEW_S = 1.5, SHEET_S = 0.1;
+                    VIEW_S = 1.5, VIEW_PARTICLE_S = 1e-6, VIDEO_S = 0.1, SHEET_S = 0.1;
 /* Bytes of a mesh for each particle of the surface, PLY and OBJ; of a picture. */
-enum { MESH_BYTES = 220, AOV_BYTES = 4000000, STILL_BYTES = 400000, VIEW_BYTES = 200000 };
+enum {
+    MESH_BYTES = 220,
+    AOV_BYTES = 4000000,
+    STILL_BYTES = 400000,
+    VIEW_BYTES = 200000,
+    VIDEO_BYTES = 60000
+};
 
 const char *graph_kind(enum farm_kind kind)
 {
-    static const char *const names[FARM_KINDS] = {"sim",    "derive", "derive", "preview",
-                                                  "finish", "finish", "finish"};
+    static const char *const names[FARM_KINDS] = {"sim",     "derive", "derive", "preview",
+                                                  "preview", "finish", "finish", "finish"};
     return names[kind];
 }
 
@@ -41,8 +48,8 @@ bool graph_needs_device(enum farm_kind kind)
 static status add_task(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind,
                        struct frame_range frames, struct farm_task **out)
 {
-    static const char *const names[FARM_KINDS] = {"sim",   "mesh",      "aov",   "still",
-                                                  "sheet", "turntable", "wedges"};
+    static const char *const names[FARM_KINDS] = {"sim",   "mesh",  "aov",       "still",
+                                                  "views", "sheet", "turntable", "wedges"};
     char wedge[16] = "", range[48];
     status st = memory_grow(&g->task, &g->capacity, g->n + 1, sizeof *g->task, "the tasks");
     if (st != OK)
@@ -106,9 +113,14 @@ static void estimate_task(struct farm_task *t, const struct farm_wedge *w, bool 
         t->seconds = n * (STILL_S + STILL_PARTICLE_S * particles);
         t->disk_bytes = (uint64_t)n * STILL_BYTES;
         break;
+    case FARM_VIEW:
+        n = (double)range_count(t->views);
+        t->seconds = n * (VIEW_S + VIEW_PARTICLE_S * particles);
+        t->disk_bytes = (uint64_t)n * VIEW_BYTES;
+        break;
     case FARM_TURNTABLE:
-        t->seconds = (double)w->job->farm.turntable * VIEW_S + STILL_PARTICLE_S * particles;
-        t->disk_bytes = (uint64_t)w->job->farm.turntable * VIEW_BYTES;
+        t->seconds = (double)w->job->farm.turntable * VIDEO_S;
+        t->disk_bytes = (uint64_t)w->job->farm.turntable * VIDEO_BYTES;
         break;
     case FARM_SHEET:
     case FARM_WEDGES:
@@ -154,6 +166,27 @@ done:
     return st;
 }
 
+/* The views of the last frame's turntable, in tasks as large as those of stills. */
+static status add_views(struct farm_graph *g, const struct farm_wedge *w, size_t last_sim)
+{
+    status st = OK;
+    struct farm_task *t;
+    const int views = (int)w->job->farm.turntable, chunk = (int)w->job->farm.chunk_frames;
+    const int frame = w->job->frames.last;
+    for (int at = 0; at < views; at += chunk) {
+        struct frame_range which = {at, views - at > chunk ? at + chunk - 1 : views - 1, 1};
+        char range[48];
+        TRY(add_task(g, w, FARM_VIEW, (struct frame_range){frame, frame, 1}, &t));
+        t->views = which;
+        /* Called after the views: the frame is always the last. */
+        snprintf(strrchr(t->name, '.') + 1, 48, "%s", range_text(which, range));
+        estimate_task(t, w, false);
+        TRY(add_after(g, last_sim));
+    }
+done:
+    return st;
+}
+
 static status add_finish(struct farm_graph *g, const struct farm_wedge *w, size_t first, size_t last_sim,
                          size_t *sheet)
 {
@@ -170,10 +203,16 @@ static status add_finish(struct farm_graph *g, const struct farm_wedge *w, size_
     }
     if (w->job->farm.turntable) {
         int last = w->job->frames.last;
+        size_t first_view = g->n;
+        TRY(add_views(g, w, last_sim));
+        size_t end_views = g->n;
         TRY(add_task(g, w, FARM_TURNTABLE, (struct frame_range){last, last, 1}, &t));
         estimate_task(t, w, false);
+        for (size_t i = first_view; i < end_views; i++)
+            TRY(add_after(g, i));
         /* It makes a sheet of its own where there is none. */
-        TRY(add_after(g, *sheet != SIZE_MAX ? *sheet : last_sim));
+        if (*sheet != SIZE_MAX)
+            TRY(add_after(g, *sheet));
     }
 done:
     return st;

@@ -2,11 +2,11 @@
  *
  *   sim        frames a-b simulated; block n+1 of a wedge goes on from block n's last checkpoint
  *   derive     meshes and AOVs of some frames, once their block is done
- *   preview    stills of some frames, once their block is done
- *   finish     contact sheet, turntable, and a sheet across the wedges
+ *   preview    stills of some frames, once their block is done; views of the last frame's turntable
+ *   finish     contact sheet, turntable's video, and a sheet across the wedges
  *
  * Order       A task stands behind all it waits for: the list can be worked off from its start.
- * Once        Every frame of a job is simulated by exactly one task; so is every mesh, AOV and still made.
+ * Once        Every frame of a job is simulated by exactly one task; so is every mesh, AOV, still and view made.
  * Wedges      Each has a graph of its own; they share the sheet across wedges alone.
  */
 #ifndef HOODOO_FARM_GRAPH_H
@@ -20,6 +20,7 @@ enum farm_kind {
     FARM_MESH,
     FARM_AOV,
     FARM_STILL,
+    FARM_VIEW,
     FARM_SHEET,
     FARM_TURNTABLE,
     FARM_WEDGES,
@@ -37,6 +38,7 @@ struct farm_task {
     enum farm_kind kind;
     int wedge;                 /* wedge.index of its job; 0: the only one, or all of them */
     struct frame_range frames; /* the ones it makes; FARM_SHEET and below: those it shows */
+    struct frame_range views;  /* FARM_VIEW: which of farm.turntable views */
     char name[80];             /* unique: "w0001.sim.1001-1050". Letters, digits, dots, '-' */
     size_t after, n_after;     /* graph->after[after ...]: tasks it waits for, all before it */
     double seconds;            /* of machine time; 0: not known */

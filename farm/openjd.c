@@ -106,8 +106,8 @@ static status put_parameters(const struct farm *f, const char *device, struct te
 /* ---- steps */
 
 struct step {
-    const char *name, *after; /* NULL: none */
-    const char *frames;       /* the range of a chunked step, or NULL */
+    const char *name, *after, *also_after; /* NULL: none */
+    const char *frames;                    /* the range of a chunked step, or NULL */
     int64_t chunk;
     const struct farm_wedge *gpu; /* what it needs of a GPU, or NULL */
     const char *args[12];         /* ends with NULL; "" stands for the wedge */
@@ -185,6 +185,11 @@ static void put_step(const struct farm *f, const struct step *s, struct text *t)
         json_object(t, NULL);
         json_text(t, "dependsOn", s->after);
         json_end_object(t);
+        if (s->also_after) {
+            json_object(t, NULL);
+            json_text(t, "dependsOn", s->also_after);
+            json_end_object(t);
+        }
         json_end_array(t);
     }
     put_space(f, s, t);
@@ -275,7 +280,7 @@ static void put_finish(const struct farm *f, const char *last_sim, struct text *
     const struct job *job = f->wedge[0].job;
     const char *camera = job->n_cameras ? "--camera={{Param.Camera}}" : NULL;
     const char *sheet = last_sim;
-    char views[32];
+    char views[32], list[32];
     if (has(f, FARM_STILL)) {
         put_step(f,
                  &(struct step){.name = "Stills",
@@ -295,10 +300,20 @@ static void put_finish(const struct farm *f, const char *last_sim, struct text *
     }
     if (has(f, FARM_TURNTABLE)) {
         snprintf(views, sizeof views, "--views=%d", (int)job->farm.turntable);
+        snprintf(list, sizeof list, job->farm.turntable > 1 ? "0-%d" : "%d", (int)job->farm.turntable - 1);
+        put_step(f,
+                 &(struct step){.name = "Views",
+                                .after = last_sim,
+                                .frames = list,
+                                .chunk = job->farm.chunk_frames,
+                                .args = {"preview", "{{Param.OutDir}}", "", "--only=views", views,
+                                         "--view={{Task.Param.Frames}}", "--progress=openjd", camera, NULL}},
+                 t);
         put_step(f,
                  &(struct step){.name = "Turntable",
-                                .after = sheet,
-                                .args = {"preview", "{{Param.OutDir}}", "", "--turntable", views,
+                                .after = "Views",
+                                .also_after = sheet != last_sim ? sheet : NULL,
+                                .args = {"preview", "{{Param.OutDir}}", "", "--only=video", views,
                                          "--progress=openjd", NULL}},
                  t);
     }
@@ -318,7 +333,7 @@ status openjd_template(const struct farm *f, const char *device, struct text *t)
     int wedge = (int)f->wedge[0].job->wedge.index, k = 0;
     json_object(t, NULL);
     json_text(t, "specificationVersion", "jobtemplate-2023-09");
-    if (has(f, FARM_MESH) || has(f, FARM_AOV) || has(f, FARM_STILL)) {
+    if (has(f, FARM_MESH) || has(f, FARM_AOV) || has(f, FARM_STILL) || has(f, FARM_VIEW)) {
         json_array(t, "extensions");
         json_text(t, NULL, "TASK_CHUNKING");
         json_end_array(t);

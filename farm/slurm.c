@@ -206,8 +206,8 @@ static status words_status(const struct words *w)
 static bool alike(const struct farm_graph *g, const struct farm_task *a, const struct farm_task *b)
 {
     return a->kind == b->kind && a->wedge == b->wedge &&
-           (a->kind == FARM_MESH || a->kind == FARM_AOV || a->kind == FARM_STILL) && a->n_after == 1 &&
-           b->n_after == 1 && g->after[a->after] == g->after[b->after];
+           (a->kind == FARM_MESH || a->kind == FARM_AOV || a->kind == FARM_STILL || a->kind == FARM_VIEW) &&
+           a->n_after == 1 && b->n_after == 1 && g->after[a->after] == g->after[b->after];
 }
 
 /* `todo` is which tasks are left; the batch is the run of them from `first` on. */
@@ -222,7 +222,10 @@ static void next_batch(const struct farm *f, const bool *todo, size_t first, str
     snprintf(b->name, sizeof b->name, "%s", b->task->name);
     if (b->n > 1) {
         char *range = strrchr(b->name, '.');
-        struct frame_range all = {b->task->frames.first, b->task[b->n - 1].frames.last, 1};
+        const struct farm_task *last = &b->task[b->n - 1];
+        struct frame_range all = {b->task->frames.first, last->frames.last, 1};
+        if (b->task->kind == FARM_VIEW)
+            all = (struct frame_range){b->task->views.first, last->views.last, 1};
         char text[48];
         snprintf(range + 1, sizeof b->name - (size_t)(range + 1 - b->name), "%s", range_text(all, text));
     }

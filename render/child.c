@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,9 +20,13 @@ void children_begin(struct children *c, const char *folder, const char *log, int
         c->at_once = CHILDREN_MAX;
 }
 
-static void become(const struct children *c, const char *const *argv)
+static void become(const struct children *c, const char *const *argv, pid_t parent)
 {
     signals_reset();
+    /* What a killed parent has begun nobody waits for any more. */
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent)
+        _exit(126);
     if (chdir(c->folder) != 0)
         _exit(126);
     int in = open("/dev/null", O_RDONLY), out = open(c->log, O_WRONLY | O_CREAT | O_APPEND, 0666);
@@ -85,11 +90,12 @@ status children_run(struct children *c, const char *const *argv, const char *wha
     if (stop_requested())
         return fail(STOPPED, "stopped; run the same command again to go on");
     fflush(NULL);
+    const pid_t self = getpid();
     pid_t pid = fork();
     if (pid < 0)
         return fail(E_MEMORY, "%s: no new process: %s", what, strerror(errno));
     if (pid == 0)
-        become(c, argv);
+        become(c, argv, self);
     c->child[c->n].pid = pid;
     c->child[c->n].what = what;
     c->child[c->n].done = done;

@@ -1,5 +1,6 @@
 #include "render/picture.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,28 +9,43 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "base/version.h"
 #include "model/terrain.h"
 #include "output/folder.h"
+#include "render/png.h"
+#include "render/slate.h"
 
 /* More shows as flat facets in raking light. */
 static const double ADAPTIVITY = 0.03;
 
-/* One picture under way. */
+/* One picture under way. Temporary files are its own. Paths are relative to root. */
 struct picture {
-    const struct preview *preview;
-    char what[64];
-    char path[512], temporary[600], scene[600]; /* relative to root */
-    bool own_scene;                             /* remove it when done */
+    struct preview *preview;
+    struct picture *next;
+    char what[64], tag[PNG_TAG];
+    char path[512];
+    char rendered[600], drawn[600], bar[600], scene[600]; /* "": none to remove */
+    struct slate slate;
+    struct slate_command command;
 };
+
+void picture_name(const struct preview *p, char out[256])
+{
+    snprintf(out, 256, "%.200s%s%s", p->job->name, p->show == SHOW_ROCK ? "" : ".", show_name(p->show));
+}
 
 void picture_still_path(const struct preview *p, int frame, char out[512])
 {
-    snprintf(out, 512, "preview/%.200s.%04d.png", p->job->name, frame);
+    char name[256];
+    picture_name(p, name);
+    snprintf(out, 512, "preview/%s.%04d.png", name, frame);
 }
 
 void picture_view_path(const struct preview *p, int frame, int view, char out[512])
 {
-    snprintf(out, 512, "turntable/%.200s.%04d.%03d.png", p->job->name, frame, view);
+    char name[256];
+    picture_name(p, name);
+    snprintf(out, 512, "turntable/%s.%04d.%03d.png", name, frame, view);
 }
 
 static void volumes_path(const struct preview *p, int frame, char out[512])
@@ -48,23 +64,23 @@ bool picture_current(const struct preview *p, const char *path, const char *sour
     return stat(full, &from) != 0 || made.st_mtim.tv_sec >= from.st_mtim.tv_sec;
 }
 
-/* Is it also of the size that is wanted now? A draft is no preview. The size is in a PNG's first chunk. */
-static bool current_of_size(const struct preview *p, const char *path, const char *source, int width,
-                            int height)
+/* Is it as it is asked for now, too? A draft is no preview. */
+static bool current_as_asked(const struct preview *p, const char *path, const char *source, const char *tag)
 {
-    char full[4700];
-    unsigned char head[24];
+    char full[4700], has[PNG_TAG];
     if (!picture_current(p, path, source))
         return false;
     snprintf(full, sizeof full, "%s/%s", p->root, path);
-    FILE *file = fopen(full, "rb");
-    if (!file)
-        return false;
-    bool whole = fread(head, sizeof head, 1, file) == 1;
-    fclose(file);
-    const unsigned char *w = head + 16, *h = head + 20;
-    return whole && (w[0] << 24 | w[1] << 16 | w[2] << 8 | w[3]) == width &&
-           (h[0] << 24 | h[1] << 16 | h[2] << 8 | h[3]) == height;
+    png_tag(full, has);
+    return strcmp(has, tag) == 0;
+}
+
+bool picture_has_slate(const struct preview *p, const char *path)
+{
+    char full[4700], has[PNG_TAG];
+    snprintf(full, sizeof full, "%s/%s", p->root, path);
+    png_tag(full, has);
+    return strstr(has, "slate=yes") != NULL;
 }
 
 /* ---- the scene */
@@ -87,6 +103,21 @@ static const struct job_camera *chosen_camera(const struct preview *p)
     return p->job->n_cameras ? &p->job->cameras[0] : NULL;
 }
 
+/* All that decides what the picture looks like, but for the frame. view < 0: a still. */
+static void tag_of(const struct preview *p, int width, int height, int view, int views, char out[PNG_TAG])
+{
+    static const char *const presets[] = {"draft", "preview", "final"};
+    const struct job_camera *camera = chosen_camera(p);
+    bool slate = !p->no_slate && height >= SLATE_LEAST_HEIGHT;
+    int n = snprintf(out, PNG_TAG, "show=%s", p->show == SHOW_ROCK ? "rock" : show_name(p->show));
+    if (p->show != SHOW_ROCK)
+        n += snprintf(out + n, PNG_TAG - (size_t)n, " %g:%g", p->range.low, p->range.high);
+    n += snprintf(out + n, PNG_TAG - (size_t)n, "; size=%dx%d; preset=%s; camera=%.64s; slate=%s", width,
+                  height, presets[p->preset], camera ? camera->name : "", slate ? "yes" : "no");
+    if (view >= 0)
+        snprintf(out + n, PNG_TAG - (size_t)n, "; view=%d/%d", view, views);
+}
+
 /* The job's camera, with the picture's own shape: its film keeps its width. */
 static struct camera shaped(const struct job_camera *camera, int frame, int width, int height)
 {
@@ -96,24 +127,46 @@ static struct camera shaped(const struct job_camera *camera, int frame, int widt
     return camera_of(&own, frame);
 }
 
+/* Where the orbit begins: the job's camera's azimuth. */
+static double orbit_start(const struct preview *p, int frame)
+{
+    const struct job_camera *own = chosen_camera(p);
+    return own ? curve_at(&own->orbit.azimuth_deg, frame) : -55;
+}
+
+static status read_mesh(const struct preview *p, int frame, struct vdb_mesh *mesh)
+{
+    char full[4700], volumes[512];
+    const char *const value = show_name(p->show);
+    volumes_path(p, frame, volumes);
+    snprintf(full, sizeof full, "%s/%s", p->root, volumes);
+    if (p->show != SHOW_ROCK)
+        return vdb_mesh_read(full, 0, &value, 1, 0, mesh);
+    double adaptivity = p->job->model == MODEL_ARCHES ? 0 : ADAPTIVITY;
+    return vdb_mesh_read(full, adaptivity, scene_values, SCENE_VALUES, SCENE_VALUES, mesh);
+}
+
 /* Writes the frame's scene, with one camera (views = 0) or an orbit of them, to `path` under root. */
-static status write_scene(const struct preview *p, int frame, int views, const char *path, int *width,
-                          int *height)
+static status write_scene(const struct preview *p, int frame, int views, const char *path, int width,
+                          int height)
 {
     status st = OK;
-    char full[4700], volumes[512];
+    char full[4700];
     struct vdb_mesh mesh = {0};
     struct camera *camera = NULL;
     struct text text = {0};
-    bool terrain = p->job->model == MODEL_ARCHES;
     struct pile_tile tile = {0};
     struct rock rocks = {0};
-    struct scene scene = {.job = p->job, .frame = frame, .mesh = &mesh, .preset = p->preset};
+    struct scene scene = {.job = p->job,
+                          .frame = frame,
+                          .mesh = &mesh,
+                          .preset = p->preset,
+                          .show = p->show,
+                          .range = p->range,
+                          .file = strrchr(path, '/') + 1};
     const struct job_camera *own = chosen_camera(p);
-    volumes_path(p, frame, volumes);
-    snprintf(full, sizeof full, "%s/%s", p->root, volumes);
-    TRY(vdb_mesh_read(full, terrain ? 0 : ADAPTIVITY, scene_values, SCENE_VALUES, SCENE_VALUES, &mesh));
-    if (terrain && p->job->arches.piles.rock_m > 0) {
+    TRY(read_mesh(p, frame, &mesh));
+    if (p->job->model == MODEL_ARCHES && p->job->arches.piles.rock_m > 0) {
         TRY(terrain_tile(p->job, &tile));
         TRY(folder_path(full, p->root, p->job->name, FILE_ROCKS, frame, NULL));
         TRY(vdb_points_read(full, &rocks));
@@ -121,12 +174,11 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     }
     TRY(scene_bounds(&scene));
     TRY(memory_alloc((size_t)(views ? views : 1), sizeof *camera, "cameras", &camera));
-    size_of(p, own, views > 0, width, height);
     if (!views)
-        camera[0] = own ? shaped(own, frame, *width, *height) : scene_orbit(&scene, -55, *width, *height);
-    double start = own ? curve_at(&own->orbit.azimuth_deg, frame) : -55;
+        camera[0] = own ? shaped(own, frame, width, height) : scene_orbit(&scene, -55, width, height);
+    double start = orbit_start(p, frame);
     for (int view = 0; view < views; view++)
-        camera[view] = scene_orbit(&scene, start + 360.0 * view / views, *width, *height);
+        camera[view] = scene_orbit(&scene, start + 360.0 * view / views, width, height);
     scene.camera = camera;
     scene.n_cameras = (size_t)(views ? views : 1);
     TRY(scene_write(&scene, &text));
@@ -141,118 +193,261 @@ done:
     return st;
 }
 
-/* ---- POV-Ray */
-
-/* Moves a finished picture to its name, if it is whole: a PNG ends with its IEND chunk. */
-static status picture_done(void *user)
+status picture_data_range(const struct preview *p, const int *frames, size_t n, struct show_range *out)
 {
-    static const unsigned char end[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
-    struct picture *picture = user;
+    enum { EACH = 200000 }; /* values of a frame: more tell nothing more */
     status st = OK;
-    char from[4700], to[4700];
-    void *bytes = NULL;
-    size_t n = 0;
-    snprintf(from, sizeof from, "%s/%s", picture->preview->root, picture->temporary);
-    snprintf(to, sizeof to, "%s/%s", picture->preview->root, picture->path);
-    TRY(file_read(from, (size_t)1 << 30, &bytes, &n));
-    if (n < sizeof end || memcmp((char *)bytes + n - sizeof end, end, sizeof end) != 0) {
-        st = fail(E_OUTPUT, "%s: the picture is cut short; is the disk full?", from);
-        goto done;
+    struct vdb_mesh mesh = {0};
+    float *values = NULL;
+    size_t n_values = 0, capacity = 0;
+    for (size_t i = 0; i < n; i++) {
+        TRY(read_mesh(p, frames[i], &mesh));
+        size_t step = 1 + mesh.n_vertices / EACH;
+        TRY(memory_grow(&values, &capacity, n_values + mesh.n_vertices / step + 1, sizeof *values,
+                        "the values"));
+        for (size_t k = 0; k < mesh.n_vertices; k += step)
+            values[n_values++] = mesh.value[k];
+        vdb_mesh_free(&mesh);
     }
-    TRY(atomic_file_write(to, bytes, n));
+    *out = show_data_range(p->show, values, n_values);
 done:
-    unlink(from);
-    if (picture->own_scene && !picture->preview->keep_scenes) {
-        snprintf(from, sizeof from, "%s/%s", picture->preview->root, picture->scene);
-        unlink(from);
-    }
-    free(bytes);
-    free(picture);
+    vdb_mesh_free(&mesh);
+    free(values);
     return st;
 }
 
-static status start(struct preview *p, struct picture *picture, int view, int width, int height)
+/* ---- POV-Ray, then what is burnt in */
+
+static void forget(const struct preview *p, char path[600])
 {
-    char in[700], out[700], w[32], h[32], declare[40];
-    snprintf(in, sizeof in, "+I%s", picture->scene);
-    snprintf(out, sizeof out, "+O%s", picture->temporary);
-    snprintf(w, sizeof w, "+W%d", width);
-    snprintf(h, sizeof h, "+H%d", height);
-    snprintf(declare, sizeof declare, "Declare=View=%d", view);
-    /* One thread each: reading the mesh takes one anyway, so several pictures side by side use the cores
-     * better. */
-    const char *const argv[] = {
-        "povray", in,    out,  w,    h,    declare, p->preset == PRESET_DRAFT ? "-A" : "+A0.3",
-        "+AM2",   "+R2", "-D", "-P", "-V", "+FN8",  "+WT1",
-        "-GA",    NULL};
-    return children_run(&p->children, argv, picture->what, picture_done, picture);
+    char full[4700];
+    if (!*path)
+        return;
+    snprintf(full, sizeof full, "%s/%s", p->root, path);
+    unlink(full);
+    path[0] = '\0';
 }
 
-static status new_picture(const struct preview *p, const char *what, const char *path, struct picture **out)
+/* Takes it off the list and away, with all it has left. */
+static void picture_end(struct picture *picture)
+{
+    struct preview *p = picture->preview;
+    struct picture **at = &p->under_way;
+    while (*at && *at != picture)
+        at = &(*at)->next;
+    if (*at)
+        *at = picture->next;
+    forget(p, picture->rendered);
+    forget(p, picture->drawn);
+    forget(p, picture->bar);
+    forget(p, picture->scene);
+    free(picture);
+}
+
+void pictures_end(struct preview *p)
+{
+    while (p->under_way)
+        picture_end(p->under_way);
+}
+
+/* Moves a finished picture to its name, if it is whole. */
+static status picture_place(struct picture *picture, const char *made)
+{
+    status st = OK;
+    char from[4700], to[4700];
+    void *bytes = NULL, *tagged = NULL;
+    size_t n = 0;
+    snprintf(from, sizeof from, "%s/%s", picture->preview->root, made);
+    snprintf(to, sizeof to, "%s/%s", picture->preview->root, picture->path);
+    TRY(file_read(from, (size_t)1 << 30, &bytes, &n));
+    if (!png_whole(bytes, n)) {
+        st = fail(E_OUTPUT, "%s: the picture is cut short; is the disk full?", from);
+        goto done;
+    }
+    TRY(png_with_tag(bytes, n, picture->tag, &tagged, &n));
+    TRY(atomic_file_write(to, tagged, n));
+done:
+    free(bytes);
+    free(tagged);
+    picture_end(picture);
+    return st;
+}
+
+static status picture_drawn(void *user)
+{
+    struct picture *picture = user;
+    return picture_place(picture, picture->drawn);
+}
+
+static status own_name(const char *path, const char *ending, char out[600])
+{
+    char name[600];
+    status st = atomic_file_temporary(path, name, sizeof name - 8);
+    if (st == OK) /* programs go by the ending */
+        snprintf(out, 600, "%.590s%s", name, ending);
+    return st;
+}
+
+/* POV-Ray has made it: now the strip and the legend. */
+static status picture_rendered(void *user)
+{
+    struct picture *picture = user;
+    struct preview *p = picture->preview;
+    status st = OK;
+    char full[4700];
+    if (!slate_draws(&picture->slate))
+        return picture_place(picture, picture->rendered);
+    TRY(own_name(picture->path, ".png", picture->drawn));
+    if (p->show != SHOW_ROCK) {
+        TRY(own_name(picture->path, ".ppm", picture->bar));
+        snprintf(full, sizeof full, "%s/%s", p->root, picture->bar);
+        TRY(slate_write_bar(&picture->slate, full));
+    }
+    slate_command(&picture->slate, picture->rendered, picture->bar, picture->drawn, &picture->command);
+    TRY(children_run(&p->children, picture->command.argv, picture->what, picture_drawn, picture));
+done:
+    return st;
+}
+
+static status start(struct preview *p, struct picture *picture, const char *scene, int view)
+{
+    char in[700], out[700], w[32], h[32], declare[40];
+    snprintf(in, sizeof in, "+I%s", scene);
+    snprintf(out, sizeof out, "+O%s", picture->rendered);
+    snprintf(w, sizeof w, "+W%d", picture->slate.width);
+    snprintf(h, sizeof h, "+H%d", picture->slate.height);
+    snprintf(declare, sizeof declare, "Declare=View=%d", view);
+    const bool fine = p->preset == PRESET_FINAL;
+    /* One thread each: reading the mesh takes one anyway, so several pictures side by side use the cores
+     * better. */
+    const char *const argv[] = {"povray",
+                                in,
+                                out,
+                                w,
+                                h,
+                                declare,
+                                p->preset == PRESET_DRAFT ? "-A"
+                                : fine                    ? "+A0.1"
+                                                          : "+A0.3",
+                                "+AM2",
+                                fine ? "+R3" : "+R2",
+                                "-D",
+                                "-P",
+                                "-V",
+                                "+FN8",
+                                "+WT1",
+                                "-GA",
+                                NULL};
+    return children_run(&p->children, argv, picture->what, picture_rendered, picture);
+}
+
+/* What the strip says, and the legend marks. */
+static void describe(const struct preview *p, int frame, const char *seen_from, struct slate *s)
+{
+    char when[96];
+    const struct job *job = p->job;
+    s->show = p->show;
+    s->range = p->range;
+    if (!p->no_slate) {
+        slate_when(job, frame, when);
+        snprintf(s->left, sizeof s->left, "%.64s   %s", job->name, when);
+        snprintf(s->right, sizeof s->right, "%s%shoodoo %.40s", seen_from, *seen_from ? "   " : "",
+                 hoodoo_version);
+    }
+    if (p->show != SHOW_STRESS || job->n_strata == 0)
+        return;
+    s->n_marks = 2;
+    s->mark_name = "interlock";
+    s->mark[0] = INFINITY;
+    s->mark[1] = -INFINITY;
+    for (size_t i = 0; i < job->n_strata; i++) {
+        double at = curve_at(&job->strata[i].interlock_MPa, frame);
+        s->mark[0] = fmin(s->mark[0], at);
+        s->mark[1] = fmax(s->mark[1], at);
+    }
+}
+
+/* On the list of those under way; picture_end() takes it off. */
+static status new_picture(struct preview *p, const char *what, const char *path, int width, int height,
+                          struct picture **out)
 {
     status st = memory_alloc(1, sizeof **out, "a picture", out);
     if (st != OK)
         return st;
     (*out)->preview = p;
+    (*out)->next = p->under_way;
+    p->under_way = *out;
+    (*out)->slate.width = width;
+    (*out)->slate.height = height;
     snprintf((*out)->what, sizeof(*out)->what, "%s", what);
     snprintf((*out)->path, sizeof(*out)->path, "%s", path);
-    st = atomic_file_temporary(path, (*out)->temporary, sizeof(*out)->temporary - 4);
-    strcat((*out)->temporary, ".png"); /* POV-Ray would add one of its own */
-    return st;
+    return own_name(path, ".png", (*out)->rendered);
+}
+
+/* Scenes that stay are named like their picture; others have names of their own. */
+static status scene_path(const struct preview *p, const char *path, char out[600])
+{
+    if (!p->keep_scenes)
+        return own_name(path, ".pov", out);
+    snprintf(out, 600, "%.*s.pov", (int)(strlen(path) - 4), path);
+    return OK;
 }
 
 status picture_still(struct preview *p, int frame)
 {
     status st = OK;
-    char path[512], source[512], what[64];
+    char path[512], source[512], what[64], tag[PNG_TAG], scene[600];
     struct picture *picture = NULL;
+    const struct job_camera *own = chosen_camera(p);
     int width, height;
     picture_still_path(p, frame, path);
     volumes_path(p, frame, source);
-    size_of(p, chosen_camera(p), false, &width, &height);
-    if (current_of_size(p, path, source, width, height))
+    size_of(p, own, false, &width, &height);
+    tag_of(p, width, height, -1, 0, tag);
+    if (current_as_asked(p, path, source, tag))
         return OK;
     snprintf(what, sizeof what, "the still of frame %d", frame);
-    TRY(new_picture(p, what, path, &picture));
-    snprintf(picture->scene, sizeof picture->scene, "%.*s.pov", (int)(strlen(path) - 4), path);
-    picture->own_scene = true;
-    TRY(write_scene(p, frame, 0, picture->scene, &width, &height));
-    TRY(start(p, picture, 0, width, height));
-    picture = NULL;
+    TRY(scene_path(p, path, scene));
+    TRY(write_scene(p, frame, 0, scene, width, height));
+    TRY(new_picture(p, what, path, width, height, &picture));
+    snprintf(picture->tag, sizeof picture->tag, "%s", tag);
+    if (!p->keep_scenes)
+        snprintf(picture->scene, sizeof picture->scene, "%s", scene);
+    describe(p, frame, own ? own->name : "", &picture->slate);
+    TRY(start(p, picture, scene, 0));
 done:
-    free(picture);
     return st;
 }
 
-status picture_orbit(struct preview *p, int frame, int views)
+status picture_orbit(struct preview *p, int frame, int views, struct frame_range which)
 {
     status st = OK;
-    char path[512], source[512], what[64], scene[512], full[4700];
+    char path[512], source[512], what[64], scene[600] = "", tag[PNG_TAG], number[32];
     struct picture *picture = NULL;
     int width, height;
-    bool any = false;
     volumes_path(p, frame, source);
     size_of(p, chosen_camera(p), true, &width, &height);
-    snprintf(scene, sizeof scene, "turntable/%.200s.%04d.pov", p->job->name, frame);
-    for (int view = 0; view < views; view++) {
+    for (int view = which.first; view <= which.last; view += which.step) {
         picture_view_path(p, frame, view, path);
-        if (current_of_size(p, path, source, width, height))
+        tag_of(p, width, height, view, views, tag);
+        if (current_as_asked(p, path, source, tag))
             continue;
-        if (!any)
-            TRY(write_scene(p, frame, views, scene, &width, &height));
-        any = true;
+        if (!*scene) {
+            char whole[512];
+            snprintf(whole, sizeof whole, "%.*s.png", (int)(strlen(path) - 8), path); /* without the view */
+            TRY(scene_path(p, whole, scene));
+            TRY(write_scene(p, frame, views, scene, width, height));
+        }
         snprintf(what, sizeof what, "view %d of frame %d", view, frame);
-        TRY(new_picture(p, what, path, &picture));
-        snprintf(picture->scene, sizeof picture->scene, "%s", scene);
-        TRY(start(p, picture, view, width, height));
-        picture = NULL;
+        TRY(new_picture(p, what, path, width, height, &picture));
+        snprintf(picture->tag, sizeof picture->tag, "%s", tag);
+        snprintf(number, sizeof number, "view %03d", view); /* as its file is called */
+        describe(p, frame, number, &picture->slate);
+        TRY(start(p, picture, scene, view));
     }
     TRY(children_wait(&p->children));
-    if (any && !p->keep_scenes) {
-        snprintf(full, sizeof full, "%s/%s", p->root, scene);
-        unlink(full);
-    }
 done:
-    free(picture);
+    if (!p->keep_scenes)
+        forget(p, scene);
     return st;
 }

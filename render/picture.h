@@ -1,9 +1,16 @@
-/* Pictures of frames, through POV-Ray: each whole under its name, or absent. */
+/* Pictures of frames, through POV-Ray: each whole under its name, or absent.
+ *
+ * Done once     A picture holds what was asked for (size, care, camera, colours, slate) as text in the file. It is made again
+ *               when that differs or the frame's volumes are newer, and else left as it is.
+ * Side by side  Any number of processes may make different pictures of one folder: what is not finished has
+ *               names of its own.
+ */
 #ifndef HOODOO_PICTURE_H
 #define HOODOO_PICTURE_H
 
 #include <stdbool.h>
 
+#include "base/ranges.h"
 #include "job/job.h"
 #include "render/child.h"
 #include "render/povray.h"
@@ -17,18 +24,35 @@ struct preview {
     int width, height;  /* 0: the preset's */
     const char *camera; /* of the job, or NULL: its first, or an orbit if it has none */
     bool keep_scenes;
+    bool no_slate;
+    enum show show;
+    struct show_range range;   /* of what is shown */
+    struct picture *under_way; /* pictures that are being made */
 };
 
-/* preview/NAME.FRAME.png. Starts it (children_wait() ends it), or skips it if it is newer than the frame's
- * volumes. */
+/* preview/NAME.FRAME.png, or NAME.stress.FRAME.png. Starts it (children_wait() ends it), or skips it if it is
+ * there as asked for. */
 MUST_USE status picture_still(struct preview *p, int frame);
 
-/* turntable/NAME.FRAME.000.png and so on: `views` of a full orbit. Waits. */
-MUST_USE status picture_orbit(struct preview *p, int frame, int views);
+/* turntable/NAME.FRAME.000.png and so on: those of `views` of a full orbit that `which` holds. Waits. */
+MUST_USE status picture_orbit(struct preview *p, int frame, int views, struct frame_range which);
+
+/* Removes what pictures that did not come about have left. After children_end(). */
+void pictures_end(struct preview *p);
+
+/* The range of what p->show shows on these frames' surfaces together. */
+MUST_USE status picture_data_range(const struct preview *p, const int *frames, size_t n,
+                                   struct show_range *out);
 
 /* Their paths, relative to root. */
 void picture_still_path(const struct preview *p, int frame, char out[512]);
 void picture_view_path(const struct preview *p, int frame, int view, char out[512]);
+
+/* "NAME", or "NAME.stress": what the names of files begin with. */
+void picture_name(const struct preview *p, char out[256]);
+
+/* Does the picture at root/`path` say itself what it shows? */
+bool picture_has_slate(const struct preview *p, const char *path);
 
 /* Is root/`path` there, and no older than root/`source`? */
 bool picture_current(const struct preview *p, const char *path, const char *source);

@@ -147,6 +147,41 @@ static int ground_of(const struct vdb_mesh *m, size_t vertex)
     return m->value[SCENE_DEPOSIT * m->n_vertices + vertex] > 0.5F ? 1 : 0;
 }
 
+/* A vertex's value is where it stands on the bar, as a texture coordinate: what is blended between vertices is
+ * the value, not its colour. */
+static void add_heat(struct text *out, const struct scene *s)
+{
+    const struct vdb_mesh *m = s->mesh;
+    text_add(out, "}\nuv_vectors { %zu", m->n_vertices);
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        double t = show_position(s->show, s->range, (double)m->value[i] * show_scale(s->show));
+        /* A gradient begins again at 1. */
+        text_add(out, ",\n<%.4f,0>", 0.001 + 0.998 * t);
+    }
+    text_add(out, "}\nface_indices { %zu", m->n_triangles);
+    for (size_t i = 0; i < m->n_triangles; i++) {
+        const uint32_t *t = m->triangle + 3 * i;
+        text_add(out, ",\n<%u,%u,%u>", t[0], t[1], t[2]);
+    }
+    text_add(out, "}\ntexture { uv_mapping Heat }\n}\n\n");
+}
+
+static void add_heat_colors(struct text *out, const struct scene *s)
+{
+    enum { STOPS = 64 };
+    text_add(out,
+             "// %s from %g to %g %s\n#declare Heat = texture {\n    pigment {\n        gradient x\n        "
+             "color_map {\n",
+             show_name(s->show), s->range.low, s->range.high, show_unit(s->show));
+    for (int i = 0; i <= STOPS; i++) {
+        unsigned char rgb[3];
+        show_color(s->show, s->range, (double)i / STOPS, rgb);
+        text_add(out, "            [%.6f srgb <%.4f, %.4f, %.4f>]\n", 0.001 + 0.998 * i / STOPS,
+                 rgb[0] / 255.0, rgb[1] / 255.0, rgb[2] / 255.0);
+    }
+    text_add(out, "        }\n    }\n    finish { Even }\n}\n");
+}
+
 /* Few digits: reading the mesh takes most of a small picture's time. */
 static void add_mesh(struct text *out, const struct scene *s)
 {
@@ -163,6 +198,10 @@ static void add_mesh(struct text *out, const struct scene *s)
     for (size_t i = 0; i < m->n_vertices; i++) {
         const float *v = m->normal + 3 * i;
         text_add(out, ",\n<%.3f,%.3f,%.3f>", (double)v[0], (double)v[1], (double)v[2]);
+    }
+    if (s->show != SHOW_ROCK) {
+        add_heat(out, s);
+        return;
     }
     bool bare = !is_terrain(s);
     for (size_t i = 0; i < m->n_vertices && bare; i++)
@@ -240,13 +279,18 @@ status scene_write(const struct scene *s, struct text *out)
         size = fmax(size, s->high[k] - s->low[k]);
     text_add(out, "// hoodoo %s: %s, frame %d. Simulator axes: z up, metres.\n", hoodoo_version, s->job->name,
              s->frame);
-    text_add(out, "// povray +W%d +H%d +A0.3 Declare=View=0..%zu\n", s->camera->width, s->camera->height,
-             s->n_cameras - 1);
+    text_add(out, "// Complete in itself: povray +I%s +W%d +H%d %s -D Declare=View=0\n", s->file,
+             s->camera->width, s->camera->height,
+             s->preset == PRESET_DRAFT   ? "-A"
+             : s->preset == PRESET_FINAL ? "+A0.1 +AM2 +R3"
+                                         : "+A0.3 +AM2 +R2");
+    if (s->n_cameras > 1)
+        text_add(out, "// View: 0 to %zu, around the rock.\n", s->n_cameras - 1);
     text_add(out, "#version 3.7;\n#declare Quality = %d; // 0 draft, 1 preview, 2 final\n", (int)s->preset);
     text_add(out, "global_settings {\n    assumed_gamma 1.0\n    max_trace_level 4\n");
     if (s->preset == PRESET_FINAL)
-        text_add(out, "    radiosity { pretrace_start 0.04 pretrace_end 0.01 count 80 error_bound 0.6 "
-                      "recursion_limit 1 }\n");
+        text_add(out, "    radiosity { pretrace_start 0.04 pretrace_end 0.01 count 100 error_bound 0.5 "
+                      "recursion_limit 1 brightness 0.35 normal on }\n");
     text_add(out, "}\n#ifndef (View) #declare View = 0; #end\n\n");
     add_vectors(out, "Eye", s, offsetof(struct camera, eye));
     add_vectors(out, "Ahead", s, offsetof(struct camera, ahead));
@@ -255,18 +299,26 @@ status scene_write(const struct scene *s, struct text *out)
     text_add(out, "#declare Low = <%.9g, %.9g, %.9g>;\n", s->low[0], s->low[1], s->low[2]);
     text_add(out, "#declare High = <%.9g, %.9g, %.9g>;\n", s->high[0], s->high[1], s->high[2]);
     text_add(out, "#declare Center = (Low + High) / 2;\n#declare Size = %.9g;\n", size);
-    add_strata(out, s);
-    add_part(out, scene_sandstone);
-    add_part(out, scene_scree);
-    if (is_terrain(s)) {
-        add_color(out, "Sand_Color", s->job, s->job->n_strata);
-        add_color(out, "Rock_Color", s->job, s->job->n_strata + 1);
-        text_add(out, "#declare Rubble_Radius = %.9g;\n", s->rocks.tile ? s->rocks.tile->radius : 1.0);
-        add_part(out, scene_terrain);
+    add_part(out, scene_camera);
+    if (s->show != SHOW_ROCK) {
+        add_part(out, scene_heat);
+        add_heat_colors(out, s);
+        text_add(out, "#declare Rubble = texture { pigment { rgb 0.3 } finish { Even } }\n");
+        add_mesh(out, s);
+    } else {
+        add_strata(out, s);
+        add_part(out, scene_sandstone);
+        add_part(out, scene_scree);
+        if (is_terrain(s)) {
+            add_color(out, "Sand_Color", s->job, s->job->n_strata);
+            add_color(out, "Rock_Color", s->job, s->job->n_strata + 1);
+            text_add(out, "#declare Rubble_Radius = %.9g;\n", s->rocks.tile ? s->rocks.tile->radius : 1.0);
+            add_part(out, scene_terrain);
+        }
+        add_mesh(out, s);
+        add_part(out, scene_light);
+        add_part(out, scene_sky);
     }
-    add_mesh(out, s);
-    add_part(out, scene_light);
-    add_part(out, scene_sky);
     text_add(out, "object { Rock }\n");
     status st = s->rocks.tile ? add_rocks(out, s) : OK;
     return st == OK ? text_status(out) : st;

@@ -6,6 +6,7 @@
 #include "field/camera.h"
 #include "output/vdb.h"
 #include "piles/piles.h"
+#include "render/show.h"
 
 enum preset { PRESET_DRAFT, PRESET_PREVIEW, PRESET_FINAL };
 
@@ -15,19 +16,23 @@ struct scene_rocks {
     const struct rock *at; /* P, and in `layer` which of the tile */
 };
 
-/* The values the mesh comes with, 0 where a job has none. */
+/* The values the mesh comes with, 0 where a job has none, if the rock is shown as it looks; else it comes with the value
+ * that is shown alone. */
 enum { SCENE_VEGETATION, SCENE_DEPOSIT, SCENE_BEDROCK, SCENE_SAND, SCENE_VALUES };
 extern const char *const scene_values[SCENE_VALUES];
 
 struct scene {
     const struct job *job;
     int frame;
-    const struct vdb_mesh *mesh; /* model arches: with the values bedrock and sand */
+    const struct vdb_mesh *mesh;
+    enum show show; /* SHOW_ROCK: as it looks, in the sun; else a value as colour, in even light */
+    struct show_range range;
     struct scene_rocks rocks;    /* tile NULL: none */
     double low[3], high[3];      /* m: the mesh's bounds */
     const struct camera *camera; /* one a view: povray's Declare=View=2 takes the third */
     size_t n_cameras;            /* >= 1 */
     enum preset preset;
+    const char *file; /* what the scene will be called, without folders: for the command in its first lines */
 };
 
 /* The mesh's bounds into low and high. E_INPUT if it has no triangles: there is nothing to show. */

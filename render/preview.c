@@ -16,16 +16,17 @@
 #include "render/picture.h"
 #include "render/turntable.h"
 
-enum { ONLY_ALL, ONLY_STILLS, ONLY_SHEET, ONLY_WEDGES };
+enum { ONLY_ALL, ONLY_STILLS, ONLY_SHEET, ONLY_VIEWS, ONLY_VIDEO, ONLY_WEDGES };
 
 struct wanted {
     struct common common;
-    bool turntable, keep_scenes;
-    int views, preset, only, jobs, wedge;
-    const char *camera, *resolution;
+    bool turntable, keep_scenes, no_slate;
+    int views, preset, only, jobs, wedge, show;
+    const char *camera, *resolution, *range;
+    struct frame_range which; /* views */
 };
 
-static status check(const struct wanted *w, struct preview *p)
+static status check(struct wanted *w, struct preview *p)
 {
     char rest;
     if (w->resolution && (sscanf(w->resolution, "%dx%d%c", &p->width, &p->height, &rest) != 2 ||
@@ -39,9 +40,24 @@ static status check(const struct wanted *w, struct preview *p)
         known |= w->camera && strcmp(p->job->cameras[i].name, w->camera) == 0;
     if (!known)
         return fail(E_USAGE, "--camera %.60s: the job has no camera of that name", w->camera);
+    if (!w->which.step)
+        w->which = (struct frame_range){0, w->views - 1, 1};
+    if (w->which.first < 0 || w->which.last >= w->views)
+        return fail(E_USAGE, "--view %d-%d: the views are 0 to %d (--views %d)", w->which.first,
+                    w->which.last, w->views - 1, w->views);
+    if (w->range && w->show == SHOW_ROCK)
+        return fail(E_USAGE, "--range %.40s: only values have one; say which with --show", w->range);
+    w->turntable |= w->only == ONLY_VIEWS || w->only == ONLY_VIDEO;
+    if (w->turntable && (w->only == ONLY_STILLS || w->only == ONLY_SHEET))
+        return fail(E_USAGE, "--turntable has views and a video: --only views or video");
     p->camera = w->camera;
     p->preset = (enum preset)w->preset;
     p->keep_scenes = w->keep_scenes;
+    p->no_slate = w->no_slate;
+    p->show = (enum show)w->show;
+    p->range = show_job_range(p->show, p->job);
+    if (w->range && strcmp(w->range, "job") != 0 && strcmp(w->range, "data") != 0)
+        return show_parse_range(p->show, w->range, &p->range);
     return OK;
 }
 
@@ -80,16 +96,20 @@ done:
     return st;
 }
 
-static status turntable(struct preview *p, const int *frames, size_t n, int views)
+static status turntable(struct preview *p, const struct wanted *w, const int *frames, size_t n)
 {
     status st = OK;
-    char path[4700];
-    TRY(picture_orbit(p, frames[n - 1], views));
-    TRY(turntable_video(p, frames[n - 1], views));
+    char path[4700], name[256];
+    if (w->only != ONLY_VIDEO)
+        TRY(picture_orbit(p, frames[n - 1], w->views, w->which));
+    if (w->only == ONLY_VIEWS)
+        goto done;
+    TRY(turntable_video(p, frames[n - 1], w->views));
     /* A sheet of stills says more than one of views, if there is one. */
-    snprintf(path, sizeof path, "%s/%s.contact.png", p->root, p->job->name);
+    picture_name(p, name);
+    snprintf(path, sizeof path, "%s/%s.contact.png", p->root, name);
     if (access(path, R_OK) != 0)
-        TRY(turntable_contact(p, frames, n, views));
+        TRY(turntable_contact(p, frames, n, w->views));
 done:
     return st;
 }
@@ -162,13 +182,27 @@ status cli_preview(int argc, char **argv)
         {"turntable", NULL, OPTION_FLAG, &w.turntable,
          "a full orbit of the last frame, as pictures and video"},
         {"views", "N", OPTION_INT, &w.views, "pictures in the orbit (default 36)"},
+        {"view", "RANGE", OPTION_RANGE, &w.which,
+         "these of the views alone, such as 0-11 (default: all); with --only views, so that several machines "
+         "can share an orbit"},
+        {"show", "rock|stress|von_mises|viability|discharge|vegetation|deposit", OPTION_CHOICE, &w.show,
+         "a value of the surface as colours, with a legend (default rock: as it looks)"},
+        {"range", "job|data|LO:HI", OPTION_TEXT, &w.range,
+         "what the colours span: job (default), the same for all pictures of a job (stress from the weight "
+         "of "
+         "the rock, discharge from its water, shares 0 to 1); data, all but the outermost hundredths of "
+         "these "
+         "frames' values; or LO:HI in the legend's unit"},
         {"camera", "NAME", OPTION_TEXT, &w.camera, "of the job (default: its first)"},
         {"preset", "draft|preview|final", OPTION_CHOICE, &w.preset,
          "how much care is taken (default preview)"},
         {"resolution", "WxH", OPTION_TEXT, &w.resolution, "of the pictures (default: the preset's)"},
-        {"only", "all|stills|sheet|wedges", OPTION_CHOICE, &w.only,
-         "a part of it: stills without a sheet, the sheet of the stills there are, or the sheet across the "
-         "wedges of a farm's folder"},
+        {"only", "all|stills|sheet|views|video|wedges", OPTION_CHOICE, &w.only,
+         "a part of it: stills without a sheet, the sheet of the stills there are, views of the turntable "
+         "without a video, the video of the views there are, or the sheet across the wedges of a farm's "
+         "folder"},
+        {"no-slate", NULL, OPTION_FLAG, &w.no_slate,
+         "without the strip that says name, frame and age (pictures lower than 120 pixels never have one)"},
         OPTION_WEDGE(&w.wedge),
         OPTION_PROGRESS(&w.common),
         {"jobs", "N", OPTION_INT, &w.jobs, "pictures made side by side (default: the cores there are)"},
@@ -199,11 +233,14 @@ status cli_preview(int argc, char **argv)
     signals_install();
     progress_begin_notes(&progress, (enum progress_style)w.common.progress);
     children_begin(&p.children, p.root, "log/preview.log", w.jobs);
-    TRY(w.turntable ? turntable(&p, frames, n, w.views) : stills(&p, frames, n, w.only, &progress));
+    if (w.range && strcmp(w.range, "data") == 0)
+        TRY(picture_data_range(&p, w.turntable ? frames + n - 1 : frames, w.turntable ? 1 : n, &p.range));
+    TRY(w.turntable ? turntable(&p, &w, frames, n) : stills(&p, frames, n, w.only, &progress));
     progress_note(&progress, 1, 1, w.turntable ? "turntable made" : "pictures made");
 done:
     progress_end(&progress);
     children_end(&p.children);
+    pictures_end(&p);
     free(frames);
     job_destroy(&job);
     words_free(&operands);

@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
-#include "base/version.h"
+#include "render/slate.h"
 
 static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
@@ -28,34 +28,31 @@ static status sheet_done(void *user)
     return fd ? OK : fail(E_OUTPUT, "%s could not be made", to);
 }
 
-/* "frame 1061, 58.2 kyr" */
-static void label(const struct preview *p, int frame, char out[96])
-{
-    double years = (frame - p->job->frames.first) * p->job->clock.years_per_frame;
-    if (years >= 1000)
-        snprintf(out, 96, "frame %d, %.1f kyr", frame, years / 1000);
-    else
-        snprintf(out, 96, "frame %d, %.0f yr", frame, years);
-}
-
 status turntable_video(struct preview *p, int frame, int views)
 {
     status st = OK;
-    char when[96], pattern[512], filter[1200], count[16];
+    char name[256], path[512], pattern[512], filter[200], count[16];
     struct sheet sheet = {.preview = p};
-    label(p, frame, when);
-    snprintf(sheet.path, sizeof sheet.path, "%.200s.turntable.mp4", p->job->name);
+    picture_name(p, name);
+    for (int view = 0; view < views; view++) {
+        char full[4700];
+        picture_view_path(p, frame, view, path);
+        snprintf(full, sizeof full, "%s/%s", p->root, path);
+        if (access(full, R_OK) != 0) {
+            st = fail(E_INPUT, "%s: the view is not there; make it first", full);
+            goto done;
+        }
+    }
+    snprintf(sheet.path, sizeof sheet.path, "%s.turntable.mp4", name);
     TRY(atomic_file_temporary(sheet.path, sheet.temporary, sizeof sheet.temporary - 4));
     strcat(sheet.temporary, ".mp4"); /* programs go by the ending */
-    snprintf(pattern, sizeof pattern, "turntable/%.200s.%04d.%%03d.png", p->job->name, frame);
-    /* Names hold letters, digits, _ and - alone, so nothing here needs the filter's own quoting. Three turns:
-     * a video of one and a half seconds is over before one has looked. */
+    /* Names hold letters, digits, _ and - alone: no '%' but ours. */
+    snprintf(pattern, sizeof pattern, "turntable/%s.%04d.%%03d.png", name, frame);
+    /* Three turns: a video of one and a half seconds is over before one has looked. */
     snprintf(
         filter, sizeof filter,
-        "loop=loop=2:size=%d,scale=trunc(iw/2)*2:trunc(ih/2)*2:in_color_matrix=bt709:out_color_matrix=bt709,"
-        "drawtext=fontfile=%s:text='%.200s   %s   hoodoo %s':x=10:y=h-th-8:fontsize=h/24:fontcolor=white:"
-        "box=1:boxcolor=black@0.45:boxborderw=5",
-        views, FONT, p->job->name, when, hoodoo_version);
+        "loop=loop=2:size=%d,scale=trunc(iw/2)*2:trunc(ih/2)*2:in_color_matrix=bt709:out_color_matrix=bt709",
+        views);
     snprintf(count, sizeof count, "%d", 3 * views);
     const char *const argv[] = {"ffmpeg",     "-nostdin",
                                 "-y",         "-loglevel",
@@ -84,8 +81,8 @@ done:
     return st;
 }
 
-/* Pictures side by side, a line of text on each. oiiotool takes its pictures and what is done to each in
- * order: IN --text ... IN --text ... --mosaic. */
+/* Pictures side by side, a line of text on each that has one. oiiotool takes its pictures and what is done to
+ * each in order: IN --text ... IN --text ... --mosaic. */
 static status mosaic(struct preview *p, const char *path, char (*word)[600], size_t n)
 {
     enum { EACH = 4 };
@@ -103,6 +100,8 @@ static status mosaic(struct preview *p, const char *path, char (*word)[600], siz
     argv[k++] = "oiiotool";
     for (size_t i = 0; i < n; i++) {
         argv[k++] = word[2 * i];
+        if (!*word[2 * i + 1])
+            continue;
         argv[k++] = text_option;
         argv[k++] = word[2 * i + 1];
     }
@@ -121,7 +120,7 @@ done:
 status turntable_contact(struct preview *p, const int *frames, size_t n, int views)
 {
     status st = OK;
-    char(*word)[600] = NULL, path[512];
+    char(*word)[600] = NULL, path[512], name[256];
     size_t n_pictures = views ? ((size_t)views + 2) / 3 : n;
     if (n_pictures == 0)
         return OK;
@@ -132,9 +131,11 @@ status turntable_contact(struct preview *p, const int *frames, size_t n, int vie
             picture_view_path(p, frame, (int)(3 * i), word[2 * i]);
         else
             picture_still_path(p, frame, word[2 * i]);
-        label(p, frame, word[2 * i + 1]);
+        if (!picture_has_slate(p, word[2 * i]))
+            slate_when(p->job, frame, word[2 * i + 1]);
     }
-    snprintf(path, sizeof path, "%.200s.contact.png", p->job->name);
+    picture_name(p, name);
+    snprintf(path, sizeof path, "%s.contact.png", name);
     TRY(mosaic(p, path, word, n_pictures));
 done:
     free(word);

@@ -4,11 +4,11 @@
 
 #include "render/picture.h"
 
-/* NAME.turntable.mp4 from the views of picture_orbit(), with a slate. H.264, 4:2:0, Rec. 709, 24 frames a
- * second. */
+/* NAME.turntable.mp4 from the views of picture_orbit(), three turns. H.264, 4:2:0, Rec. 709, 24 frames a
+ * second. E_INPUT if a view is missing. */
 MUST_USE status turntable_video(struct preview *p, int frame, int views);
 
-/* NAME.contact.png: the frames' stills, each with its number and age; or, with views > 0, every third view of
+/* NAME.contact.png: the frames' stills, with number and age on those that have no slate; or, with views > 0, every third view of
  * an orbit. */
 MUST_USE status turntable_contact(struct preview *p, const int *frames, size_t n, int views);
 

@@ -44,7 +44,7 @@ static void make_sample(int seed, struct sample *s)
         job->farm.n_cameras = (size_t)pick(seed, 12, 0, 1);
         job->farm.cameras = shot;
         job->farm.still_every = pick(seed, 10, 0, 5);
-        job->farm.turntable = pick(seed, 11, 0, 1) * 36;
+        job->farm.turntable = pick(seed, 11, 0, 1) * pick(seed, 13, 1, 72);
         job->wedge.index = s->n > 1 ? (int)i + 1 : 0;
         s->wedge[i].job = job;
         s->wedge[i].frame_seconds = 1.5;
@@ -120,6 +120,37 @@ static void every_frame_is_made_exactly_once(void **state)
     print_message("# %d random jobs: %zu tasks, %zu frames\n", JOBS, tasks, frames);
 }
 
+static void every_view_is_made_exactly_once(void **state)
+{
+    (void)state;
+    size_t views = 0, tasks = 0;
+    for (int seed = 0; seed < JOBS; seed++) {
+        struct sample s;
+        struct farm_graph g = {0};
+        make_sample(seed, &s);
+        assert_ok(graph_make(s.wedge, s.n, &g));
+        for (size_t w = 0; w < s.n; w++) {
+            const struct job *job = &s.job[w];
+            int count[100] = {0};
+            for (size_t i = 0; i < g.n; i++) {
+                const struct farm_task *t = &g.task[i];
+                if (t->kind != FARM_VIEW || t->wedge != (int)job->wedge.index)
+                    continue;
+                tasks++;
+                assert_int_equal(t->frames.last, job->frames.last);
+                assert_in_range(range_count(t->views), 1, job->farm.chunk_frames);
+                for (int view = t->views.first; view <= t->views.last; view++)
+                    count[view]++;
+            }
+            for (int view = 0; view < 100; view++)
+                assert_int_equal(count[view], view < job->farm.turntable);
+            views += (size_t)job->farm.turntable;
+        }
+        graph_free(&g);
+    }
+    print_message("# %zu views in %zu tasks\n", views, tasks);
+}
+
 static void tasks_stand_behind_what_they_wait_for(void **state)
 {
     (void)state;
@@ -152,8 +183,11 @@ static void tasks_stand_behind_what_they_wait_for(void **state)
             for (size_t k = 0; k < g.n && t->kind == FARM_SHEET; k++)
                 if (g.task[k].kind == FARM_STILL && g.task[k].wedge == t->wedge)
                     assert_true(waits_for(&g, i, k));
-            if (t->kind == FARM_TURNTABLE)
+            if (t->kind == FARM_TURNTABLE || t->kind == FARM_VIEW)
                 assert_true(waits_for(&g, i, last_sim[t->wedge]));
+            for (size_t k = 0; k < g.n && t->kind == FARM_TURNTABLE; k++)
+                if (g.task[k].kind == FARM_VIEW && g.task[k].wedge == t->wedge)
+                    assert_true(waits_for(&g, i, k));
             for (size_t k = 0; k < i; k++)
                 assert_string_not_equal(g.task[k].name, t->name);
             assert_int_equal(strspn(t->name, "abcdefghijklmnopqrstuvwxyz0123456789.-"), strlen(t->name));
@@ -279,6 +313,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_frame_is_made_exactly_once),
+        cmocka_unit_test(every_view_is_made_exactly_once),
         cmocka_unit_test(tasks_stand_behind_what_they_wait_for),
         cmocka_unit_test(longer_jobs_take_longer),
         cmocka_unit_test(a_shell_takes_quoted_words_as_they_are),

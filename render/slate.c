@@ -1,0 +1,211 @@
+/* Drawn by oiiotool in DejaVu Sans Mono, whose letters are all as wide, so that it is known what fits. Names of jobs and
+ * cameras hold letters, digits, _ and - alone, so nothing here means anything to oiiotool. */
+#include "render/slate.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "base/memory.h"
+
+static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf";
+static const double LETTER = 0.602; /* of the font's size */
+
+static int font_size(const struct slate *s)
+{
+    return (int)fmin(fmax(round(s->height / 36.0), 9), 48);
+}
+
+/* ---- the legend's place: a panel at the right edge, above the strip */
+
+struct panel {
+    int font, left, top, bottom;
+    int bar_x, bar_y, bar_w, bar_h, text_x;
+};
+
+static struct panel panel_of(const struct slate *s)
+{
+    struct panel p = {.font = font_size(s)};
+    int letters = 12; /* the bar, and "interlock" beside it */
+    p.bar_w = (int)lrint(1.1 * p.font);
+    p.bar_h = (int)lrint(0.5 * s->height);
+    p.left = s->width - (int)ceil((letters * LETTER + 1.2) * p.font);
+    p.top = (int)lrint(0.08 * s->height);
+    p.bar_x = p.left + (int)lrint(0.6 * p.font);
+    p.bar_y = p.top + (int)lrint((s->show == SHOW_STRESS ? 4.5 : 3.4) * p.font);
+    p.text_x = p.bar_x + p.bar_w + (int)lrint(0.6 * p.font);
+    p.bottom = p.bar_y + p.bar_h + (int)lrint(2.0 * p.font);
+    return p;
+}
+
+bool slate_draws(const struct slate *s)
+{
+    return s->height >= SLATE_LEAST_HEIGHT && (*s->left || *s->right || s->show != SHOW_ROCK);
+}
+
+status slate_write_bar(const struct slate *s, const char *path)
+{
+    status st = OK;
+    struct panel p = panel_of(s);
+    unsigned char *bytes = NULL;
+    char head[64];
+    size_t n_head = (size_t)snprintf(head, sizeof head, "P6\n%d %d\n255\n", p.bar_w, p.bar_h);
+    size_t n = n_head + 3 * (size_t)p.bar_w * (size_t)p.bar_h;
+    TRY(memory_alloc(n, 1, "the legend", &bytes));
+    memcpy(bytes, head, n_head);
+    unsigned char *at = bytes + n_head;
+    for (int y = 0; y < p.bar_h; y++)
+        for (int x = 0; x < p.bar_w; x++, at += 3)
+            show_color(s->show, s->range, 1 - (y + 0.5) / p.bar_h, at);
+    TRY(atomic_file_write(path, bytes, n));
+done:
+    free(bytes);
+    return st;
+}
+
+/* ---- words */
+
+static void word(struct slate_command *c, const char *text)
+{
+    if (c->n + 1 < SLATE_WORDS) {
+        c->argv[c->n++] = text;
+        c->argv[c->n] = NULL;
+    }
+}
+
+static void made(struct slate_command *c, const char *format, ...) PRINTF_LIKE(2, 3);
+static void made(struct slate_command *c, const char *format, ...)
+{
+    va_list args;
+    if (c->n_own == SLATE_WORDS)
+        return;
+    va_start(args, format);
+    vsnprintf(c->own[c->n_own], sizeof c->own[0], format, args);
+    va_end(args);
+    word(c, c->own[c->n_own++]);
+}
+
+static void add_text(struct slate_command *c, int x, int baseline, int size, const char *text)
+{
+    made(c, "--text:x=%d:y=%d:size=%d:color=0.93,0.93,0.93,1:font=%s", x, baseline, size, FONT);
+    made(c, "%s", text);
+}
+
+/* Corners, both inside. */
+static void add_box(struct slate_command *c, const char *color, int x0, int y0, int x1, int y1)
+{
+    made(c, "--box:color=%s:fill=1", color);
+    made(c, "%d,%d,%d,%d", x0, y0, x1, y1);
+}
+
+static int row_of(const struct panel *p, double position)
+{
+    return p->bar_y + (int)lrint((1 - position) * (p->bar_h - 1));
+}
+
+static void add_marks(struct slate_command *c, const struct slate *s, const struct panel *p, int row[2],
+                      size_t *n)
+{
+    *n = 0;
+    for (size_t i = 0; i < s->n_marks; i++) {
+        if (s->mark[i] <= s->range.low || s->mark[i] >= s->range.high)
+            continue;
+        int y = row_of(p, show_position(s->show, s->range, s->mark[i]));
+        if (*n && abs(y - row[0]) < p->font)
+            continue;
+        add_box(c, "0,0,0,1", p->bar_x, y, p->bar_x + p->bar_w - 1, y + (p->font > 15));
+        add_text(c, p->text_x, y + (int)lrint(0.36 * p->font), p->font, s->mark_name);
+        row[(*n)++] = y;
+    }
+}
+
+static void add_legend(struct slate_command *c, const struct slate *s)
+{
+    struct panel p = panel_of(s);
+    struct show_tick tick[SHOW_TICKS];
+    char name[48], *under;
+    int marked[2];
+    size_t n_marked;
+    snprintf(name, sizeof name, "%s", show_name(s->show));
+    while ((under = strchr(name, '_')))
+        *under = ' ';
+    add_text(c, p.bar_x, p.top + (int)lrint(1.4 * p.font), p.font, name);
+    if (*show_unit(s->show))
+        add_text(c, p.bar_x, p.top + (int)lrint(2.6 * p.font), p.font, show_unit(s->show));
+    if (s->show == SHOW_STRESS) {
+        int small = (int)lrint(0.85 * p.font);
+        add_text(c, p.bar_x, p.bar_y - (int)lrint(0.6 * p.font), small, "compression");
+        if (s->range.low < 0)
+            add_text(c, p.bar_x, p.bar_y + p.bar_h + (int)lrint(1.3 * p.font), small, "tension");
+    }
+    add_marks(c, s, &p, marked, &n_marked);
+    size_t n = show_ticks(s->show, s->range, tick);
+    for (size_t i = 0; i < n; i++) {
+        int y = row_of(&p, tick[i].position);
+        bool free = true;
+        for (size_t k = 0; k < n_marked; k++)
+            free = free && abs(y - marked[k]) > p.font;
+        add_box(c, "0.93,0.93,0.93,1", p.bar_x + p.bar_w, y, p.bar_x + p.bar_w + p.font / 4, y);
+        if (free)
+            add_text(c, p.text_x, y + (int)lrint(0.36 * p.font), p.font, tick[i].text);
+    }
+}
+
+static void add_strip(struct slate_command *c, const struct slate *s)
+{
+    int font = font_size(s), margin = (int)lrint(0.6 * font), high = (int)lrint(1.7 * font);
+    int letters = (int)((s->width - 2 * margin) / (LETTER * font)), left = (int)strlen(s->left),
+        right = (int)strlen(s->right), baseline = s->height - (int)lrint(0.5 * font);
+    add_box(c, "0.05,0.05,0.055,0.62", 0, s->height - high, s->width - 1, s->height - 1);
+    if (left <= letters) {
+        add_text(c, margin, baseline, font, s->left);
+    } else {
+        /* The end says which frame it is: the name gives way. */
+        char cut[160];
+        int keep = letters > 4 ? letters - 2 : 2;
+        snprintf(cut, sizeof cut, "..%s", s->left + (left > keep ? left - keep : 0));
+        add_text(c, margin, baseline, font, cut);
+    }
+    if (left + right + 3 <= letters)
+        add_text(c, s->width - margin - (int)ceil(right * LETTER * font), baseline, font, s->right);
+}
+
+void slate_command(const struct slate *s, const char *from, const char *bar, const char *to,
+                   struct slate_command *c)
+{
+    c->n = c->n_own = 0;
+    word(c, "oiiotool");
+    if (s->show != SHOW_ROCK)
+        word(c, bar);
+    word(c, from);
+    if (s->show != SHOW_ROCK) {
+        struct panel p = panel_of(s);
+        word(c, "--paste");
+        made(c, "+%d+%d", p.bar_x, p.bar_y);
+        /* A frame of four panes around the bar, which keeps its own colours. */
+        const char *dark = "0.05,0.05,0.055,0.62";
+        add_box(c, dark, p.left, p.top, s->width - 1, p.bar_y - 1);
+        add_box(c, dark, p.left, p.bar_y, p.bar_x - 1, p.bar_y + p.bar_h - 1);
+        add_box(c, dark, p.bar_x + p.bar_w, p.bar_y, s->width - 1, p.bar_y + p.bar_h - 1);
+        add_box(c, dark, p.left, p.bar_y + p.bar_h, s->width - 1, p.bottom);
+        add_legend(c, s);
+    }
+    if (*s->left || *s->right)
+        add_strip(c, s);
+    word(c, "-o");
+    word(c, to);
+}
+
+void slate_when(const struct job *job, int frame, char out[96])
+{
+    double frames = frame - job->frames.first, years = frames * job->clock.years_per_frame;
+    if (job->clock.seconds_per_frame > 0)
+        snprintf(out, 96, "frame %d   %.2f s", frame, frames * job->clock.seconds_per_frame);
+    else if (years >= 1000)
+        snprintf(out, 96, "frame %d   %.1f kyr", frame, years / 1000);
+    else
+        snprintf(out, 96, "frame %d   %.0f yr", frame, years);
+}

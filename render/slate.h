@@ -1,0 +1,42 @@
+/* What is burnt into a picture: a strip that says what it is, and the legend of its colours. */
+#ifndef HOODOO_SLATE_H
+#define HOODOO_SLATE_H
+
+#include "base/status.h"
+#include "render/show.h"
+
+/* Lower pictures have no room for words: they stay as they are. */
+enum { SLATE_LEAST_HEIGHT = 120 };
+
+struct slate {
+    int width, height;
+    char left[200], right[160]; /* the strip's; both "": no strip */
+    enum show show;             /* SHOW_ROCK: no legend */
+    struct show_range range;
+    size_t n_marks; /* values that the legend names */
+    double mark[2];
+    const char *mark_name;
+};
+
+/* The words of a command. Their texts live in it. */
+enum { SLATE_WORDS = 128 };
+struct slate_command {
+    const char *argv[SLATE_WORDS];
+    size_t n, n_own;
+    char own[SLATE_WORDS][200];
+};
+
+/* Is there anything to draw? */
+bool slate_draws(const struct slate *s);
+
+/* The colour bar as a picture file (PPM): one of oiiotool's inputs. */
+MUST_USE status slate_write_bar(const struct slate *s, const char *path);
+
+/* oiiotool's words that draw on the picture `from` and write `to`; `bar` is what slate_write_bar() wrote. */
+void slate_command(const struct slate *s, const char *from, const char *bar, const char *to,
+                   struct slate_command *out);
+
+/* "frame 1061   55.2 kyr"; of a shot in real time seconds. */
+void slate_when(const struct job *job, int frame, char out[96]);
+
+#endif
