@@ -177,8 +177,9 @@ done:
 
 /* ---- blocks within a frame */
 
-/* Until nothing has moved for REST looks in a row, a tenth of a second each. A body let go is faster than
- * `still` after the first. */
+/* Until nothing, or next to nothing, has moved for REST looks in a row, a tenth of a second each. A body let go is
+ * faster than `still` after the first. Grains may creep on for long, and what is still on its way when all the rest
+ * lies falls in the next frame. */
 static status fall_to_rest(struct gpu *gpu, struct gpu_work *work, struct collapse *c, double *seconds)
 {
     enum { REST = 3 };
@@ -187,7 +188,8 @@ static status fall_to_rest(struct gpu *gpu, struct gpu_work *work, struct collap
     int at_rest = 0;
     for (*seconds = 0; at_rest < REST && *seconds < c->longest && c->mpm.n > 0; *seconds += look) {
         TRY(mpm_run(gpu, work, &c->mpm, look));
-        at_rest = c->mpm.fastest < still ? at_rest + 1 : 0;
+        bool rests = c->mpm.fastest < still || c->mpm.mean_speed < still / 4;
+        at_rest = rests ? at_rest + 1 : 0;
     }
 done:
     return st;

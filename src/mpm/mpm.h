@@ -100,7 +100,7 @@ struct mpm {
     size_t n_parts, n_nodes, n_entries, n_mixed;
     size_t room_parts, room_entries; /* in what is made as it is needed */
     size_t n_left;                   /* particles that have left the domain since they were loaded */
-    double fastest;                  /* m/s, as of the last look */
+    double fastest, mean_speed;      /* m/s, as of the last look */
     long steps;                      /* taken since the start of the last call */
 };
 

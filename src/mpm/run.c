@@ -20,16 +20,18 @@ static long steps_until_sort(const struct mpm *m, double dt, long left)
 static status look(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
 {
     status st = OK;
-    float fastest;
+    float speed[2]; /* the largest, the sum */
     struct count_params all = {(uint)m->n};
     GPU_RUN(gpu, mpm_speed, m->n, all, m->vector[MPM_VELOCITY], m->speed);
     gpu_max(gpu, work, m->speed, m->n, m->scalars, 0);
-    TRY(gpu_download(gpu, m->scalars, 0, &fastest, 1));
-    if (!isfinite(fastest)) {
+    gpu_sum(gpu, work, m->speed, m->n, m->scalars, 1);
+    TRY(gpu_download(gpu, m->scalars, 0, speed, 2));
+    if (!isfinite(speed[0]) || !isfinite(speed[1])) {
         st = fail(E_NUMERIC, "mpm: speeds are not finite after %ld steps of %zu particles", m->steps, m->n);
         goto done;
     }
-    m->fastest = (double)fastest;
+    m->fastest = (double)speed[0];
+    m->mean_speed = m->n > 0 ? (double)speed[1] / (double)m->n : 0;
     TRY(mpm_pieces_look(gpu, m));
 done:
     return st;
