@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Of each joint, how many particles it has and how many of them have cracked; and, after those, how many whole ones
+// Of each joint, how many particles it has and how many of them have cracked, or that it has parted two pieces
+// before; and, after those, how many whole ones
 // each piece has.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -23,6 +24,10 @@ void main()
         atomicAdd(AT(count, 2u * MPM_JOINTS * k.pieces + LOAD_U(piece, i) - 1u), 1u);
     if (j == MPM_NO_JOINT)
         return;
+    if ((j & PARTED) != 0u) {
+        atomicOr(AT(count, 2u * (j - PARTED) + 1u), PARTED);
+        return;
+    }
     atomicAdd(AT(count, 2u * j), 1u);
     if (cracked)
         atomicAdd(AT(count, 2u * j + 1u), 1u);

@@ -6,6 +6,9 @@
 
 enum { SCALARS = 8 };
 
+/* Bit of the number of a joint that has parted two pieces. */
+static const uint32_t MPM_PARTED = 0x80000000u;
+
 struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt);
 
 /* m/s: the fastest wave. */

@@ -9,6 +9,9 @@
 /* Share of a joint's particles that crack before all of it does; half of a joint's width in pieces, and at least in
  * particles. Slivers, pieces of fewer particles than two cells hold, stay with their neighbours. */
 enum { SLIVER = 16 };
+
+/* How a joint stands. */
+enum { NONE, HOLDS, PARTS };
 static const double BRITTLE = 0.25, WIDTH = 0.1, LEAST_WIDTH = 0.75;
 
 static size_t count(const int n[3])
@@ -106,10 +109,15 @@ status mpm_pieces_look(struct gpu *gpu, struct mpm *m)
         body[i] = i;
     for (uint32_t j = 0; j < n * MPM_JOINTS; j++) {
         const uint32_t *c = s->host_counts + 2 * (size_t)j;
+        if (c[1] & MPM_PARTED) {
+            s->host_holds[j] = PARTS;
+            parted |= c[0] > 0;
+            continue;
+        }
         bool sliver = c[0] > 0 && (of_piece[j / MPM_JOINTS] < SLIVER || of_piece[beyond(s->n, j)] < SLIVER);
-        s->host_holds[j] = c[0] > 0 && (sliver || c[1] < BRITTLE * c[0]);
-        parted |= c[0] > 0 && !s->host_holds[j];
-        if (s->host_holds[j]) {
+        s->host_holds[j] = c[0] == 0 ? NONE : sliver || c[1] < BRITTLE * c[0] ? HOLDS : PARTS;
+        parted |= s->host_holds[j] == PARTS;
+        if (s->host_holds[j] == HOLDS) {
             uint32_t a = root_of(body, j / MPM_JOINTS), b = root_of(body, beyond(s->n, j));
             body[a < b ? b : a] = a < b ? a : b;
         }

@@ -20,7 +20,7 @@ static const uint32_t NONE = UINT32_MAX;
 
 static bool is_whole(const struct fragments *f, size_t i)
 {
-    return f->apart[i] < 0 || f->joint[i] != MPM_NO_JOINT;
+    return f->apart[i] < 0 || !(f->joint[i] & MPM_PARTED);
 }
 
 static uint32_t body_of(const struct fragments *f, size_t i)
