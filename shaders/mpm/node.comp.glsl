@@ -18,8 +18,8 @@ PARAMS(mpm_params)
 #include "mpm/contact.glsl"
 
 // Where there are pieces, what is slower than this, m/s, loses this share of its speed in a second: piles come to
-// rest instead of creeping. A quarter of its weight pulls a body away.
-const float STILL = 0.06, STILLING = 40.0;
+// rest instead of creeping. A third of its weight pulls a body away.
+const float STILL = 0.06, STILLING = 50.0;
 
 void main()
 {

@@ -24,7 +24,7 @@ PARAMS(mpm_params)
 const float TOUCHING = 0.75, MEETING = 0.04;
 
 // The same as in mpm/node, for what touches.
-const float STILL = 0.3, STILLING = 60.0;
+const float STILL = 0.3, STILLING = 80.0;
 
 // The mass at a node of those pieces of group g that entries from e0 to end know, less the others'. Where both have
 // some and fill the node's room, they are near.

@@ -90,11 +90,12 @@ done:
 void mpm_destroy(struct gpu *gpu, struct mpm *m)
 {
     struct gpu_buffer **all[] = {
-        &m->home,        &m->part,       &m->speed,     &m->spare_vector, &m->spare_word, &m->order,
-        &m->unordered,   &m->part_first, &m->part_cell, &m->part_body,    &m->start,      &m->flags,
-        &m->place,       &m->node_list,  &m->mixed,     &m->slot,         &m->many,       &m->first,
-        &m->meeting,     &m->wall,       &m->partial,   &m->reach,        &m->entry_node, &m->entry_body,
-        &m->entry_group, &m->mass,       &m->velocity,  &m->product,      &m->scalars,    &m->nothing};
+        &m->home,       &m->part,        &m->group,      &m->speed,     &m->spare_vector, &m->spare_word,
+        &m->order,      &m->unordered,   &m->part_first, &m->part_cell, &m->part_body,    &m->start,
+        &m->flags,      &m->place,       &m->node_list,  &m->mixed,     &m->slot,         &m->many,
+        &m->first,      &m->meeting,     &m->wall,       &m->partial,   &m->reach,        &m->entry_node,
+        &m->entry_body, &m->entry_group, &m->mass,       &m->velocity,  &m->product,      &m->scalars,
+        &m->nothing};
     mpm_pieces_destroy(gpu, m);
     for (int v = 0; v < MPM_VECTORS; v++)
         gpu_buffer_destroy(gpu, &m->vector[v]);
