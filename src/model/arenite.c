@@ -700,7 +700,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
         erosion_bytes(n) + blocks_bytes(out->voxels) + wind_bytes(job, out->voxels) + field +
         aov_bytes(pixels) + (ever(job, routes) ? water_bytes(out->voxels) : 0) +
         (ever(job, deposit_wanted) ? deposit_bytes(out->voxels) : 0) + collapse_bytes(job, n, out->voxels) +
-        (job->stress.solver == STRESS_MPM ? mpm_bytes(n, out->voxels) : 0);
+        (job->stress.solver == STRESS_MPM ? mpm_bytes(n, out->voxels, job->domain.spacing_m, 0) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);

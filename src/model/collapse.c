@@ -19,7 +19,9 @@ bool collapse_wanted(const struct job *job)
 
 uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3])
 {
-    return collapse_wanted(job) ? mpm_bytes(n, voxels) + 4 * (uint64_t)n : 0;
+    return collapse_wanted(job)
+               ? mpm_bytes(n, voxels, job->domain.spacing_m, job->collapse.joints_m) + 4 * (uint64_t)n
+               : 0;
 }
 
 /* One more than the largest id. */

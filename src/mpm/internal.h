@@ -17,7 +17,7 @@ double mpm_wave(const struct mpm_options *o);
 /* Pieces: their tables; and which of them are bodies, as joints stand. The latter waits. */
 MUST_USE status mpm_pieces_create(struct gpu *gpu, struct mpm *m);
 void mpm_pieces_destroy(struct gpu *gpu, struct mpm *m);
-uint64_t mpm_pieces_bytes(const int cells[3]);
+uint64_t mpm_pieces_bytes(const int voxels[3], double h, double block);
 MUST_USE status mpm_pieces_look(struct gpu *gpu, struct mpm *m);
 struct mpm_load_params mpm_load_params_of(const struct mpm *m, size_t n);
 

@@ -106,7 +106,8 @@ struct mpm {
 
 /* Nodes of the lattice: gpu_work needs room for as many. */
 size_t mpm_nodes(const int voxels[3]);
-uint64_t mpm_bytes(size_t n_max, const int voxels[3]);
+/* With joints `block` m apart, 0: none. */
+uint64_t mpm_bytes(size_t n_max, const int voxels[3], double h, double block);
 MUST_USE status mpm_create(struct gpu *gpu, const int voxels[3], double h, size_t n_max,
                            const struct mpm_options *options, struct mpm *out);
 void mpm_destroy(struct gpu *gpu, struct mpm *m);

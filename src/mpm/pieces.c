@@ -20,24 +20,33 @@ static size_t count(const int n[3])
 }
 
 /* m: a piece is resolved from four cells on; smaller ones are made as large as two. */
-static double size_of(const struct mpm *m)
+static double size_of(double block, double dx)
 {
-    return m->options.block > 0 ? fmax(m->options.block, 2 * m->dx) : 0;
+    return block > 0 ? fmax(block, 2 * dx) : 0;
 }
 
-uint64_t mpm_pieces_bytes(const int cells[3])
+/* Seeds of pieces on an axis `length` m long. */
+static int seeds(double length, double size)
 {
-    return (uint64_t)(cells[0] / 2 + 3) * (uint64_t)(cells[1] / 2 + 3) * (uint64_t)(cells[2] / 2 + 3) *
-           (3 * MPM_JOINTS + 1) * 4;
+    return (int)floor(length / size) + 3;
+}
+
+uint64_t mpm_pieces_bytes(const int voxels[3], double h, double block)
+{
+    double size = size_of(block, 2 * h);
+    uint64_t n = size > 0;
+    for (int a = 0; a < 3 && size > 0; a++)
+        n *= (uint64_t)seeds(voxels[a] * h, size);
+    return n * (3 * MPM_JOINTS + 1) * 4;
 }
 
 status mpm_pieces_create(struct gpu *gpu, struct mpm *m)
 {
     status st = OK;
     struct mpm_pieces *s = &m->pieces;
-    double size = size_of(m);
+    double size = size_of(m->options.block, m->dx);
     for (int a = 0; a < 3 && size > 0; a++)
-        s->n[a] = (int)floor(m->cells[a] * m->dx / size) + 3;
+        s->n[a] = seeds(m->cells[a] * m->dx, size);
     size_t n = count(s->n), joints = n > 0 ? n * MPM_JOINTS : 1;
     TRY(gpu_buffer_create(gpu, "mpm joints' counts", 2 * joints + n, 4, &s->counts));
     TRY(gpu_buffer_create(gpu, "mpm joints that hold", joints, 4, &s->holds));
@@ -61,7 +70,7 @@ void mpm_pieces_destroy(struct gpu *gpu, struct mpm *m)
 
 struct mpm_load_params mpm_load_params_of(const struct mpm *m, size_t n)
 {
-    double size = size_of(m);
+    double size = size_of(m->options.block, m->dx);
     return (struct mpm_load_params){
         .n = (uint)n,
         .seed = m->options.seed,
