@@ -5,22 +5,22 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, home)
-READ_V(1, node_velocity)
+READ_U(0, part)
+READ_V(1, velocity)
 READ_V(2, place)
 READ_V(3, stretch_x)
 READ_V(4, stretch_y)
 READ_F(5, apart)
 READ_F(6, strength)
 READ_F(7, fill)
-WRITE_V(8, place_out)
-WRITE_V(9, velocity_out)
-WRITE_V(10, affine_x_out)
-WRITE_V(11, affine_y_out)
-WRITE_V(12, stretch_x_out)
-WRITE_V(13, stretch_y_out)
-WRITE_F(14, apart_out)
-WRITE_F(15, speed_out)
+READ_U(8, reach)
+WRITE_V(9, place_out)
+WRITE_V(10, velocity_out)
+WRITE_V(11, affine_x_out)
+WRITE_V(12, affine_y_out)
+WRITE_V(13, stretch_x_out)
+WRITE_V(14, stretch_y_out)
+WRITE_F(15, apart_out)
 PARAMS(mpm_params)
 #include "mpm/grid.glsl"
 #include "mpm/collect.glsl"
@@ -71,12 +71,12 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint at = LOAD_U(home, i);
+    uint own = LOAD_U(part, i), home = LOAD_U(reach, 27u * k.n_parts + own);
     vec4 xh = LOAD_V(place, i), hx = LOAD_V(stretch_x, i), hy = LOAD_V(stretch_y, i);
     float loose = LOAD_F(apart, i);
     mat3 h = mat3(hx.xyz, hy.xyz, vec3(hx.w, hy.w, xh.w)), g;
     vec3 v;
-    collect(mpm_offset(xh.xyz, at), at, v, g[0], g[1], g[2]);
+    collect(mpm_offset(xh.xyz, home), own, v, g[0], g[1], g[2]);
     g /= k.dx;
 
     mat3 next = h + k.dt * (g + g * h), f = next + mat3(1.0);
@@ -94,7 +94,6 @@ void main()
     }
     mat3 stress = acting_stress(r * body_stress(e) * transpose(r), g);
     mat3 q = g - k.dt * k.push * stress;
-    float speed = length(v);
     vec3 to = go(xh.xyz, k.dt * v, v);
     AT(place_out, i) = vec4(to, next[2].z);
     AT(velocity_out, i) = vec4(v, q[2].z);
@@ -103,5 +102,4 @@ void main()
     AT(stretch_x_out, i) = vec4(next[0], next[2].x);
     AT(stretch_y_out, i) = vec4(next[1], next[2].y);
     AT(apart_out, i) = loose;
-    AT(speed_out, i) = speed;
 }

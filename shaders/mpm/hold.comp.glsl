@@ -5,11 +5,13 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, list)
+READ_U(0, entry_node)
 READ_U(1, slot)
-READ_V(2, partial)
-WRITE_V(3, node_velocity)
-WRITE_F(4, product)
+READ_U(2, many)
+READ_U(3, reach)
+READ_V(4, partial)
+WRITE_V(5, velocity)
+WRITE_F(6, product)
 PARAMS(mpm_params)
 #include "mpm/grid.glsl"
 #include "mpm/sum.glsl"
@@ -19,11 +21,11 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint node = LOAD_U(list, i);
-    vec4 sum = node_sum(node);
+    uint node = LOAD_U(entry_node, i);
+    vec4 sum = entry_sum(i, node);
     vec3 v = vec3(0.0);
     if (sum.w > 0.0 && mpm_at(node).z > 1)
         v = sum.xyz / sum.w - vec3(0.0, 0.0, k.gravity * k.dt);
-    AT(node_velocity, node) = vec4(v, sum.w);
+    AT(velocity, i) = vec4(v, sum.w);
     AT(product, i) = 0.5 * sum.w * dot(v, v);
 }

@@ -1,14 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // A particle's sort key: its base cell, or the number of cells for those that have left the domain or of which
-// nothing is left.
+// nothing is left; and its group in that cell: its piece, or the loose grains.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_V(0, place)
 READ_F(1, share)
-WRITE_U(2, key)
+READ_F(2, apart)
+READ_U(3, joint)
+READ_U(4, piece)
+WRITE_U(5, key)
+WRITE_U(6, group)
 PARAMS(mpm_params)
+#include "mpm/broken.glsl"
 #include "mpm/grid.glsl"
 
 void main()
@@ -20,4 +25,6 @@ void main()
     bool gone = LOAD_F(share, i) <= 0.0 || !mpm_in_domain(x);
     uint none = (k.cx + 3u) * (k.cy + 3u) * (k.cz + 3u);
     AT(key, i) = gone ? none : mpm_index(ivec3(floor(mpm_cells(x) - 0.5)) + 1);
+    bool one = k.bodies == 0u || is_loose(LOAD_F(apart, i), LOAD_U(joint, i));
+    AT(group, i) = one ? MPM_LOOSE : LOAD_U(piece, i);
 }

@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Particles to grid, first half: the mass and momentum that one occupied cell's particles give each of its 27
+// Particles to grid, first half: the mass and momentum that one part's particles give each of its cell's 27
 // nodes, v_p + Q_p (x_i - x_p), where Q is the affine velocity less the stress's impulse (Hu et al. 2018, eq.
 // 29).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, list)
-READ_U(1, start)
+READ_U(0, part_cell)
+READ_U(1, part_first)
 READ_V(2, place)
 READ_V(3, velocity)
 READ_V(4, affine_x)
@@ -22,12 +22,12 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint cell = LOAD_U(list, i), end = LOAD_U(start, cell + 1u);
+    uint cell = LOAD_U(part_cell, i), end = LOAD_U(part_first, i + 1u);
     vec3 first = vec3(mpm_at(cell) - 1);
     vec4 sum[27];
     for (int a = 0; a < 27; a++)
         sum[a] = vec4(0.0);
-    for (uint j = LOAD_U(start, cell); j < end; j++) {
+    for (uint j = LOAD_U(part_first, i); j < end; j++) {
         vec4 vq = LOAD_V(velocity, j), qx = LOAD_V(affine_x, j), qy = LOAD_V(affine_y, j);
         float m = k.mass * LOAD_F(share, j);
         vec3 f = mpm_cells(LOAD_V(place, j).xyz) - first, w[3];
@@ -43,5 +43,5 @@ void main()
             }
     }
     for (uint a = 0u; a < 27u; a++)
-        AT(partial, a * k.n_cells + i) = sum[a];
+        AT(partial, a * k.n_parts + i) = sum[a];
 }

@@ -1,16 +1,24 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where each occupied cell's partial sums are, plus 1; the others' are 0.
+// Which parts each occupied cell has: the first one's number plus 1, and how many. The others' slots are 0.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, list)
+READ_U(0, part_cell)
 WRITE_U(1, slot)
+WRITE_U(2, many)
 PARAMS(count_params)
 
 void main()
 {
-    uint i = THREAD;
-    if (i < k.n)
-        AT(slot, LOAD_U(list, i)) = i + 1u;
+    uint p = THREAD;
+    if (p >= k.n)
+        return;
+    uint cell = LOAD_U(part_cell, p), end = p + 1u;
+    if (p > 0u && LOAD_U(part_cell, p - 1u) == cell)
+        return;
+    while (end < k.n && LOAD_U(part_cell, end) == cell)
+        end++;
+    AT(slot, cell) = p + 1u;
+    AT(many, cell) = end - p;
 }

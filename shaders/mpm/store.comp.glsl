@@ -12,15 +12,17 @@ READ_V(3, stretch_x)
 READ_V(4, stretch_y)
 READ_F(5, share)
 READ_F(6, apart)
-WRITE_V(7, position)
-WRITE_V(8, velocity_out)
-WRITE_F(9, viability)
-WRITE_U(10, phase)
-WRITE_F(11, stress)
-WRITE_F(12, von_mises)
+READ_U(7, joint)
+WRITE_V(8, position)
+WRITE_V(9, velocity_out)
+WRITE_F(10, viability)
+WRITE_U(11, phase)
+WRITE_F(12, stress)
+WRITE_F(13, von_mises)
 PARAMS(mpm_params)
 #include "mpm/grid.glsl"
 #include "mpm/rock.glsl"
+#include "mpm/broken.glsl"
 
 void main()
 {
@@ -37,7 +39,7 @@ void main()
     AT(position, j) = vec4(xh.xyz, 0.0);
     AT(velocity_out, j) = vec4(v, 0.0);
     AT(viability, j) = mpm_in_domain(xh.xyz) ? LOAD_F(share, i) : 0.0;
-    AT(phase, j) = length(v) > k.fastest ? PHASE_FALLING : LOAD_F(apart, i) >= 0.0 ? PHASE_DEPOSIT : PHASE_ROCK;
+    AT(phase, j) = length(v) > k.fastest ? PHASE_FALLING : is_loose(LOAD_F(apart, i), LOAD_U(joint, i)) ? PHASE_DEPOSIT : PHASE_ROCK;
     AT(stress, j) = -3.0 * mean;
     AT(von_mises, j) = sqrt(1.5 * (dot(d[0], d[0]) + dot(d[1], d[1]) + dot(d[2], d[2])));
 }

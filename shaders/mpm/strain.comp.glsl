@@ -5,18 +5,19 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, home)
-READ_V(1, node_velocity)
+READ_U(0, part)
+READ_V(1, velocity)
 READ_V(2, place)
 READ_V(3, stretch_x)
 READ_V(4, stretch_y)
 READ_F(5, scalars)
-WRITE_V(6, place_out)
-WRITE_V(7, velocity_out)
-WRITE_V(8, affine_x_out)
-WRITE_V(9, affine_y_out)
-WRITE_V(10, stretch_x_out)
-WRITE_V(11, stretch_y_out)
+READ_U(6, reach)
+WRITE_V(7, place_out)
+WRITE_V(8, velocity_out)
+WRITE_V(9, affine_x_out)
+WRITE_V(10, affine_y_out)
+WRITE_V(11, stretch_x_out)
+WRITE_V(12, stretch_y_out)
 PARAMS(mpm_params)
 #include "mpm/grid.glsl"
 #include "mpm/collect.glsl"
@@ -26,11 +27,11 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint at = LOAD_U(home, i);
+    uint own = LOAD_U(part, i), home = LOAD_U(reach, 27u * k.n_parts + own);
     vec4 xh = LOAD_V(place, i), hx = LOAD_V(stretch_x, i), hy = LOAD_V(stretch_y, i);
     mat3 h = mat3(hx.xyz, hy.xyz, vec3(hx.w, hy.w, xh.w)), g;
     vec3 v;
-    collect(mpm_offset(xh.xyz, at), at, v, g[0], g[1], g[2]);
+    collect(mpm_offset(xh.xyz, home), own, v, g[0], g[1], g[2]);
     float keep = LOAD_F(scalars, MPM_KEEP);
     g *= keep / k.dx;
     h += k.dt * g;

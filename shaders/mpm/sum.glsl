@@ -1,7 +1,7 @@
-// Particles to grid, second half: what the occupied cells around a node give it. Needs READ_U(slot),
-// READ_V(partial).
+// Particles to grid, second half: what the parts around a node give one of its entries. Needs READ_U of slot, many
+// and reach, READ_V(partial).
 
-vec4 node_sum(uint node)
+vec4 entry_sum(uint entry, uint node)
 {
     int row = int(k.cx) + 3, slab = row * (int(k.cy) + 3);
     vec4 sum = vec4(0.0);
@@ -9,9 +9,16 @@ vec4 node_sum(uint node)
         for (int y = 0; y < 3; y++)
             for (int x = 0; x < 3; x++) {
                 int c = int(node) - z * slab - y * row - x;
-                uint s = c >= 0 ? LOAD_U(slot, c) : 0u;
-                if (s != 0u)
-                    sum += LOAD_V(partial, uint(z * 9 + y * 3 + x) * k.n_cells + s - 1u);
+                uint first = uint(z * 9 + y * 3 + x) * k.n_parts, s = c >= 0 ? LOAD_U(slot, c) : 0u;
+                if (k.bodies == 0u) {
+                    if (s != 0u)
+                        sum += LOAD_V(partial, first + s - 1u);
+                    s = 0u;
+                }
+                uint end = s != 0u ? s + LOAD_U(many, c) : s;
+                for (; s < end; s++)
+                    if (LOAD_U(reach, first + s - 1u) == entry)
+                        sum += LOAD_V(partial, first + s - 1u);
             }
     return sum;
 }

@@ -285,7 +285,8 @@ SHARED_SIZE(plants_params, 48)
 struct mpm_params {
     uint n;
     uint cx, cy, cz;             /* cells of the domain */
-    uint n_cells;                /* occupied */
+    uint n_parts;                /* rows of partial sums */
+    uint bodies;                 /* 1: there are pieces; 0: all is one body */
     uint rock;                   /* 1: resting rock is an obstacle */
     float dx;                    /* m */
     float dt;                    /* s */
@@ -298,8 +299,9 @@ struct mpm_params {
     float fastest;               /* m/s: nodes are not let go faster */
     float lift;                  /* cells: of the domain above the nodes that are its ground */
     float rebound;               /* share of elastic energy that comes back from an impact */
+    float full;                  /* kg: of a node's room full of rock */
 };
-SHARED_SIZE(mpm_params, 76)
+SHARED_SIZE(mpm_params, 84)
 
 /* 1/s: unloading this fast gives back no more than the rebound's share; slower, more. */
 #define MPM_REBOUND_RATE 0.2f
@@ -310,8 +312,21 @@ struct mpm_load_params {
     float strength; /* Pa */
     float joint;    /* Pa: at joints */
     float block;    /* m: size of the pieces that joints cut; 0: no joints */
+    float width;    /* blocks: half of a joint's */
+    uint nx, ny;    /* lattice of the pieces' seeds, one longer than the domain at both ends */
+    uint pieces;    /* how many seeds there are */
 };
-SHARED_SIZE(mpm_load_params, 20)
+SHARED_SIZE(mpm_load_params, 36)
+
+/* Loose grains are of no piece, and particles that are not at a joint have none. */
+#define MPM_LOOSE 0u
+#define MPM_NO_JOINT 0xffffffffu
+
+/* A joint lies between a piece and one of those after it, at most two seeds away on every axis. */
+#define MPM_JOINTS 62u
+
+/* Pieces that a node tells apart. */
+#define MPM_BODIES 8
 
 /* Of a particle that has not broken; others hold how much they have come apart, as a volume strain. */
 #define MPM_WHOLE (-1.0f)

@@ -59,6 +59,10 @@ static status find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
     struct voxel_params k = particles_params(p, n);
     particles_fill(gpu, p);
     GPU_RUN(gpu, blocks_solid, n, k, p->fill, b->solid);
+    if (b->rubble) {
+        GPU_RUN(gpu, blocks_rest, n, k, b->solid, p->start, p->field[ROCK_phase], b->other);
+        gpu_copy(gpu, b->solid, b->other, n);
+    }
     return blocks_join(gpu, work, b, p->voxels);
 }
 

@@ -14,6 +14,7 @@
 struct blocks {
     struct gpu_buffer *solid;           /* uint [voxels]: 1 inside the surface */
     struct gpu_buffer *pointer, *other; /* uint [voxels]: towards a block's lowest voxel */
+    bool rubble;                        /* may there be any? It rests on what lies below, across small gaps */
 };
 
 uint64_t blocks_bytes(const int voxels[3]);

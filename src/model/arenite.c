@@ -79,7 +79,9 @@ static status count_rock(struct model *m)
 {
     status st = OK;
     uint32_t n_deposits = 0;
-    if (m->deposits || m->collapse.falls)
+    if (m->blocks.rubble)
+        return collapse_count(m->gpu, &m->particles, &m->ledger);
+    if (m->deposits)
         TRY(deposit_count(m->gpu, m->work, &m->particles, &n_deposits));
     m->ledger.deposit = n_deposits;
     m->ledger.rock = m->particles.n - n_deposits;
@@ -204,6 +206,9 @@ static status create_particles(struct model *m, const struct rock *rock)
     TRY(particles_create(m->gpu, m->work, rock, STATE, voxels, m->job->domain.spacing_m, &m->particles));
     TRY(erosion_create(m->gpu, m->job, m->particles.n_max, &m->erosion));
     TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+    m->blocks.rubble |= m->collapse.falls;
+    for (size_t i = 0; i < rock->n && !m->blocks.rubble; i++)
+        m->blocks.rubble = rock->phase[i] == PHASE_FALLING;
 done:
     return st;
 }
@@ -308,6 +313,7 @@ static status edit(struct model *m)
     if (kind != EDITS_ROCK) {
         collapse_destroy(m->gpu, &m->collapse);
         TRY(collapse_create(m->gpu, m->job, &m->particles, &m->collapse));
+        m->blocks.rubble |= m->collapse.falls;
     }
     if (kind == EDITS_ROCK) {
         weigh(m, BUDGET_EDITS, false);
@@ -642,7 +648,7 @@ static status begin(struct model *m)
         TRY(collapse_load(m->gpu, &m->collapse, &m->particles));
     else
         TRY(remove_unsupported(m));
-    if (m->ledger.fallen)
+    if (m->ledger.fallen && !m->blocks.rubble)
         log_warn("frame %d: %llu of %llu particles have no face path to the ground and were taken out",
                  m->frame, (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start);
     rock_free(&rock);
@@ -734,7 +740,7 @@ static status estimate(const struct job *job, struct model_estimate *out)
         erosion_bytes(n) + blocks_bytes(out->voxels) + wind_bytes(job, out->voxels) + field +
         aov_bytes(pixels) + (ever(job, routes) ? water_bytes(out->voxels) : 0) +
         (ever(job, deposit_wanted) ? deposit_bytes(out->voxels) : 0) + collapse_bytes(job, n, out->voxels) +
-        (job->stress.solver == STRESS_MPM ? mpm_bytes(n, out->voxels) : 0);
+        (job->stress.solver == STRESS_MPM ? mpm_bytes(n, out->voxels, job->domain.spacing_m, 0) : 0);
     /* Two frames wait at most; files are made in memory. */
     uint64_t picture = aov_picture_bytes(job);
     out->host_bytes = 3 * (rock + field + picture * job->output.aov.n_cameras);

@@ -25,7 +25,9 @@ uint64_t collapse_checkpoint_bytes(const struct job *job, size_t n)
 
 uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3])
 {
-    return collapse_wanted(job) ? mpm_bytes(n, voxels) + 4 * (uint64_t)n : 0;
+    return collapse_wanted(job)
+               ? mpm_bytes(n, voxels, job->domain.spacing_m, job->collapse.joints_m) + 4 * (uint64_t)n
+               : 0;
 }
 
 /* One more than the largest id. */
@@ -65,8 +67,10 @@ status collapse_create(struct gpu *gpu, const struct job *job, const struct part
         .seed = (uint32_t)job->seed,
         .lift = 0.75,
     };
-    *c = (struct collapse){
-        .shot = collapse_shot(job), .falls = j->blocks == COLLAPSE_FALL, .longest = j->longest_s};
+    *c = (struct collapse){.shot = collapse_shot(job),
+                           .falls = j->blocks == COLLAPSE_FALL,
+                           .longest = j->longest_s,
+                           .rubble = j->rubble_m};
     if (!collapse_wanted(job))
         return OK;
     mpm_soften(&options, j->wave_m_s);
@@ -87,19 +91,18 @@ void collapse_destroy(struct gpu *gpu, struct collapse *c)
     gpu_buffer_destroy(gpu, &c->table);
 }
 
-/* Rock and deposit by phase; what is in the air counts as fallen, beside what fell before. */
-static status count_phases(struct gpu *gpu, const struct particles *p, uint64_t fallen, struct ledger *ledger)
+status collapse_count(struct gpu *gpu, const struct particles *p, struct ledger *ledger)
 {
     status st = OK;
     uint32_t *phase = NULL;
-    uint64_t n[3] = {0};
+    uint64_t n[3] = {0}, gone = ledger->start - ledger->left - p->n;
     TRY(memory_alloc(p->n, sizeof *phase, "phases", &phase));
     TRY(gpu_download(gpu, p->field[ROCK_phase], 0, phase, p->n));
     for (size_t i = 0; i < p->n; i++)
         n[phase[i] <= PHASE_FALLING ? phase[i] : PHASE_ROCK]++;
     ledger->rock = n[PHASE_ROCK];
     ledger->deposit = n[PHASE_DEPOSIT];
-    ledger->fallen = fallen + n[PHASE_FALLING];
+    ledger->fallen = gone + n[PHASE_FALLING];
 done:
     free(phase);
     return st;
@@ -123,15 +126,15 @@ status collapse_frame(struct gpu *gpu, struct gpu_work *work, struct collapse *c
                       struct particles *p, struct ledger *ledger)
 {
     status st = OK;
-    uint64_t before = ledger->rock + ledger->deposit + ledger->fallen, fallen = before - p->n;
+    size_t before = p->n;
     gpu_fill(gpu, p->field[ROCK_viability], 0);
     TRY(mpm_run(gpu, work, &c->mpm, seconds));
     mpm_store(gpu, &c->mpm, p, true);
     TRY(particles_index(gpu, work, p));
     mpm_follow(gpu, &c->mpm, p, c->table);
     mpm_store(gpu, &c->mpm, p, true); /* what indexing does not carry along: velocity and stress */
-    ledger->left += before - fallen - p->n;
-    TRY(count_phases(gpu, p, fallen, ledger));
+    ledger->left += before - p->n;
+    TRY(collapse_count(gpu, p, ledger));
 done:
     return st;
 }
@@ -182,8 +185,9 @@ done:
 
 /* ---- blocks within a frame */
 
-/* Until nothing has moved for REST looks in a row, a tenth of a second each. A body let go is faster than
- * `still` after the first. */
+/* Until nothing, or next to nothing, has moved for REST looks in a row, a tenth of a second each. A body let go is
+ * faster than `still` after the first. Grains may creep on for long, and what is still on its way when all the rest
+ * lies falls in the next frame. */
 static status fall_to_rest(struct gpu *gpu, struct gpu_work *work, struct collapse *c, double *seconds)
 {
     enum { REST = 3 };
@@ -192,7 +196,8 @@ static status fall_to_rest(struct gpu *gpu, struct gpu_work *work, struct collap
     int at_rest = 0;
     for (*seconds = 0; at_rest < REST && *seconds < c->longest && c->mpm.n > 0; *seconds += look) {
         TRY(mpm_run(gpu, work, &c->mpm, look));
-        at_rest = c->mpm.fastest < still ? at_rest + 1 : 0;
+        bool rests = c->mpm.fastest < still || c->mpm.mean_speed < still / 4;
+        at_rest = rests ? at_rest + 1 : 0;
     }
 done:
     return st;
@@ -213,6 +218,7 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
     c->mpm.fill = p->fill;
     TRY(fall_to_rest(gpu, work, c, &seconds));
     mpm_store(gpu, &c->mpm, p, false);
+    TRY(mpm_settle(gpu, &c->mpm, p, c->rubble));
     c->mpm.fill = NULL;
     gpu_fill(gpu, p->field[ROCK_v], 0);
     TRY(particles_index(gpu, work, p));
@@ -220,7 +226,7 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
     if (crumbs)
         TRY(particles_index(gpu, work, p));
     ledger->left += before - p->n;
-    TRY(count_phases(gpu, p, ledger->fallen, ledger));
+    TRY(collapse_count(gpu, p, ledger));
     log_note("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds, before - p->n,
              (unsigned)crumbs);
 done:

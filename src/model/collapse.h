@@ -15,6 +15,7 @@ struct collapse {
     struct mpm mpm;
     struct gpu_buffer *table; /* uint [ids]: scratch */
     double longest;           /* s */
+    double rubble;            /* m: the smallest block that stays one */
 };
 
 /* Is it a shot in real time? */
@@ -39,8 +40,12 @@ MUST_USE status collapse_load(struct gpu *gpu, struct collapse *c, struct partic
 MUST_USE status collapse_frame(struct gpu *gpu, struct gpu_work *work, struct collapse *c, double seconds,
                                struct particles *p, struct ledger *ledger);
 
-/* Blocks that nothing holds fall until they rest on ground and rock: p is indexed after it. What broke becomes
- * deposit; what left the domain, and crumbs that rest without touching what stands, leave. Waits. */
+/* Rock, deposit and, as fallen, falling blocks and rubble by phase; with what has been taken out before. Waits. */
+MUST_USE status collapse_count(struct gpu *gpu, const struct particles *p, struct ledger *ledger);
+
+/* Blocks that nothing holds fall until they rest on ground and rock: p is indexed after it. Large fragments are
+ * rubble then, small ones and grains deposit; what left the domain, and crumbs that rest without touching what
+ * stands, leave. Waits. */
 MUST_USE status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *c, struct blocks *b,
                                 struct particles *p, struct ledger *ledger);
 

@@ -1,14 +1,19 @@
 /* Rock in motion and at rest by the material point method: moving least squares transfers (MLS-MPM), affine
  * velocities (APIC), quadratic kernel, explicit steps.
  *
- * Cells are 2 h wide, eight particles each. Particles are sorted by base cell, those of one cell by id; one
- * invocation per occupied cell sums its particles over their 27 nodes, then each node near them sums 27
- * partial sums: no atomics, the same bits in every run. A sort holds until particles may have moved a seventh
- * of a cell; the kernel's polynomials go on to be exact until then (shaders/mpm/grid.glsl).
+ * Cells are 2 h wide, eight particles each. Particles are sorted by base cell, those of one cell by piece and id:
+ * these are its parts. One invocation per part sums its particles over their 27 nodes, then each node near them
+ * sums the parts of 27 cells: no atomics, the same bits in every run. A sort holds until particles may have moved
+ * a seventh of a cell; the kernel's polynomials go on to be exact until then (shaders/mpm/grid.glsl).
+ *
+ * Joints part the rock into pieces, Voronoi cells of hashed points. A joint breaks as a whole once a share of its
+ * particles has; pieces that unbroken joints connect are one body; each body has velocities of its own at the
+ * nodes, and where bodies meet they do not enter each other and rub (Bardenhagen, Brackbill and Sulsky, The
+ * material-point method for granular materials, 2000). Loose grains are a body together. Without joints all is one.
  *
  * Deformation is kept as H = F - I: steps of F would fall below its last bit (research: an error of 38 % at a
  * CFL number of 0.1). Between frames a particle's state is place, velocity, affine velocity, H, how much is left
- * of it, how far it has come apart and its strength; steps() needs no more, whatever order they are in.
+ * of it, how far it has come apart, its strength, piece and joint; steps need no more, whatever order they are in.
  *
  * source  Arenite section 4.2; Hu et al., A Moving Least Squares Material Point Method, 2018; Stomakhin et al.,
  *         Energetically Consistent Invertible Elasticity, 2012; Klar et al., Drucker-Prager Elastoplasticity for
@@ -32,7 +37,7 @@ struct mpm_options {
     double friction;   /* on ground and resting rock */
     double repose_deg; /* friction angle of broken rock */
     double strength;   /* Pa: tension at which rock breaks */
-    double block;      /* m: size of the pieces between joints; 0: no joints */
+    double block;      /* m: size of the pieces between joints, two cells or more; 0: no joints */
     double joint;      /* at joints, as a share of strength */
     uint32_t seed;     /* of the joints */
     double lift;       /* cells: 0 for equilibrium, whose ground is held; 0.75 for motion, see params.h */
@@ -51,7 +56,16 @@ enum mpm_vector {
     MPM_STRETCH_Y,
     MPM_VECTORS
 };
-enum mpm_word { MPM_SHARE, MPM_APART, MPM_STRENGTH, MPM_ID, MPM_ORIGIN, MPM_WORDS };
+enum mpm_word {
+    MPM_SHARE,
+    MPM_APART,
+    MPM_STRENGTH,
+    MPM_ID,
+    MPM_PIECE,
+    MPM_JOINT,
+    MPM_ORIGIN, /* not of the state: found by id */
+    MPM_WORDS
+};
 /* place = (x, H22), velocity = (v, C22), affine_x = (C's x column, C02), affine_y = (its y column, C12), stretch
  * likewise of H. */
 extern const char *const mpm_vector_names[MPM_VECTORS], *const mpm_word_names[MPM_WORDS];
@@ -64,22 +78,36 @@ struct mpm {
     struct gpu_buffer *vector[MPM_VECTORS]; /* vec4 [n_max] */
     struct gpu_buffer *word[MPM_WORDS];     /* float or uint [n_max] */
     struct gpu_buffer *home;                /* uint [n_max]: base cell */
+    struct gpu_buffer *part, *group;        /* uint [n_max] */
     struct gpu_buffer *speed;               /* float [n_max] */
     struct gpu_buffer *spare_vector, *spare_word, *order, *unordered;
-    struct gpu_buffer *start, *slot, *flags, *place, *cell_list, *node_list; /* uint [nodes] */
-    struct gpu_buffer *node_velocity, *wall;                                 /* vec4 [nodes] */
-    struct gpu_buffer *partial, *product, *scalars;
+    struct gpu_buffer *part_first, *part_cell, *part_body;        /* uint [n_max + 1] */
+    struct gpu_buffer *start, *flags, *place, *node_list, *mixed; /* uint [nodes] */
+    struct gpu_buffer *slot, *many;                               /* uint [nodes]: a cell's parts */
+    struct gpu_buffer *first, *meeting;                           /* uint [nodes]: a node's entries */
+    struct gpu_buffer *wall;                                      /* vec4 [nodes] */
+    struct gpu_buffer *partial, *reach;                           /* for each part, by node; see room */
+    struct gpu_buffer *entry_node, *entry_body, *entry_group, *mass, *velocity, *product;
+    struct gpu_buffer *scalars;
     struct gpu_buffer *fill; /* float [voxels]: resting rock; borrowed, NULL: none */
     struct gpu_buffer *nothing;
-    size_t n_cells, n_nodes, n_partial; /* occupied, reached, room in `partial` */
-    size_t n_left;                      /* particles that have left the domain since they were loaded */
-    double fastest;                     /* m/s, as of the last look */
-    long steps;                         /* taken since the start of the last call */
+    struct mpm_pieces {
+        int n[3];                          /* seeds; 0: no joints */
+        struct gpu_buffer *counts, *holds; /* uint: by joint, two each, and by piece; by joint */
+        uint32_t *host_counts, *host_holds;
+        uint32_t *body; /* by piece: a number that pieces which joints connect share */
+    } pieces;
+    size_t n_parts, n_nodes, n_entries, n_mixed;
+    size_t room_parts, room_entries; /* in what is made as it is needed */
+    size_t n_left;                   /* particles that have left the domain since they were loaded */
+    double fastest, mean_speed;      /* m/s, as of the last look */
+    long steps;                      /* taken since the start of the last call */
 };
 
 /* Nodes of the lattice: gpu_work needs room for as many. */
 size_t mpm_nodes(const int voxels[3]);
-uint64_t mpm_bytes(size_t n_max, const int voxels[3]);
+/* With joints `block` m apart, 0: none. */
+uint64_t mpm_bytes(size_t n_max, const int voxels[3], double h, double block);
 MUST_USE status mpm_create(struct gpu *gpu, const int voxels[3], double h, size_t n_max,
                            const struct mpm_options *options, struct mpm *out);
 void mpm_destroy(struct gpu *gpu, struct mpm *m);
@@ -97,6 +125,11 @@ MUST_USE status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, d
  * broken rock is deposit; what still moves is falling, unless it is said to have come to rest. p must not have
  * been indexed since mpm_load() or mpm_follow(); those whose point is gone keep viability 0. */
 void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p, bool moving);
+
+/* After mpm_store(), of a fall that is over: fragments, whole rock of one body that faces of voxels connect, are
+ * rubble (PHASE_FALLING) if they have the volume of a cube of `rubble` m, deposits if they are smaller, as loose
+ * grains are. Waits. */
+MUST_USE status mpm_settle(struct gpu *gpu, struct mpm *m, struct particles *p, double rubble);
 
 /* After p was indexed: where each point's particle is now, by id. All ids are below n_ids; `table` is scratch of
  * n_ids words. */

@@ -9,17 +9,19 @@ static void step(struct gpu *gpu, struct gpu_work *work, struct mpm *m, const st
 {
     struct mpm_params k = *params;
     struct count_params one = {64};
-    k.n = (uint)m->n_cells;
-    GPU_RUN(gpu, mpm_scatter, k.n, k, m->cell_list, m->start, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
-            m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->word[MPM_SHARE], m->partial);
-    k.n = (uint)m->n_nodes;
-    GPU_RUN(gpu, mpm_hold, k.n, k, m->node_list, m->slot, m->partial, m->node_velocity, m->product);
+    k.n = (uint)m->n_parts;
+    GPU_RUN(gpu, mpm_scatter, k.n, k, m->part_cell, m->part_first, m->vector[MPM_PLACE],
+            m->vector[MPM_VELOCITY], m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->word[MPM_SHARE],
+            m->partial);
+    k.n = (uint)m->n_entries;
+    GPU_RUN(gpu, mpm_hold, k.n, k, m->entry_node, m->slot, m->many, m->reach, m->partial, m->velocity,
+            m->product);
     GPU_RUN(gpu, mpm_peak, 64, one, gpu_partial_sums(gpu, work, m->product, k.n), m->scalars);
     k.n = (uint)m->n;
-    GPU_RUN(gpu, mpm_strain, k.n, k, m->home, m->node_velocity, m->vector[MPM_PLACE],
-            m->vector[MPM_STRETCH_X], m->vector[MPM_STRETCH_Y], m->scalars, m->vector[MPM_PLACE],
-            m->vector[MPM_VELOCITY], m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y],
-            m->vector[MPM_STRETCH_X], m->vector[MPM_STRETCH_Y]);
+    GPU_RUN(gpu, mpm_strain, k.n, k, m->part, m->velocity, m->vector[MPM_PLACE], m->vector[MPM_STRETCH_X],
+            m->vector[MPM_STRETCH_Y], m->scalars, m->reach, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
+            m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->vector[MPM_STRETCH_X],
+            m->vector[MPM_STRETCH_Y]);
 }
 
 static void recover(struct gpu *gpu, struct gpu_work *work, struct mpm *m, struct particles *p)

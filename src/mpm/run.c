@@ -20,14 +20,19 @@ static long steps_until_sort(const struct mpm *m, double dt, long left)
 static status look(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
 {
     status st = OK;
-    float fastest;
+    float speed[2]; /* the largest, the sum */
+    struct count_params all = {(uint)m->n};
+    GPU_RUN(gpu, mpm_speed, m->n, all, m->vector[MPM_VELOCITY], m->speed);
     gpu_max(gpu, work, m->speed, m->n, m->scalars, 0);
-    TRY(gpu_download(gpu, m->scalars, 0, &fastest, 1));
-    if (!isfinite(fastest)) {
+    gpu_sum(gpu, work, m->speed, m->n, m->scalars, 1);
+    TRY(gpu_download(gpu, m->scalars, 0, speed, 2));
+    if (!isfinite(speed[0]) || !isfinite(speed[1])) {
         st = fail(E_NUMERIC, "mpm: speeds are not finite after %ld steps of %zu particles", m->steps, m->n);
         goto done;
     }
-    m->fastest = (double)fastest;
+    m->fastest = (double)speed[0];
+    m->mean_speed = m->n > 0 ? (double)speed[1] / (double)m->n : 0;
+    TRY(mpm_pieces_look(gpu, m));
 done:
     return st;
 }
@@ -43,19 +48,25 @@ static void prime(struct gpu *gpu, struct mpm *m, double dt)
 void mpm_step(struct gpu *gpu, struct mpm *m, const struct mpm_params *params, bool last)
 {
     struct mpm_params k = *params;
-    k.n = (uint)m->n_cells;
-    GPU_RUN(gpu, mpm_scatter, k.n, k, m->cell_list, m->start, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
-            m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->word[MPM_SHARE], m->partial);
-    k.n = (uint)m->n_nodes;
-    GPU_RUN(gpu, mpm_node, k.n, k, m->node_list, m->slot, m->partial, m->wall, m->node_velocity);
+    k.n = (uint)m->n_parts;
+    GPU_RUN(gpu, mpm_scatter, k.n, k, m->part_cell, m->part_first, m->vector[MPM_PLACE],
+            m->vector[MPM_VELOCITY], m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->word[MPM_SHARE],
+            m->partial);
+    k.n = (uint)m->n_entries;
+    GPU_RUN(gpu, mpm_node, k.n, k, m->entry_node, m->slot, m->many, m->reach, m->partial, m->wall,
+            m->velocity, m->mass);
+    k.n = (uint)m->n_mixed;
+    if (m->n_mixed)
+        GPU_RUN(gpu, mpm_touch, k.n, k, m->mixed, m->node_list, m->first, m->meeting, m->entry_body,
+                m->entry_group, m->mass, m->wall, m->velocity);
     k.n = (uint)m->n;
     if (last) /* the next frame's steps may have another length: mpm_prime */
         k.push = 0;
-    GPU_RUN(gpu, mpm_gather, k.n, k, m->home, m->node_velocity, m->vector[MPM_PLACE],
-            m->vector[MPM_STRETCH_X], m->vector[MPM_STRETCH_Y], m->word[MPM_APART], m->word[MPM_STRENGTH],
-            m->fill ? m->fill : m->nothing, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
+    GPU_RUN(gpu, mpm_gather, k.n, k, m->part, m->velocity, m->vector[MPM_PLACE], m->vector[MPM_STRETCH_X],
+            m->vector[MPM_STRETCH_Y], m->word[MPM_APART], m->word[MPM_STRENGTH],
+            m->fill ? m->fill : m->nothing, m->reach, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
             m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->vector[MPM_STRETCH_X],
-            m->vector[MPM_STRETCH_Y], m->word[MPM_APART], m->speed);
+            m->vector[MPM_STRETCH_Y], m->word[MPM_APART]);
     m->steps++;
 }
 
@@ -70,6 +81,7 @@ status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double sec
     double dt = seconds / (double)n;
     m->steps = 0;
     prime(gpu, m, dt);
+    TRY(mpm_pieces_look(gpu, m));
     while (m->steps < n && m->n > 0) {
         TRY(mpm_sort(gpu, work, m));
         long batch = steps_until_sort(m, dt, n - m->steps);

@@ -30,6 +30,13 @@ for settings in "" VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT; 
         --set wind.flow.flushes=0.1 --set erosion.max_step=1
     check "$kind validation: the run with flowing wind succeeds" [ $? = 0 ]
     check "$kind validation: not one complaint about the flow" sh -c '! grep -qE "$1" log' - "$complaints"
+    validated "$HOODOO" run "$HOODOO_TOP/tests/gpu/falling.yaml" --frames 1001-1003 --out "$kind-falling"
+    check "$kind validation: the run of falling rock succeeds" [ $? = 0 ]
+    check "$kind validation: not one complaint about falling rock" sh -c '! grep -qE "$1" log' - "$complaints"
+    validated "$HOODOO" run "$job" --frames 1001-1002 --out "$kind-blocks" --set collapse.blocks=fall --set collapse.joints_m=2 \
+        --set stress.solver=mpm --set 'scene={union: [{box: {min_m: [2, 2, 0], max_m: [8, 6, 3]}}, {box: {min_m: [3, 3, 5], max_m: [6, 5, 7]}}]}'
+    check "$kind validation: the run of blocks that fall succeeds" [ $? = 0 ]
+    check "$kind validation: not one complaint about blocks that fall" sh -c '! grep -qE "$1" log' - "$complaints"
     # A program that does wrong, to know a complaint when there is one.
     validated "$(dirname "$HOODOO")/tests/gpu/test_validation" wrongly
     check "$kind validation: it complains where there is reason to" grep -qE "$complaints" log

@@ -1,4 +1,4 @@
-/* A small job in every kernel variant, and with buffers beyond what a device binds: the same state and the
+/* A small job of years, and one of seconds in which rock breaks and falls, in every kernel variant, and with buffers beyond what a device binds: the same state and the
  * same pictures, bit for bit. Which variant a device gets, or how large a job is, may not change the rock. */
 #include "check.h"
 
@@ -9,7 +9,9 @@
 #include "gpu/kernel_source.h"
 #include "model/model.h"
 
-enum { STEPS = 2 };
+enum { STEPS = 2, JOBS = 2 };
+
+static const char *const paths[JOBS] = {"tests/restart/twelve.yaml", "tests/gpu/falling.yaml"};
 
 /* What a run leaves, in the order it was made. */
 struct trace {
@@ -18,7 +20,7 @@ struct trace {
 };
 
 static struct trace expected;
-static struct job *job;
+static struct job *jobs[JOBS];
 
 static void add(struct trace *t, const void *bytes, size_t n)
 {
@@ -64,7 +66,7 @@ static void add_frame(struct trace *t, const struct model_type *type, struct mod
     frame_free(&f);
 }
 
-static void run(const struct gpu_options *options, struct trace *t)
+static void run_job(const struct gpu_options *options, const struct job *job, struct trace *t)
 {
     struct gpu *gpu = NULL;
     struct model *m = NULL;
@@ -81,6 +83,12 @@ static void run(const struct gpu_options *options, struct trace *t)
     gpu_destroy(&gpu);
 }
 
+static void run(const struct gpu_options *options, struct trace *t)
+{
+    for (int i = 0; i < JOBS; i++)
+        run_job(options, jobs[i], t);
+}
+
 static void same_bits(void **state)
 {
     struct trace t = {0};
@@ -94,14 +102,13 @@ static void same_bits(void **state)
     free(t.bytes);
 }
 
-static void the_rock_changes(void **state)
+static void changes(const struct gpu_options *options, const struct job *job)
 {
-    /* Not the comparison of nothing with nothing. */
     struct trace t = {0};
     struct gpu *gpu = NULL;
     struct model *m = NULL;
     const struct model_type *type = model_of(job);
-    assert_ok(gpu_create(*state, &gpu));
+    assert_ok(gpu_create(options, &gpu));
     assert_ok(type->create(gpu, job, NULL, &m));
     add_state(&t, type, m);
     size_t before = t.n;
@@ -114,13 +121,22 @@ static void the_rock_changes(void **state)
     free(t.bytes);
 }
 
+static void the_rock_changes(void **state)
+{
+    /* Not the comparison of nothing with nothing. */
+    for (int i = 0; i < JOBS; i++)
+        changes(*state, jobs[i]);
+}
+
 static int begin(void **state)
 {
     (void)state;
     const char *top = getenv("HOODOO_TOP");
     char path[4096];
-    snprintf(path, sizeof path, "%s/tests/restart/twelve.yaml", top ? top : ".");
-    assert_ok(job_load(path, NULL, 0, &job));
+    for (int i = 0; i < JOBS; i++) {
+        snprintf(path, sizeof path, "%s/%s", top ? top : ".", paths[i]);
+        assert_ok(job_load(path, NULL, 0, &jobs[i]));
+    }
     run(&(struct gpu_options){.device = "auto"}, &expected);
     return 0;
 }
@@ -129,7 +145,8 @@ static int end(void **state)
 {
     (void)state;
     free(expected.bytes);
-    job_destroy(&job);
+    for (int i = 0; i < JOBS; i++)
+        job_destroy(&jobs[i]);
     return 0;
 }
 

@@ -168,11 +168,43 @@ static const char BLOCKS[] = "hoodoo: 1\nname: blocks\nframes: 1001-1100\nclock:
                              "collapse: {blocks: fall, strength_MPa: 2, joints_m: 2}\n"
                              "wind: {abrasion: 0}\noutput: {aov: {samples: 1}}\n";
 
+/* Particles in the smallest heap of rubble that voxels' faces, edges and corners connect. */
+static size_t smallest_fragment(const struct frame *f, double h)
+{
+    size_t n = f->rock.n, least = n;
+    uint32_t *of = calloc(n, sizeof *of);
+    for (uint32_t i = 0; i < n; i++)
+        of[i] = i;
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j < n && f->rock.phase[i] == 2; j++) {
+                bool near = f->rock.phase[j] == 2;
+                for (size_t a = 0; a < 3 && near; a++)
+                    near = fabs(floor((double)f->rock.P[4 * i + a] / h) -
+                                floor((double)f->rock.P[4 * j + a] / h)) <= 1;
+                if (near && of[j] < of[i]) {
+                    of[i] = of[j];
+                    changed = true;
+                }
+            }
+    }
+    for (size_t i = 0; i < n; i++) {
+        size_t size = 0;
+        for (size_t j = 0; j < n; j++)
+            size += of[j] == of[i];
+        if (f->rock.phase[i] == 2 && size < least)
+            least = size;
+    }
+    free(of);
+    return least;
+}
+
 static void blocks_become_rubble(void **state)
 {
     struct sim s = sim_begin(BLOCKS);
     struct frame frame = sim_output(&s);
-    size_t hanging = 0, inside = 0, block = 3 * 4 * 2 * 8, on_top = 0;
+    size_t hanging = 0, inside = 0, block = 3 * 4 * 2 * 8, on_top = 0, n_rubble = 0, rubble_before;
     (void)state;
     adds_up(&frame);
     for (size_t i = 0; i < frame.rock.n; i++) {
@@ -182,7 +214,9 @@ static void blocks_become_rubble(void **state)
         on_top += fell && (double)x[2] > 4;
         /* The resting block's own voxels are full. */
         inside += fell && (double)x[0] < 7.9 && (double)x[0] > 2 && (double)x[2] < 3.9;
-        assert_true(frame.rock.phase[i] != 2);
+        n_rubble += frame.rock.phase[i] == 2;
+        assert_true(fell || frame.rock.phase[i] == 0);
+        assert_true(!fell || frame.rock.phase[i] != 0);
         assert_true((double)x[2] >= 0);
     }
     print_message(
@@ -190,20 +224,50 @@ static void blocks_become_rubble(void **state)
         "inside the other block, %zu on it, %zu still hang\n",
         block, (unsigned long long)frame.ledger.rock, (unsigned long long)frame.ledger.deposit,
         (unsigned long long)frame.ledger.left, inside, on_top, hanging);
-    assert_int_equal(frame.ledger.fallen, 0);
+    assert_int_equal(frame.ledger.fallen, n_rubble);
+    assert_true(n_rubble > block / 8);
+    assert_true(smallest_fragment(&frame, 0.5) >= 8);
     assert_int_equal(inside, 0);
     assert_int_equal(hanging, 0);
     assert_true(on_top > block / 2);
     assert_true(frame.ledger.left < block / 4);
     assert_true(frame.ledger.deposit > 0);
+    rubble_before = n_rubble;
+    float *was = calloc(3 * frame.ledger.start, sizeof *was),
+          *left = calloc(frame.ledger.start, sizeof *left);
+    for (size_t i = 0; i < frame.rock.n; i++) {
+        memcpy(was + 3 * frame.rock.id[i], frame.rock.P + 4 * i, 12);
+        left[frame.rock.id[i]] = frame.rock.viability[i];
+    }
     frame_free(&frame);
-    /* Weathering goes on over the rubble. */
-    for (int f = 0; f < 3; f++) {
+    /* It lies, and weathers as rock does. */
+    for (int f = 0; f < 4; f++) {
+        size_t moved = 0, weathered = 0;
         assert_ok(s.type->step(s.model));
         frame = sim_output(&s);
         adds_up(&frame);
+        n_rubble = 0;
+        for (size_t i = 0; i < frame.rock.n; i++) {
+            if (frame.rock.phase[i] != 2)
+                continue;
+            uint32_t id = frame.rock.id[i];
+            n_rubble++;
+            moved += memcmp(was + 3 * id, frame.rock.P + 4 * i, 12) != 0;
+            weathered += frame.rock.viability[i] < left[id];
+            assert_true(frame.rock.viability[i] <= left[id]);
+        }
+        print_message(
+            "# a frame later: %zu of %zu particles of rubble are left, %zu have moved, %zu have weathered\n",
+            n_rubble, rubble_before, moved, weathered);
+        assert_int_equal(frame.ledger.fallen, n_rubble);
+        /* What weathering cuts off falls again. */
+        assert_true(f > 0 ? moved <= rubble_before / 10 : moved == 0);
+        assert_true(weathered > 0);
+        assert_true(n_rubble > rubble_before / 2);
         frame_free(&frame);
     }
+    free(was);
+    free(left);
     sim_end(&s);
 }
 

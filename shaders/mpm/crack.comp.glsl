@@ -1,0 +1,34 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Of each joint, how many particles it has and how many of them have cracked, or that it has parted two pieces
+// before; and, after those, how many whole ones
+// each piece has.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, joint)
+READ_F(1, apart)
+READ_U(2, piece)
+WRITE_U(3, count)
+PARAMS(mpm_load_params)
+#include "mpm/broken.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint j = LOAD_U(joint, i);
+    bool cracked = LOAD_F(apart, i) >= 0.0;
+    if (!is_loose(LOAD_F(apart, i), j))
+        atomicAdd(AT(count, 2u * MPM_JOINTS * k.pieces + LOAD_U(piece, i) - 1u), 1u);
+    if (j == MPM_NO_JOINT)
+        return;
+    if ((j & PARTED) != 0u) {
+        atomicOr(AT(count, 2u * (j - PARTED) + 1u), PARTED);
+        return;
+    }
+    atomicAdd(AT(count, 2u * j), 1u);
+    if (cracked)
+        atomicAdd(AT(count, 2u * j + 1u), 1u);
+}

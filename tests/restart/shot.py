@@ -1,0 +1,117 @@
+"""A shot in real time that branches from a run of years, stopped in the middle of the fall and gone on with: the same bytes; and
+blocks that fall between frames of years, likewise, with any number of threads."""
+
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True
+HOODOO = os.environ["HOODOO"]
+YEARS = {
+    "hoodoo": 1, "name": "years", "frames": "1001-1006", "clock": {"years_per_frame": 1000}, "seed": 5,
+    "domain": {"size_m": [18, 10, 12], "spacing_m": 0.5},
+    "scene": {"union": [{"box": {"min_m": [3, 3, 0], "max_m": [6, 7, 8]}}, {"box": {"min_m": [6, 3, 5], "max_m": [13, 7, 8]}}]},
+    "strata": [{"weak_m_per_kyr": 0.05, "strong_m_per_kyr": 0.01, "interlock_MPa": 0.2}],
+    "cameras": {"main": {"orbit": {"target_m": [8, 5, 5], "distance_m": 26}, "resolution": [96, 54]}},
+    "output": {"aov": {"cameras": ["main"]}}, "checkpoint": {"every": 2, "keep": 9},
+}
+SHOT = {**YEARS, "name": "shot", "frames": "1003-1014", "clock": {"seconds_per_frame": 1 / 24},
+        "collapse": {"strength_MPa": 1, "joints_m": 2, "joint_strength": 0.002}, "checkpoint": {"every": 3, "keep": 9}}
+# A lintel on two pillars, one of which weathers fast: it comes down.
+BLOCKS = {
+    "hoodoo": 1, "name": "blocks", "frames": "1001-1008", "clock": {"years_per_frame": 1000}, "seed": 5,
+    "domain": {"size_m": [16, 8, 12], "spacing_m": 0.5},
+    "scene": {"union": [{"box": {"min_m": [2, 2, 0], "max_m": [14, 6, 2]}}, {"box": {"min_m": [7, 3, 2], "max_m": [8.5, 4.5, 5]}},
+                        {"box": {"min_m": [4, 2, 5], "max_m": [12, 6, 8]}}]},
+    "strata": [{"to_m": 2, "weak_m_per_kyr": 0.001, "strong_m_per_kyr": 0.001}, {"to_m": 5, "weak_m_per_kyr": 0.3, "strong_m_per_kyr": 0.3},
+               {"weak_m_per_kyr": 0.02, "strong_m_per_kyr": 0.02}],
+    "collapse": {"blocks": "fall", "strength_MPa": 2, "joints_m": 2, "rubble_m": 1},
+    "output": {"vdb": {"codec": "none"}}, "checkpoint": {"every": 2, "keep": 9},
+}
+failures = 0
+
+
+def ok(good, name, *notes):
+    global failures
+    print("ok" if good else "not ok", name, flush=True)
+    if not good:
+        failures += 1
+        for note in notes:
+            for line in str(note).splitlines():
+                print("#", line, flush=True)
+    return good
+
+
+def run(job, out, *options, env=None):
+    with open(job["name"] + ".json", "w") as file:
+        json.dump(job, file)
+    done = subprocess.run([HOODOO, "run", job["name"] + ".json", "--out", out, "--progress", "plain", *options], stderr=subprocess.PIPE,
+                          stdin=subprocess.DEVNULL, text=True, timeout=300, env={**os.environ, **env} if env else None)
+    return done.returncode, done.stderr
+
+
+def tree(out):
+    """Every file but the log's, with its digest."""
+    found = {}
+    for folder, _, names in os.walk(out):
+        for name in names:
+            path = os.path.relpath(os.path.join(folder, name), out)
+            if not path.startswith("log/"):
+                with open(os.path.join(out, path), "rb") as file:
+                    found[path] = hashlib.sha256(file.read()).digest()
+    return found
+
+
+def differences(a, b):
+    """But for checkpoints that only one has: a block's end has one."""
+    return sorted(path for path in a.keys() | b.keys() if a.get(path) != b.get(path) and
+                  (path in a and path in b or not path.startswith("checkpoint/")))
+
+
+def manifest(out, name, frame):
+    with open(os.path.join(out, "frames", f"{name}.{frame}.json")) as file:
+        return json.load(file)
+
+
+def adds_up(ledger):
+    return ledger["start"] == ledger["rock"] + ledger["deposit"] + ledger["fallen"] + ledger["left"]
+
+
+code, said = run(YEARS, "years")
+ok(code == 0, "years", said)
+code, said = run(SHOT, "whole", "--from", "years@1003")
+ok(code == 0, "a shot from the third frame of years", said)
+years, first, last = (manifest("years", "years", 1003)["ledger"], manifest("whole", "shot", 1003)["ledger"],
+                      manifest("whole", "shot", 1014)["ledger"])
+ok(first == years, "begins with its particles", years, first)
+ok(adds_up(last) and last["fallen"] > 100, f"falls: {last['fallen']} of {last['start']} particles are in the air, and none is lost", last)
+whole = tree("whole")
+for stop in (1006, 1009):
+    shutil.rmtree("again", ignore_errors=True)
+    code, said = run(SHOT, "again", "--from", "years@1003", "--frames", f"1003-{stop}")
+    ok(code == 0 and not os.path.exists(f"again/frames/shot.{stop + 1}.json"), f"stopped after frame {stop}", said)
+    code, said = run(SHOT, "again", "--from", "years@1003")
+    ok(code == 0 and not differences(tree("again"), whole), "gone on with: the same bytes", said, differences(tree("again"), whole))
+
+code, said = run(BLOCKS, "blocks")
+ok(code == 0, "blocks fall between frames", said)
+whole = tree("blocks")
+ledgers = [manifest("blocks", "blocks", frame)["ledger"] for frame in range(1001, 1009)]
+ok(all(adds_up(ledger) for ledger in ledgers), "the ledger adds up in every frame", *ledgers)
+ok(ledgers[0]["fallen"] == 0 and ledgers[-1]["fallen"] > 0 and ledgers[-1]["deposit"] > 0,
+   f"rubble and deposits lie at the end: {ledgers[-1]['fallen']} and {ledgers[-1]['deposit']} particles", *ledgers)
+falls = next(frame for frame in range(1001, 1009) if ledgers[frame - 1001]["fallen"] > 0)
+for stop in {max(falls - 1, 1002), min(falls + 1, 1007)}:
+    shutil.rmtree("again", ignore_errors=True)
+    run(BLOCKS, "again", "--frames", f"1001-{stop}")
+    code, said = run(BLOCKS, "again")
+    ok(code == 0 and not differences(tree("again"), whole), f"stopped after frame {stop} (it falls in {falls}) and gone on with: the same bytes", said,
+       differences(tree("again"), whole))
+for threads in ("0", "1", "2"):
+    shutil.rmtree("again", ignore_errors=True)
+    code, said = run(BLOCKS, "again", env={"LP_NUM_THREADS": threads})
+    ok(code == 0 and not differences(tree("again"), whole), f"LP_NUM_THREADS={threads}: the same bytes", said, differences(tree("again"), whole))
+sys.exit(1 if failures else 0)
