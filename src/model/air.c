@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/log.h"
 #include "base/memory.h"
+#include "model/sections.h"
 
 static size_t samples(const struct grid_lattice *l)
 {
@@ -84,5 +86,62 @@ status air_upload(struct gpu *gpu, const struct frame_grids *grids, const struct
     TRY(upload_uniform(gpu, job, frame, out));
 done:
     free(velocity);
+    return st;
+}
+
+/* ---- checkpoints */
+
+/* What air has to have in common with a checkpoint's to go on from it. */
+enum { AIR_BOX = 4 };
+
+static void air_box(const struct flow *air, double out[AIR_BOX])
+{
+    const double numbers[AIR_BOX] = {air->spacing, air->box[0], air->box[1], air->box[2]};
+    memcpy(out, numbers, sizeof numbers);
+}
+
+status air_save(struct gpu *gpu, struct wind *wind, struct checkpoint *out)
+{
+    status st = OK;
+    void *data;
+    struct flow *air = &wind->flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_add(out, "air box", 8, AIR_BOX, &data));
+    air_box(air, data);
+    TRY(section_add(out, "air", 8, sizeof air->state / 8, &data));
+    memcpy(data, &air->state, sizeof air->state);
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        TRY(section_add(out, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &data));
+        TRY(gpu_download(gpu, array[i].buffer, 0, data, array[i].n));
+    }
+done:
+    return st;
+}
+
+status air_restore(struct gpu *gpu, struct wind *wind, const struct checkpoint *from)
+{
+    status st = OK;
+    const struct checkpoint_section *s = checkpoint_find(from, "air box", 8);
+    double box[AIR_BOX];
+    air_box(&wind->flow, box);
+    if (!s || s->n != AIR_BOX || memcmp(s->data, box, sizeof box) != 0) {
+        log_info("frame %d: the checkpoint has no air of this size: it begins anew", from->frame);
+        return OK;
+    }
+    struct flow *air = &wind->flow;
+    struct flow_array array[FLOW_ARRAYS];
+    TRY(section_find(from, "air", 8, sizeof air->state / 8, &s));
+    memcpy(&air->state, s->data, sizeof air->state);
+    TRY(flow_check(air));
+    flow_arrays(air, array);
+    for (int i = 0; i < FLOW_ARRAYS; i++) {
+        if (array[i].n == 0)
+            continue;
+        TRY(section_find(from, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &s));
+        TRY(gpu_upload(gpu, array[i].buffer, 0, s->data, array[i].n));
+    }
+    flow_restore(gpu, air);
+done:
     return st;
 }

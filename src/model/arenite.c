@@ -494,62 +494,6 @@ static void elasticity(const struct model *m, double out[ELASTICITY])
     memcpy(out, numbers, sizeof numbers);
 }
 
-/* What air has to have in common with a checkpoint's to go on from it. */
-enum { AIR_BOX = 4 };
-
-static void air_box(const struct flow *air, double out[AIR_BOX])
-{
-    const double numbers[AIR_BOX] = {air->spacing, air->box[0], air->box[1], air->box[2]};
-    memcpy(out, numbers, sizeof numbers);
-}
-
-static status save_air(struct model *m, struct checkpoint *out)
-{
-    status st = OK;
-    void *data;
-    struct flow *air = &m->wind.flow;
-    struct flow_array array[FLOW_ARRAYS];
-    TRY(section_add(out, "air box", 8, AIR_BOX, &data));
-    air_box(air, data);
-    TRY(section_add(out, "air", 8, sizeof air->state / 8, &data));
-    memcpy(data, &air->state, sizeof air->state);
-    flow_arrays(air, array);
-    for (int i = 0; i < FLOW_ARRAYS; i++) {
-        TRY(section_add(out, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &data));
-        TRY(gpu_download(m->gpu, array[i].buffer, 0, data, array[i].n));
-    }
-done:
-    return st;
-}
-
-/* A branch whose air is of another size than the checkpoint's, or that has none yet, begins with still air. */
-static status restore_air(struct model *m, const struct checkpoint *c)
-{
-    status st = OK;
-    const struct checkpoint_section *s = checkpoint_find(c, "air box", 8);
-    double box[AIR_BOX];
-    air_box(&m->wind.flow, box);
-    if (!s || s->n != AIR_BOX || memcmp(s->data, box, sizeof box) != 0) {
-        log_info("frame %d: the checkpoint has no air of this size: it begins anew", c->frame);
-        return OK;
-    }
-    struct flow *air = &m->wind.flow;
-    struct flow_array array[FLOW_ARRAYS];
-    TRY(section_find(c, "air", 8, sizeof air->state / 8, &s));
-    memcpy(&air->state, s->data, sizeof air->state);
-    TRY(flow_check(air));
-    flow_arrays(air, array);
-    for (int i = 0; i < FLOW_ARRAYS; i++) {
-        if (array[i].n == 0)
-            continue;
-        TRY(section_find(c, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &s));
-        TRY(gpu_upload(m->gpu, array[i].buffer, 0, s->data, array[i].n));
-    }
-    flow_restore(m->gpu, air);
-done:
-    return st;
-}
-
 static status save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
@@ -579,7 +523,7 @@ static status save(struct model *m, struct checkpoint *out)
     TRY(section_add(out, "processes", 8, 2, &data));
     memcpy(data, (const double[]){m->deposits, m->plants}, 2 * sizeof(double));
     if (m->wind.flows)
-        TRY(save_air(m, out));
+        TRY(air_save(m->gpu, &m->wind, out));
     if (m->collapse.shot)
         TRY(collapse_save(m->gpu, &m->collapse, out));
 done:
@@ -622,7 +566,7 @@ static status restore(struct model *m, const struct checkpoint *c, bool *settled
     m->deposits |= ((const double *)s->data)[0] != 0;
     m->plants |= ((const double *)s->data)[1] != 0;
     if (m->wind.flows)
-        TRY(restore_air(m, c));
+        TRY(air_restore(m->gpu, &m->wind, c));
     TRY(create_particles(m, &rock));
     /* A shot may begin where years have passed. */
     if (m->collapse.shot && checkpoint_find(c, mpm_word_names[MPM_ID], 4))
