@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
+#include "output/vdb.h"
 
 /* What the child sends before its text. */
 struct answer {
@@ -146,6 +147,7 @@ status sandbox_read(const char *path, sandbox_reader *reader, struct text *out)
     int end[2], how = 0;
     if (pipe2(end, O_CLOEXEC) != 0)
         return fail(E_MEMORY, "%s: no pipe to a reader: %s", path, strerror(errno));
+    vdb_end_threads();
     pid_t child = fork();
     if (child == 0) {
         close(end[0]);

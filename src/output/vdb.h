@@ -44,6 +44,10 @@ MUST_USE status vdb_volumes(const struct frame_grids *grids, const struct vdb_op
                             struct vdb_bytes *out);
 MUST_USE status vdb_points(const struct rock *rock, const struct vdb_options *options, struct vdb_bytes *out);
 
+/* Ends the library's threads; its next use starts them again. A child process has only the thread that forked, and
+ * what others had locked stays locked in it: sandbox.h. */
+void vdb_end_threads(void);
+
 /* What a file holds: grids (name, type, class, active voxels or points, bounds in m in the file's axes,
  * attributes) and file metadata, written into `out` as a JSON object's members. E_INPUT if it is missing or
  * damaged; never crashes on hostile bytes (it reads in a child process with limits on memory and time). */

@@ -5,6 +5,7 @@
 #include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/points/PointDataGrid.h>
+#include <tbb/global_control.h>
 
 #include <cstdlib>
 #include <istream>
@@ -226,6 +227,12 @@ status check_file(const char *path, struct text *)
     return read_file(path, nullptr);
 }
 } // namespace
+
+extern "C" void vdb_end_threads(void)
+{
+    tbb::task_scheduler_handle threads{tbb::attach{}};
+    tbb::finalize(threads, std::nothrow);
+}
 
 extern "C" status vdb_check(const char *path)
 {
