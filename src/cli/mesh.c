@@ -32,8 +32,7 @@ status cli_mesh(int argc, char **argv)
         {"smooth", "N", OPTION_INT, &meshes.smooth,
          "passes, 0 to 100, that even out the surface without shrinking it; layers and ledges keep their "
          "edges (default 0)"},
-        {"no-rocks", NULL, OPTION_FLAG, &no_rocks,
-         "without NAME.rocks.FRAME, the rocks of piles"},
+        {"no-rocks", NULL, OPTION_FLAG, &no_rocks, "without NAME.rocks.FRAME, the rocks of piles"},
         {"missing", NULL, OPTION_FLAG, &missing,
          "only meshes that are not there, or older than their volumes"},
         {"allow-none", NULL, OPTION_FLAG, &allow_none, "frames without volumes are no error"},
