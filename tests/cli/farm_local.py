@@ -112,17 +112,25 @@ def stop_after(out, frames, number, times=1, group=False):
 
 alone = tree("fails")
 for frames, number, times in ((1, signal.SIGTERM, 1), (4, signal.SIGINT, 3), (7, signal.SIGUSR1, 1)):
-    code, said = stop_after("stopped", frames, number, times)
-    ok(code == 85 and "run the same command again" in said and not os.path.exists("stopped/lock"),
+    code, said = stop_after("halted", frames, number, times)
+    ok(code == 85 and "run the same command again" in said and not os.path.exists("halted/lock"),
        f"{signal.Signals(number).name} after {frames} frames: everything saved, exit 85", code, said)
-code, said = stop_after("stopped", 9, signal.SIGKILL)
+code, said = stop_after("halted", 9, signal.SIGKILL)
 time.sleep(3)  # its children are told, and save
-left = [pid for pid in filter(str.isdigit, os.listdir("/proc")) if b"stopped" in open(f"/proc/{pid}/cmdline", "rb").read() and b"run\0" in open(f"/proc/{pid}/cmdline", "rb").read()]
+left = []
+for pid in filter(str.isdigit, os.listdir("/proc")):
+    try:
+        with open(f"/proc/{pid}/cmdline", "rb") as f:
+            line = f.read()
+    except OSError:
+        continue  # it has ended meanwhile
+    if b"halted" in line and b"run\0" in line:
+        left.append(pid)
 ok(code == -signal.SIGKILL and not left, "killed: its children do not stay", code, left)
-code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "2", "--out", "stopped")
-here = tree("stopped")
+code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "2", "--out", "halted")
+here = tree("halted")
 ok(code == 0 and here == alone, "and the same command goes on, to the same bytes", code, sorted(p for p in here.keys() | alone.keys() if here.get(p) != alone.get(p)), said)
-with open("stopped/log/run.log") as f:
+with open("halted/log/run.log") as f:
     times = re.findall(r" frame (\d+), \d+/", f.read())
 ok(sorted(set(times)) == [str(n) for n in range(1001, 1013)] and len(times) <= 13, "no frame was written twice, but where it was killed", times)
 
