@@ -9,7 +9,6 @@
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static FILE *file;
-static bool quiet;
 static void (*guard)(bool before);
 
 status log_open(const char *path)
@@ -30,11 +29,6 @@ status log_open(const char *path)
 void log_set_guard(void (*g)(bool before))
 {
     guard = g;
-}
-
-void log_set_quiet(bool q)
-{
-    quiet = q;
 }
 
 static void say(bool to_stderr, const char *prefix, const char *format, va_list args)
@@ -66,7 +60,7 @@ void log_info(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    say(!quiet, "", format, args);
+    say(true, "", format, args);
     va_end(args);
 }
 

@@ -27,7 +27,4 @@ void log_warn(const char *format, ...) PRINTF_LIKE(1, 2);
 /* The line of a failure: "hoodoo: MESSAGE". */
 void log_error(const char *message);
 
-/* Keep log_info() off stderr (it still goes to the file). */
-void log_set_quiet(bool quiet);
-
 #endif

@@ -25,15 +25,3 @@ const char *status_message(void)
 {
     return message;
 }
-
-const char *status_meaning(status st)
-{
-    switch (st) {
-#define STATUS_CASE(name, code, text)                                                                        \
-    case name:                                                                                               \
-        return text;
-        STATUS_MAP(STATUS_CASE)
-#undef STATUS_CASE
-    }
-    return "unknown status";
-}

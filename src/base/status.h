@@ -46,9 +46,6 @@ status fail(status st, const char *format, ...) PRINTF_LIKE(2, 3);
 /* The sentence of the last fail() on this thread; never NULL. */
 const char *status_message(void);
 
-/* What the code means in general: the third column of STATUS_MAP. */
-const char *status_meaning(status st);
-
 /* Forward any error to the function's `done:` label. Needs a local `status st`. */
 #define TRY(call)                                                                                            \
     do {                                                                                                     \
