@@ -8,7 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
-#include "model/branch.h"
+#include "run/branch.h"
 
 static status set_paths(struct farm *f, const char *out)
 {

@@ -9,7 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cli/signals.h"
+#include "base/signals.h"
 
 enum { NOT_FOUND = 127, POLL_US = 5000 };
 

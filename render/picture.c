@@ -10,7 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/version.h"
-#include "model/rocks.h"
+#include "frame/rocks.h"
 #include "output/folder.h"
 #include "render/closest.h"
 #include "render/png.h"

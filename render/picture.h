@@ -10,8 +10,8 @@
 
 #include <stdbool.h>
 
+#include "base/progress.h"
 #include "base/ranges.h"
-#include "cli/progress.h"
 #include "job/job.h"
 #include "render/child.h"
 #include "render/povray.h"

@@ -3,8 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/progress.h"
 #include "base/version.h"
-#include "cli/progress.h"
 #include "render/page_parts.h"
 #include "render/report_page.h"
 

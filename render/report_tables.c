@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/progress.h"
+#include "base/progress.h"
 #include "render/report_page.h"
 
 /* ---- timing */

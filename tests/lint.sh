@@ -32,11 +32,11 @@ rank() {
     case $1 in
     base) echo 0 ;; gpu | job | mesh) echo 1 ;; particles | stacks) echo 2 ;;
     scene | stress | erosion | blocks | mpm | voxels | field | output | checkpoint | wind | water | deposit | plants | piles) echo 3 ;;
-    model) echo 4 ;; farm) echo 5 ;; cli) echo 6 ;; render) echo 7 ;; *) echo 9 ;;
+    frame) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; cli) echo 9 ;; *) echo 10 ;;
     esac
 }
-for f in $(git ls-files 'src/*/*.c' 'src/*/*.h'); do
-    own=$(echo "$f" | cut -d/ -f2)
+for f in $(git ls-files 'src/*/*.c' 'src/*/*.h' 'src/*/*_shim.cpp' 'farm/*.c' 'farm/*.h' 'render/*.c' 'render/*.h'); do
+    own=$(basename "$(dirname "$f")")
     for other in $(sed -n 's|^#include "\([a-z]*\)/.*|\1|p' "$f" | sort -u); do
         case $other in "$own" | shared) continue ;; esac
         [ "$(rank "$other")" -lt "$(rank "$own")" ] || echo "$f includes $other/"

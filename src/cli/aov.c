@@ -11,15 +11,15 @@
 #include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/progress.h"
+#include "base/signals.h"
 #include "cli/cli.h"
-#include "cli/progress.h"
-#include "cli/signals.h"
 #include "field/field.h"
 #include "model/air.h"
-#include "model/branch.h"
 #include "output/exr.h"
 #include "output/folder.h"
 #include "output/vdb.h"
+#include "run/branch.h"
 #include "scene/scene.h"
 
 struct shot {

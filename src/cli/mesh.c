@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/progress.h"
 #include "cli/cli.h"
-#include "cli/progress.h"
+#include "frame/meshes.h"
 #include "job/job.h"
-#include "model/meshes.h"
 #include "output/folder.h"
 
 status cli_mesh(int argc, char **argv)

@@ -1,14 +1,14 @@
 /* hoodoo run JOB: simulate, from wherever the output folder stands. */
-#include "model/run.h"
+#include "run/run.h"
 
 #include <stdio.h>
 
 #include "base/log.h"
+#include "base/progress.h"
+#include "base/signals.h"
 #include "cli/cli.h"
-#include "cli/progress.h"
-#include "cli/signals.h"
-#include "model/branch.h"
 #include "output/folder.h"
+#include "run/branch.h"
 
 struct shown {
     struct progress progress;

@@ -4,9 +4,9 @@
 
 #include "base/atomic_file.h"
 #include "base/log.h"
+#include "base/progress.h"
+#include "base/signals.h"
 #include "cli/cli.h"
-#include "cli/progress.h"
-#include "cli/signals.h"
 #include "cli/words.h"
 #include "farm/describe.h"
 #include "farm/local.h"

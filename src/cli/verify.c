@@ -9,10 +9,10 @@
 #include "checkpoint/checkpoint.h"
 #include "cli/cli.h"
 #include "cli/words.h"
-#include "model/branch.h"
 #include "output/exr.h"
 #include "output/folder.h"
 #include "output/vdb.h"
+#include "run/branch.h"
 
 struct search {
     const char *root;

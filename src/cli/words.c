@@ -7,7 +7,7 @@
 
 #include "base/json.h"
 #include "base/memory.h"
-#include "cli/progress.h"
+#include "base/progress.h"
 
 enum { COLUMNS_MAX = 16, LABEL_SIZE = 64 };
 

@@ -4,9 +4,9 @@
 #define HOODOO_MODEL_H
 
 #include "checkpoint/checkpoint.h"
+#include "frame/disk.h"
 #include "gpu/gpu.h"
 #include "job/job.h"
-#include "model/disk.h"
 #include "particles/frame.h"
 
 struct model;

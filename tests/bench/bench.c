@@ -9,8 +9,8 @@
 
 #include "base/version.h"
 #include "model/model.h"
-#include "model/writer.h"
 #include "output/folder.h"
+#include "run/writer.h"
 #include "stress/elastic.h"
 #include "tests/ref/elastic_ref.h"
 

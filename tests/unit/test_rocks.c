@@ -4,7 +4,7 @@
 #include "job_files.h"
 
 #include "base/random.h"
-#include "model/rocks.h"
+#include "frame/rocks.h"
 #include "particles/particles.h"
 
 static const char text[] = "hoodoo: 1\nname: talus\nframes: 1-2\nseed: 3\nclock: {years_per_frame: 1}\n"

@@ -1,4 +1,4 @@
-#include "model/writer.h"
+#include "run/writer.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -9,8 +9,8 @@
 #include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "frame/stage.h"
 #include "job/palette.h"
-#include "model/stage.h"
 #include "output/exr.h"
 #include "output/folder.h"
 #include "output/usd.h"

@@ -1,4 +1,4 @@
-#include "model/run.h"
+#include "run/run.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +11,12 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/version.h"
-#include "model/branch.h"
+#include "frame/stage.h"
 #include "model/model.h"
-#include "model/stage.h"
-#include "model/timing.h"
-#include "model/writer.h"
 #include "output/folder.h"
+#include "run/branch.h"
+#include "run/timing.h"
+#include "run/writer.h"
 
 struct run {
     const struct job *job;

@@ -1,4 +1,4 @@
-#include "model/timing.h"
+#include "run/timing.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-#include "model/meshes.h"
+#include "frame/meshes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,9 +10,9 @@
 #include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/version.h"
+#include "frame/rocks.h"
 #include "job/palette.h"
 #include "mesh/trimesh.h"
-#include "model/rocks.h"
 #include "output/folder.h"
 #include "output/mesh_file.h"
 #include "output/vdb.h"

@@ -1,4 +1,4 @@
-#include "model/stage.h"
+#include "frame/stage.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,8 +10,8 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "field/camera.h"
+#include "frame/rocks.h"
 #include "job/palette.h"
-#include "model/rocks.h"
 #include "output/folder.h"
 #include "output/usd.h"
 

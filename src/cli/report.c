@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/atomic_file.h"
+#include "base/signals.h"
 #include "cli/cli.h"
-#include "cli/signals.h"
 #include "render/report.h"
 #include "render/report_wedges.h"
 

@@ -1,4 +1,4 @@
-#include "model/disk.h"
+#include "frame/disk.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "model/rocks.h"
+#include "frame/rocks.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-#include "model/branch.h"
+#include "run/branch.h"
 
 #include <errno.h>
 #include <stdio.h>
