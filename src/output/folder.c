@@ -19,73 +19,94 @@ static const struct {
     [FILE_AOV] = {"aov", "exr"},
     [FILE_MANIFEST] = {"frames", "json"},
     [FILE_CHECKPOINT] = {"checkpoint", "ckpt"},
+    [FILE_KEEP] = {"checkpoint", "keep"},
     [FILE_MESH] = {"mesh", "ply"},
+    [FILE_OBJ] = {"mesh", "obj"},
+    [FILE_USD] = {"points", "usdc"},
     [FILE_ROCKS] = {"rocks", "vdb"},
     [FILE_ROCKS_USD] = {"rocks", "usdc"},
     [FILE_STACKS] = {"stacks", "stacks"},
-    [FILE_USD] = {"points", "usdc"},
+    [FILE_STILL] = {"preview", "png"},
+    [FILE_SHEET] = {NULL, "contact.png"},
+    [FILE_VIDEO] = {NULL, "turntable.mp4"},
+    [FILE_WEDGES] = {NULL, "wedges.png"},
+    [FILE_STAGE] = {NULL, "usda"},
 };
+static const char ORBITS[] = "turntable", FIRST_VIEW[] = "000.png";
 
 /* Made by who fills them: rocks and stacks by the writer, the others by their verbs: mesh, preview, turntable, report, log. */
 static const enum folder_file always[] = {FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST,
                                           FILE_CHECKPOINT};
 
-/* "1001", "0007", "-0012" */
-static void frame_text(int frame, char out[16])
+status folder_name(struct path *out, const char *name, enum folder_file kind, int frame, const char *part)
 {
-    snprintf(out, 16, "%s%04d", frame < 0 ? "-" : "", abs(frame));
+    char number[FRAME_TEXT];
+    const char *dot = part ? "." : "", *extension = layout[kind].extension;
+    part = part ? part : "";
+    if (!layout[kind].folder)
+        return path_format(out, "%s%s%s.%s", name, dot, part, extension);
+    return path_format(out, "%s/%s%s%s.%s.%s", layout[kind].folder, name, dot, part,
+                       frame_text(frame, number), extension);
 }
 
-status folder_path(char out[4096], const char *root, const char *name, enum folder_file kind, int frame,
-                   const char *camera)
+/* `view`: what stands for its number. */
+static status view_name(struct path *out, const char *name, const char *part, int frame, const char *view)
 {
-    char number[16];
-    frame_text(frame, number);
-    const bool with_camera = kind == FILE_AOV && camera;
-    const int n = snprintf(out, 4096, "%s/%s/%s%s%s.%s.%s", root, layout[kind].folder, name,
-                           with_camera ? "." : "", with_camera ? camera : "", number, layout[kind].extension);
-    if (n < 0 || n >= 4096)
-        return fail(E_OUTPUT, "%.200s...: the path of frame %d is too long", root, frame);
-    return OK;
+    char number[FRAME_TEXT];
+    return path_format(out, "%s/%s%s%s.%s.%s.png", ORBITS, name, part ? "." : "", part ? part : "",
+                       frame_text(frame, number), view);
+}
+
+status folder_view(struct path *out, const char *name, const char *part, int frame, int view)
+{
+    char number[FRAME_TEXT];
+    snprintf(number, sizeof number, "%03d", view);
+    return view_name(out, name, part, frame, number);
+}
+
+status folder_views(struct path *out, const char *name, const char *part, int frame)
+{
+    /* Names hold letters, digits, _ and - alone: no '%' but this. */
+    return view_name(out, name, part, frame, "%03d");
+}
+
+status folder_path(char out[PATH_BYTES], const char *root, const char *name, enum folder_file kind, int frame,
+                   const char *part)
+{
+    struct path path;
+    status st = folder_name(&path, name, kind, frame, part);
+    if (st == OK)
+        st = path_join(&path, root, path.text);
+    if (st == OK)
+        memcpy(out, path.text, strlen(path.text) + 1);
+    return st;
 }
 
 status folder_prepare(const char *root)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     TRY(folder_make(root));
     atomic_file_sweep(root);
     for (size_t i = 0; i < sizeof always / sizeof *always; i++) {
-        if (snprintf(path, sizeof path, "%s/%s", root, layout[always[i]].folder) >= (int)sizeof path) {
-            st = fail(E_OUTPUT, "%.200s...: the path is too long", root);
-            goto done;
-        }
-        TRY(folder_make(path));
-        atomic_file_sweep(path);
+        TRY(path_join(&path, root, layout[always[i]].folder));
+        TRY(folder_make(path.text));
+        atomic_file_sweep(path.text);
     }
-    if (snprintf(path, sizeof path, "%s/log", root) < (int)sizeof path)
-        TRY(folder_make(path));
+    TRY(path_join(&path, root, "log"));
+    TRY(folder_make(path.text));
 done:
     return st;
 }
 
-/* The frame that `file` is the manifest of, if it is one of `name`, written as folder_path() writes it. */
-static bool manifest_frame(const char *file, const char *name, int *frame)
+/* The frame of a file called NAME.FRAME.ENDING. */
+static bool frame_of(const char *file, const char *name, const char *ending, int *frame)
 {
-    char number[16], expected[512], *end;
     const size_t n = strlen(name);
     if (strncmp(file, name, n) != 0 || file[n] != '.')
         return false;
-    errno = 0;
-    const long value = strtol(file + n + 1, &end, 10);
-    if (errno != 0 || end == file + n + 1 || value < -9999999 || value > 9999999)
-        return false;
-    frame_text((int)value, number);
-    if (snprintf(expected, sizeof expected, "%s.%s.json", name, number) >= (int)sizeof expected ||
-        strcmp(file, expected) != 0)
-        return false;
-    *frame = (int)value;
-    return true;
+    const char *number = file + n + 1, *dot = strchr(number, '.');
+    return dot && strcmp(dot + 1, ending) == 0 && frame_parse(number, (size_t)(dot - number), frame);
 }
 
 static int compare_frames(const void *a, const void *b)
@@ -94,26 +115,24 @@ static int compare_frames(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-status folder_frames(const char *root, const char *name, int **frames, size_t *n)
+static status list(const char *root, const char *folder, const char *name, const char *ending, int **frames,
+                   size_t *n)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     int *found = NULL;
     size_t count = 0, capacity = 0;
     DIR *d = NULL;
-    if (snprintf(path, sizeof path, "%s/%s", root, layout[FILE_MANIFEST].folder) >= (int)sizeof path) {
-        st = fail(E_INPUT, "%.200s...: the path is too long", root);
-        goto done;
-    }
+    TRY(path_join(&path, root, folder));
     TRY(memory_grow(&found, &capacity, 1, sizeof *found, "frame numbers"));
-    d = opendir(path);
+    d = opendir(path.text);
     if (!d && errno != ENOENT) {
-        st = fail(E_INPUT, "%s: %s", path, strerror(errno));
+        st = fail(E_INPUT, "%s: %s", path.text, strerror(errno));
         goto done;
     }
     for (struct dirent *e; d && (e = readdir(d));) {
         TRY(memory_grow(&found, &capacity, count + 1, sizeof *found, "frame numbers"));
-        count += manifest_frame(e->d_name, name, &found[count]);
+        count += frame_of(e->d_name, name, ending, &found[count]);
     }
     qsort(found, count, sizeof *found, compare_frames);
     *frames = found;
@@ -124,6 +143,21 @@ done:
         closedir(d);
     free(found);
     return st;
+}
+
+status folder_list(const char *root, const char *name, enum folder_file kind, int **frames, size_t *n)
+{
+    return list(root, layout[kind].folder, name, layout[kind].extension, frames, n);
+}
+
+status folder_orbits(const char *root, const char *name, int **frames, size_t *n)
+{
+    return list(root, ORBITS, name, FIRST_VIEW, frames, n);
+}
+
+status folder_frames(const char *root, const char *name, int **frames, size_t *n)
+{
+    return folder_list(root, name, FILE_MANIFEST, frames, n);
 }
 
 /* What a job may be called (keys.def): it becomes part of paths. */
@@ -137,30 +171,28 @@ static bool is_name(const char *name)
 status folder_open(const char *root, char name[256])
 {
     status st = OK;
-    char path[4096], *bytes = NULL;
+    struct path path;
+    char *bytes = NULL;
     size_t size = 0;
     struct json *run = NULL;
     struct stat info;
     const char *text;
-    if (snprintf(path, sizeof path, "%s/run.json", root) >= (int)sizeof path) {
-        st = fail(E_INPUT, "%.200s...: the path is too long", root);
+    TRY(path_join(&path, root, "run.json"));
+    if (stat(path.text, &info) != 0) {
+        st = fail(E_INPUT, "%s: not an output folder of hoodoo: %s: %s", root, path.text, strerror(errno));
         goto done;
     }
-    if (stat(path, &info) != 0) {
-        st = fail(E_INPUT, "%s: not an output folder of hoodoo: %s: %s", root, path, strerror(errno));
-        goto done;
-    }
-    TRY(file_read(path, 16 << 20, &bytes, &size));
-    TRY(json_read(path, bytes, size, &run));
+    TRY(file_read(path.text, 16 << 20, &bytes, &size));
+    TRY(json_read(path.text, bytes, size, &run));
     text = json_to_text(json_member(run, "name"));
     if (!text || !is_name(text)) {
-        st = fail(E_INPUT, "%s: no job name in it (letters, digits, _ and -)", path);
+        st = fail(E_INPUT, "%s: no job name in it (letters, digits, _ and -)", path.text);
         goto done;
     }
     snprintf(name, 256, "%s", text);
-    snprintf(path, sizeof path, "%s/job.yaml", root);
-    if (stat(path, &info) != 0)
-        st = fail(E_INPUT, "%s: %s: the folder has lost its job", path, strerror(errno));
+    TRY(path_join(&path, root, "job.yaml"));
+    if (stat(path.text, &info) != 0)
+        st = fail(E_INPUT, "%s: %s: the folder has lost its job", path.text, strerror(errno));
 done:
     if (run)
         json_free(&run);

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/path.h"
 #include "base/status.h"
 #include "base/text.h"
 #include "particles/frame.h"
@@ -16,19 +17,36 @@ enum folder_file {
     FILE_AOV,
     FILE_MANIFEST,
     FILE_CHECKPOINT,
-    FILE_MESH,
-    FILE_USD,
+    FILE_KEEP, /* beside a checkpoint that is never pruned */
+    FILE_MESH, /* the PLY */
+    FILE_OBJ,
+    FILE_USD, /* the surface's points */
     FILE_ROCKS,
     FILE_ROCKS_USD,
-    FILE_STACKS
+    FILE_STACKS,
+    FILE_STILL,
+    FILE_SHEET, /* from here on one file of all frames */
+    FILE_VIDEO,
+    FILE_WEDGES, /* the sheet across a farm's wedges */
+    FILE_STAGE
 };
 
-/* root/points/NAME.1001.vdb and so on: `root` is the output folder, `name` the job's. Frames are written with
- * at least four digits. `camera`: FILE_AOV only, put in the name (NAME.CAMERA.1001.exr) when the job has more
- * than one AOV camera, else NULL. FILE_MESH is the PLY, FILE_USD the
- * surface's points. E_OUTPUT if the path is too long. */
-MUST_USE status folder_path(char out[4096], const char *root, const char *name, enum folder_file kind,
-                            int frame, const char *camera);
+/* points/NAME.1001.vdb and so on, relative to the output folder: `name` is the job's. `part`: put in the name
+ * (NAME.PART.1001.exr), or NULL: the camera of an AOV when the job has more than one AOV camera, the value
+ * that a picture shows. A file of all frames has no number: NAME.contact.png. E_OUTPUT if it is too long. */
+MUST_USE status folder_name(struct path *out, const char *name, enum folder_file kind, int frame,
+                            const char *part);
+
+/* turntable/NAME.1001.000.png: a view of an orbit. */
+MUST_USE status folder_view(struct path *out, const char *name, const char *part, int frame, int view);
+
+/* All views of an orbit, as programs want them that read sequences: turntable/NAME.1001.%03d.png. */
+MUST_USE status folder_views(struct path *out, const char *name, const char *part, int frame);
+
+/* root/points/NAME.1001.vdb: `root` is the output folder, the rest is folder_name()'s. E_OUTPUT if the path is
+ * too long. */
+MUST_USE status folder_path(char out[PATH_BYTES], const char *root, const char *name, enum folder_file kind,
+                            int frame, const char *part);
 
 /* Makes root and its subfolders, and sweeps temporary files out of them. */
 MUST_USE status folder_prepare(const char *root);
@@ -69,8 +87,15 @@ void manifest_free(struct manifest *manifest);
 MUST_USE status manifest_check(const char *root, const struct manifest *manifest, bool deep,
                                const char **bad);
 
-/* The frames of `name` that have a manifest, ascending; *frames freed with free(). A folder that is not there
- * has none. */
+/* The frames of `name` that have a file of this kind (named as folder_name() does, with no part), ascending;
+ * *frames freed with free(). A folder that is not there has none. */
+MUST_USE status folder_list(const char *root, const char *name, enum folder_file kind, int **frames,
+                            size_t *n);
+
+/* Those that have an orbit: its first view. */
+MUST_USE status folder_orbits(const char *root, const char *name, int **frames, size_t *n);
+
+/* Those that have a manifest. */
 MUST_USE status folder_frames(const char *root, const char *name, int **frames, size_t *n);
 
 /* The job's name of an output folder, from root/run.json. E_INPUT if `root` is not a hoodoo output folder: no

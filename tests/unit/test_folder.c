@@ -36,9 +36,12 @@ static void paths_are_those_of_the_design(void **state)
                  {FILE_VOLUMES, 7, NULL, "out/arch/volumes/arch.0007.vdb"},
                  {FILE_AOV, 1001, NULL, "out/arch/aov/arch.1001.exr"},
                  {FILE_AOV, 1001, "side", "out/arch/aov/arch.side.1001.exr"},
-                 {FILE_MANIFEST, 123456, "side", "out/arch/frames/arch.123456.json"},
+                 {FILE_MANIFEST, 123456, NULL, "out/arch/frames/arch.123456.json"},
                  {FILE_CHECKPOINT, 1010, NULL, "out/arch/checkpoint/arch.1010.ckpt"},
-                 {FILE_MESH, -12, NULL, "out/arch/mesh/arch.-0012.ply"}};
+                 {FILE_MESH, -12, NULL, "out/arch/mesh/arch.-0012.ply"},
+                 {FILE_STILL, -12, "stress", "out/arch/preview/arch.stress.-0012.png"},
+                 {FILE_SHEET, -12, NULL, "out/arch/arch.contact.png"},
+                 {FILE_VIDEO, 7, "stress", "out/arch/arch.stress.turntable.mp4"}};
     char path[4096], longest[5000];
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         assert_int_equal(
