@@ -14,26 +14,19 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/hash.h"
 #include "base/memory.h"
+#include "base/process.h"
 
 static const char TEMPORARY[] = ".tmp-";
-
-/* Machines that share a disk are told apart by their names. */
-static unsigned host(void)
-{
-    char name[256] = "";
-    gethostname(name, sizeof name - 1);
-    return (unsigned)hash_bytes(name, strlen(name));
-}
 
 status atomic_file_temporary(const char *path, char *out, size_t size)
 {
     static atomic_uint count;
     struct timeval now;
     gettimeofday(&now, NULL);
-    int length = snprintf(out, size, "%s%s%08x-%ld-%lx%05lx-%u", path, TEMPORARY, host(), (long)getpid(),
-                          (unsigned long)now.tv_sec, (unsigned long)now.tv_usec, atomic_fetch_add(&count, 1));
+    int length =
+        snprintf(out, size, "%s%s%08x-%ld-%lx%05lx-%u", path, TEMPORARY, process_place(), (long)getpid(),
+                 (unsigned long)now.tv_sec, (unsigned long)now.tv_usec, atomic_fetch_add(&count, 1));
     if (length < 0 || (size_t)length >= size)
         return fail(E_OUTPUT, "%.200s...: the path is too long", path);
     return OK;
@@ -138,7 +131,8 @@ static bool temporary_of(const char *name, unsigned *whose, long *pid)
     return tail && sscanf(tail + strlen(TEMPORARY), "%8x-%ld-", whose, pid) == 2;
 }
 
-/* Left behind: by a process of this machine that is no more, or by any a day ago. */
+/* Left behind: by a process of this machine that is no more, or by any a day ago. The process numbers of another
+ * container or boot say nothing here, so those wait for a day. */
 static bool abandoned(const char *name, int folder)
 {
     enum { DAY_S = 24 * 60 * 60 };
@@ -147,7 +141,7 @@ static bool abandoned(const char *name, int folder)
     struct stat info;
     if (!temporary_of(name, &whose, &pid) || fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) != 0)
         return false;
-    if (whose == host() && pid > 0 && kill((pid_t)pid, 0) != 0 && errno == ESRCH)
+    if (whose == process_place() && pid > 0 && kill((pid_t)pid, 0) != 0 && errno == ESRCH)
         return true;
     return time(NULL) - info.st_mtime > DAY_S;
 }
@@ -157,7 +151,7 @@ static bool own(const char *name, int folder)
     unsigned whose;
     long pid;
     (void)folder;
-    return temporary_of(name, &whose, &pid) && whose == host() && pid == (long)getpid();
+    return temporary_of(name, &whose, &pid) && whose == process_place() && pid == (long)getpid();
 }
 
 static void sweep(const char *folder, bool (*goes)(const char *name, int folder))

@@ -25,8 +25,8 @@ MUST_USE status atomic_file_temporary(const char *path, char *out, size_t size);
  * full all along. */
 MUST_USE status atomic_file_adopt(const char *temporary, const char *path);
 
-/* Removes temporary files that killed processes left in `folder`; those of living ones, here or on other
- * machines that share the disk, stay. Never fails: what cannot be removed stays too. */
+/* Removes temporary files that killed processes left in `folder`; those of living ones, here, in other containers
+ * or on other machines that share the disk, stay. Never fails: what cannot be removed stays too. */
 void atomic_file_sweep(const char *folder);
 
 /* Removes those of this process, for when programs that it ran have failed and will not be asked again. */

@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,17 +15,11 @@
 #include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/process.h"
 #include "base/text.h"
 
 enum { LOCK_BYTES = 4096, COUNT_DIGITS = 12, WATCH_US = 100000 };
 static const double BEAT_S = 5, WATCH_S = 30;
-
-/* Who a process is: pids come again, on this machine and others, and mean nothing across containers. */
-struct holder {
-    char host[128], boot[64], space[64];
-    long pid;
-    unsigned long long began; /* in ticks since boot */
-};
 
 struct lock {
     char path[4096], token[96];
@@ -39,59 +32,16 @@ struct lock {
     unsigned long long count;
 };
 
-/* ---- who */
-
-/* When a process began; 0 if there is none. */
-static unsigned long long process_began(long pid)
-{
-    char path[64], line[1024];
-    unsigned long long began = 0;
-    snprintf(path, sizeof path, "/proc/%ld/stat", pid);
-    FILE *f = fopen(path, "re");
-    if (!f)
-        return 0;
-    size_t n = fread(line, 1, sizeof line - 1, f);
-    fclose(f);
-    line[n] = '\0';
-    /* Fields follow the name, which may hold spaces and brackets; the state comes first, this is 20th. */
-    char *s = strrchr(line, ')');
-    for (int field = 0; s && field < 20; field++)
-        s = strchr(s + 1, ' ');
-    if (s)
-        began = strtoull(s, NULL, 10);
-    return began;
-}
-
-static void first_line(const char *path, char *out, size_t size)
-{
-    FILE *f = fopen(path, "re");
-    out[0] = '\0';
-    if (f && fgets(out, (int)size, f))
-        out[strcspn(out, "\n")] = '\0';
-    if (f)
-        fclose(f);
-}
-
-static void who_am_i(struct holder *h)
-{
-    *h = (struct holder){.pid = (long)getpid()};
-    gethostname(h->host, sizeof h->host - 1);
-    first_line("/proc/sys/kernel/random/boot_id", h->boot, sizeof h->boot);
-    ssize_t n = readlink("/proc/self/ns/pid", h->space, sizeof h->space - 1);
-    h->space[n > 0 ? n : 0] = '\0';
-    h->began = process_began(h->pid);
-}
-
 /* ---- the file */
 
 /* The count stands first and has a fixed width, so that it can be written in place. */
 static status compose(const struct lock *lock, const char *what, struct text *t)
 {
-    struct holder me;
+    struct process me;
     char since[32] = "";
     time_t now = time(NULL);
     struct tm tm;
-    who_am_i(&me);
+    process_self(&me);
     if (localtime_r(&now, &tm))
         strftime(since, sizeof since, "%Y-%m-%dT%H:%M:%S%z", &tm);
     text_add(t, "%0*d\n", COUNT_DIGITS, 0);
@@ -109,9 +59,9 @@ static status compose(const struct lock *lock, const char *what, struct text *t)
 }
 
 struct seen {
-    bool there;
+    bool there, unread; /* unread: the system could not read it now */
     char count[COUNT_DIGITS + 1], token[96], since[40], what[256];
-    struct holder holder;
+    struct process holder;
 };
 
 static void take_text(const struct json *json, const char *key, char *out, size_t size)
@@ -136,6 +86,7 @@ static status look(const char *path, struct seen *s)
     status st = file_read(path, LOCK_BYTES, &bytes, &n);
     if (st == E_MEMORY)
         return st;
+    s->unread = st != OK;
     if (st == OK && n > COUNT_DIGITS) {
         memcpy(s->count, bytes, COUNT_DIGITS);
         if (json_read(path, bytes + COUNT_DIGITS, n - COUNT_DIGITS, &json) == OK) {
@@ -162,19 +113,29 @@ static void beat(struct lock *lock)
 {
     struct seen s;
     char count[32];
-    if (look(lock->path, &s) != OK)
-        return;
+    if (look(lock->path, &s) != OK || s.unread)
+        return; /* the disk is away for a moment; the next beat will tell */
     if (!s.there || strcmp(s.token, lock->token) != 0) {
         atomic_store(&lock->lost, true);
         return;
     }
     int fd = open(lock->path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
     if (fd < 0)
-        return; /* the disk is away for a moment; the next beat will tell */
+        return;
     snprintf(count, sizeof count, "%0*llu", COUNT_DIGITS, ++lock->count);
     if (pwrite(fd, count, COUNT_DIGITS, 0) == COUNT_DIGITS)
         fsync(fd);
     close(fd);
+}
+
+/* Its waits are by the clock that nobody sets: one set back would hold the next beat for as long. */
+static void init_wake(pthread_cond_t *wake)
+{
+    pthread_condattr_t monotonic;
+    pthread_condattr_init(&monotonic);
+    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
+    pthread_cond_init(wake, &monotonic);
+    pthread_condattr_destroy(&monotonic);
 }
 
 static void *keep_beating(void *argument)
@@ -183,7 +144,7 @@ static void *keep_beating(void *argument)
     pthread_mutex_lock(&lock->guard);
     while (!lock->ending) {
         struct timespec until;
-        clock_gettime(CLOCK_REALTIME, &until);
+        clock_gettime(CLOCK_MONOTONIC, &until);
         until.tv_sec += (time_t)lock->beat_s;
         until.tv_nsec += (long)((lock->beat_s - (double)(time_t)lock->beat_s) * 1e9);
         until.tv_sec += until.tv_nsec / 1000000000;
@@ -209,28 +170,14 @@ static status held(const char *path, const struct seen *s)
         *s->what ? s->what : "writes here", *s->since ? s->since : "an unknown time");
 }
 
-/* Is the holder one of this machine's processes, or was it? Only then can they tell. */
-static bool is_local(const struct holder *h)
-{
-    struct holder me;
-    who_am_i(&me);
-    return strcmp(h->host, me.host) == 0 && strcmp(h->boot, me.boot) == 0 && *h->boot &&
-           strcmp(h->space, me.space) == 0 && *h->space;
-}
-
-static bool is_alive(const struct holder *h)
-{
-    unsigned long long began = process_began(h->pid);
-    return began && began == h->began;
-}
-
 /* Is the holder gone? E_OUTPUT if it lives. */
 static status judge(const char *path, const struct seen *first, double watch_s, bool (*stop)(void))
 {
     struct seen now;
-    const struct holder *h = &first->holder;
-    if (is_local(h))
-        return is_alive(h) ? held(path, first) : OK;
+    const struct process *h = &first->holder;
+    const enum process_fate fate = process_fate(h);
+    if (fate != PROCESS_UNKNOWN)
+        return fate == PROCESS_LIVES ? held(path, first) : OK;
     log_info("%s is held by process %ld on %s; watching for %.0f s whether that one lives", path, h->pid,
              *h->host ? h->host : "an unknown machine", watch_s);
     for (double waited = 0; waited < watch_s; waited += WATCH_US * 1e-6) {
@@ -322,7 +269,7 @@ status lock_take(const char *path, const char *what, struct lock_patience patien
         goto done;
     }
     pthread_mutex_init(&lock->guard, NULL);
-    pthread_cond_init(&lock->wake, NULL);
+    init_wake(&lock->wake);
     if (pthread_create(&lock->thread, NULL, keep_beating, lock) != 0) {
         unlink(path);
         st = fail(E_MEMORY, "no thread for the lock");
@@ -346,7 +293,7 @@ status lock_check(const struct lock *lock)
 void lock_sweep(const char *path)
 {
     struct seen s;
-    if (look(path, &s) == OK && s.there && is_local(&s.holder) && !is_alive(&s.holder) &&
+    if (look(path, &s) == OK && s.there && process_fate(&s.holder) == PROCESS_GONE &&
         remove_stale(path, &s) != OK)
         log_warn("%s", status_message());
 }

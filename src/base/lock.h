@@ -4,9 +4,10 @@
  * every few seconds while its holder lives. It is made under another name and linked into place, which is
  * atomic on NFS too.
  *
- * Left behind   A holder on this machine is gone when its process is. One elsewhere is gone when its count
- *               has not moved while we watched: no clocks are compared. A lock left behind is taken over, and
- *               the log says so.
+ * Left behind   A holder on this machine is gone when its process is. One elsewhere, or one that this machine
+ *               hides from us (/proc under hidepid), is gone when its count has not moved while we watched: no
+ *               clocks are compared, and one that is set does not matter. A lock left behind is taken over,
+ *               and the log says so.
  * Taken away    A holder that was frozen for long (a suspended machine) may find its lock taken over when it
  *               wakes: lock_check() then fails.
  */

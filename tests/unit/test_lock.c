@@ -2,16 +2,33 @@
 #include "check.h"
 
 #include <fcntl.h>
+#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <sys/mount.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "base/atomic_file.h"
 #include "base/lock.h"
+#include "base/process.h"
+
+/* The wall clock is as many seconds ahead, for all of this program. */
+static _Atomic time_t ahead_s;
+
+int clock_gettime(clockid_t clock, struct timespec *out)
+{
+    const int code = (int)syscall(SYS_clock_gettime, clock, out);
+    if (clock == CLOCK_REALTIME && code == 0)
+        out->tv_sec += ahead_s;
+    return code;
+}
 
 static const struct lock_patience quick = {.beat_s = 0.1, .watch_s = 0.6};
 
@@ -169,6 +186,171 @@ static void a_lock_that_was_taken_away_is_noticed(void **state)
     unlink("f.lock");
 }
 
+static long long count_in(const char *path)
+{
+    long long count = -1;
+    FILE *f = fopen(path, "r");
+    assert_non_null(f);
+    assert_int_equal(fscanf(f, "%lld", &count), 1);
+    fclose(f);
+    return count;
+}
+
+static void a_clock_that_is_set_back_does_not_stop_the_beat(void **state)
+{
+    (void)state;
+    struct lock *lock = NULL;
+    ahead_s = 3600;
+    assert_ok(lock_take("h.lock", "x", quick, NULL, &lock));
+    usleep(250000);
+    ahead_s = 0;
+    usleep(250000); /* the beat that was waited for when the clock was set has come by now */
+    const long long before = count_in("h.lock");
+    usleep(500000);
+    assert_true(count_in("h.lock") > before);
+    lock_release(&lock);
+}
+
+/* The beat cannot read its own lock once, as from a disk that errs: that is no other holder. */
+static void a_lock_that_cannot_be_read_for_a_moment_is_not_lost(void **state)
+{
+    (void)state;
+    struct lock *lock = NULL;
+    assert_ok(lock_take("i.lock", "x", quick, NULL, &lock));
+    assert_int_equal(mkdir("i.folder", 0700), 0);
+    assert_int_equal(renameat2(AT_FDCWD, "i.lock", AT_FDCWD, "i.folder", RENAME_EXCHANGE), 0);
+    usleep(300000);
+    assert_int_equal(renameat2(AT_FDCWD, "i.lock", AT_FDCWD, "i.folder", RENAME_EXCHANGE), 0);
+    assert_int_equal(rmdir("i.folder"), 0);
+    usleep(300000);
+    assert_ok(lock_check(lock));
+    lock_release(&lock);
+    assert_false(there("i.lock"));
+}
+
+/* In a child: an ordinary user, to whom /proc shows no process of others. 77: this machine does not allow it. */
+static int as_a_stranger(const struct process *other, long holder_pid)
+{
+    struct lock *lock;
+    char number[40];
+    if (chdir("hidden") != 0 || unshare(CLONE_NEWNS) != 0 ||
+        mount(NULL, "/", NULL, MS_REC | MS_PRIVATE, NULL) != 0 ||
+        mount("proc", "/proc", "proc", 0, "hidepid=2") != 0 || setresgid(65534, 65534, 65534) != 0 ||
+        setresuid(65534, 65534, 65534) != 0)
+        return 77;
+    if (process_fate(other) != PROCESS_UNKNOWN)
+        return 1;
+    snprintf(number, sizeof number, "lock: process %ld on ", holder_pid);
+    return lock_take("lock", "x", quick, NULL, &lock) == E_OUTPUT && strstr(status_message(), number) ? 0 : 2;
+}
+
+static void a_living_holder_that_proc_hides_keeps_others_out(void **state)
+{
+    (void)state;
+    int how;
+    struct process me;
+    process_self(&me);
+    assert_int_equal(process_fate(&me), PROCESS_LIVES);
+    assert_int_equal(mkdir("hidden", 0777), 0);
+    assert_int_equal(chmod("hidden", 0777), 0);
+    pid_t pid = holder("hidden/lock");
+    pid_t stranger = fork();
+    if (stranger == 0)
+        _exit(as_a_stranger(&me, pid));
+    assert_int_equal(waitpid(stranger, &how, 0), stranger);
+    end(pid);
+    unlink("hidden/lock");
+    assert_true(WIFEXITED(how));
+    if (WEXITSTATUS(how) == 77)
+        skip();
+    assert_int_equal(WEXITSTATUS(how), 0);
+}
+
+static void the_fate_of_processes(void **state)
+{
+    (void)state;
+    struct process me, other;
+    process_self(&me);
+    assert_true(me.began > 0);
+    other = me;
+    other.began++; /* its number came again */
+    assert_int_equal(process_fate(&other), PROCESS_GONE);
+    other = me;
+    other.host[0] ^= 1;
+    assert_int_equal(process_fate(&other), PROCESS_UNKNOWN);
+    other = me;
+    other.space[0] ^= 1;
+    assert_int_equal(process_fate(&other), PROCESS_UNKNOWN);
+    pid_t pid = fork();
+    if (pid == 0)
+        _exit(0);
+    waitpid(pid, NULL, 0);
+    other = me;
+    other.pid = pid;
+    assert_int_equal(process_fate(&other), PROCESS_GONE);
+}
+
+static void make(const char *path)
+{
+    FILE *f = fopen(path, "w");
+    assert_non_null(f);
+    fclose(f);
+}
+
+/* Two containers of one machine share a folder; in the one that sweeps, the other's process numbers mean nothing. */
+static void temporaries_of_another_container_are_not_swept(void **state)
+{
+    (void)state;
+    char ours[200];
+    int how;
+    assert_int_equal(mkdir("swept", 0777), 0);
+    assert_ok(atomic_file_temporary("swept/a", ours, sizeof ours));
+    make(ours);
+    pid_t pid = fork();
+    if (pid == 0) {
+        if (unshare(CLONE_NEWPID) != 0)
+            _exit(77);
+        pid_t inner = fork();
+        if (inner == 0) {
+            atomic_file_sweep("swept");
+            _exit(there(ours) ? 0 : 1);
+        }
+        _exit(waitpid(inner, &how, 0) == inner && WIFEXITED(how) ? WEXITSTATUS(how) : 2);
+    }
+    assert_int_equal(waitpid(pid, &how, 0), pid);
+    assert_true(WIFEXITED(how));
+    unlink(ours);
+    if (WEXITSTATUS(how) == 77)
+        skip();
+    assert_int_equal(WEXITSTATUS(how), 0);
+}
+
+static void temporaries_of_killed_processes_are_swept(void **state)
+{
+    (void)state;
+    enum { PATH = 200 };
+    char *theirs = mmap(NULL, PATH, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    assert_ptr_not_equal(theirs, MAP_FAILED);
+    assert_int_equal(mkdir("dead", 0777), 0);
+    pid_t pid = fork();
+    if (pid == 0) {
+        if (atomic_file_temporary("dead/a", theirs, PATH) != OK)
+            _exit(1);
+        make(theirs);
+        for (;;)
+            pause();
+    }
+    for (int i = 0; i < 1000 && !(*theirs && there(theirs)); i++)
+        usleep(2000);
+    assert_true(there(theirs));
+    atomic_file_sweep("dead");
+    assert_true(there(theirs)); /* it lives */
+    end(pid);
+    atomic_file_sweep("dead");
+    assert_false(there(theirs));
+    munmap(theirs, PATH);
+}
+
 /* Many at once on a lock that was left behind, again and again: never two inside. */
 static void only_one_is_inside(void **state)
 {
@@ -217,6 +399,12 @@ int main(void)
         cmocka_unit_test(waiting_for_another_machine_can_be_stopped),
         cmocka_unit_test(files_that_are_no_locks_do_not_hold_for_ever),
         cmocka_unit_test(a_lock_that_was_taken_away_is_noticed),
+        cmocka_unit_test(a_clock_that_is_set_back_does_not_stop_the_beat),
+        cmocka_unit_test(a_lock_that_cannot_be_read_for_a_moment_is_not_lost),
+        cmocka_unit_test(a_living_holder_that_proc_hides_keeps_others_out),
+        cmocka_unit_test(the_fate_of_processes),
+        cmocka_unit_test(temporaries_of_another_container_are_not_swept),
+        cmocka_unit_test(temporaries_of_killed_processes_are_swept),
         cmocka_unit_test(only_one_is_inside),
     };
     return cmocka_run_group_tests_name("lock", tests, NULL, NULL);
