@@ -7,12 +7,16 @@ TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools op
 	libcgal-dev libeigen3-dev
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1
-DEV_PACKAGES = clang clang-format clang-tidy libclang-rt-14-dev
+DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev
 
+# As many jobs as cores, unless the user says -j. A make within make shares those of the first.
+ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += --jobs=$(shell nproc)
+endif
 
 VERSION = 0.1.0
 BUILD = build
+SHARE = $(BUILD)
 CC = gcc
 CXX = g++
 OPT = -O2 -g
@@ -20,7 +24,7 @@ WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 SANITIZE =
 COMMIT = $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 
-CPPFLAGS = -D_GNU_SOURCE -Isrc -Ishaders -I. -I$(BUILD)/gen
+CPPFLAGS = -D_GNU_SOURCE -Isrc -Ishaders -I. -I$(SHARE)/gen
 CFLAGS = -std=c11 $(OPT) $(WARN) -fno-math-errno -ffp-contract=off -fopenmp $(SANITIZE)
 CXXFLAGS = -std=c++17 $(OPT) -Wall -Wextra $(SANITIZE) -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
 LDLIBS = -lvulkan -lopenvdb -ltbb -lOpenEXRCore-3_1 -lImath-3_1 -lOpenImageIO -lOpenImageIO_Util -lfyaml -lzstd -lxxhash -lm -lpthread -lstdc++
@@ -48,6 +52,9 @@ $(BUILD)/.deps: Makefile
 deps-test: $(BUILD)/.deps-test
 $(BUILD)/.deps-test: Makefile $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) && touch $@
+deps-dev: $(BUILD)/.deps-dev
+$(BUILD)/.deps-dev: Makefile $(BUILD)/.deps-test
+	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(DEV_PACKAGES) && touch $@
 deps-peers: $(BUILD)/.deps-peers
 $(BUILD)/.deps-peers: Makefile $(BUILD)/.deps-test
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(PEER_PACKAGES) && touch $@
@@ -64,7 +71,7 @@ $(BUILD)/libhoodoo.a: $(LIB_OBJ)
 	@echo "ar $@"
 	$(Q)rm -f $@ && ar rcs $@ $^
 
-$(BUILD)/%.o: %.c | $(BUILD)/.deps $(BUILD)/gen/gpu/kernels.h
+$(BUILD)/%.o: %.c | $(BUILD)/.deps $(SHARE)/gen/gpu/kernels.h
 	@echo "cc $<"
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) $(EXR_FLAGS) -MMD -MP -c -o $@ $<
 
@@ -79,31 +86,31 @@ $(BUILD)/src/base/version.o: $(wildcard .git/HEAD .git/logs/HEAD)
 # ---- shaders: GLSL -> three SPIR-V variants, checked, embedded as words
 
 VARIANTS = texel storage wide
-SPV = $(foreach v,$(VARIANTS),$(patsubst shaders/%.comp.glsl,$(BUILD)/shaders/%.$(v).spv,$(SHADER)))
+SPV = $(foreach v,$(VARIANTS),$(patsubst shaders/%.comp.glsl,$(SHARE)/shaders/%.$(v).spv,$(SHADER)))
 define spirv_rule
-$(BUILD)/shaders/%.$(1).spv: shaders/%.comp.glsl | $(BUILD)/.deps
+$(SHARE)/shaders/%.$(1).spv: shaders/%.comp.glsl | $(BUILD)/.deps
 	@echo "glsl $$< $(1)"
 	$$(Q)mkdir -p $$(@D) && glslangValidator -V --target-env vulkan1.2 --quiet -Ishaders -DVARIANT_$(1) \
 		--depfile $$@.d -o $$@ $$< && spirv-val --target-env vulkan1.2 --scalar-block-layout $$@
 endef
 $(foreach v,$(VARIANTS),$(eval $(call spirv_rule,$(v))))
 
-$(BUILD)/gen/gpu/kernels.h: $(SHADER) src/gpu/embed.sh | $(BUILD)/.deps
+$(SHARE)/gen/gpu/kernels.h: $(SHADER) src/gpu/embed.sh | $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && sh src/gpu/embed.sh header $(sort $(SHADER)) > $@.tmp && if cmp -s $@.tmp $@; then rm $@.tmp; else mv $@.tmp $@; fi
-$(BUILD)/gen/gpu/kernels.c: $(SPV) $(BUILD)/gen/gpu/kernels.h src/gpu/embed.sh
-	$(Q)sh src/gpu/embed.sh source $(BUILD)/shaders $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
-$(BUILD)/gen/gpu/kernels.o: $(BUILD)/gen/gpu/kernels.c $(BUILD)/gen/gpu/kernels.h
+$(SHARE)/gen/gpu/kernels.c: $(SPV) $(SHARE)/gen/gpu/kernels.h src/gpu/embed.sh
+	$(Q)sh src/gpu/embed.sh source $(SHARE)/shaders $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
+$(BUILD)/gen/gpu/kernels.o: $(SHARE)/gen/gpu/kernels.c $(SHARE)/gen/gpu/kernels.h
 	@echo "cc $<"
-	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # ---- scenes and the report's page: POV-Ray text, CSS and JavaScript, embedded as lines
 
 SCENE = $(sort $(wildcard render/*.inc render/*.css render/*.js))
-$(BUILD)/gen/render/scene_parts.c: $(SCENE) render/embed.sh
+$(SHARE)/gen/render/scene_parts.c: $(SCENE) render/embed.sh
 	$(Q)mkdir -p $(@D) && sh render/embed.sh $(SCENE) > $@.tmp && mv $@.tmp $@
-$(BUILD)/gen/render/scene_parts.o: $(BUILD)/gen/render/scene_parts.c render/scene_parts.h render/page_parts.h
+$(BUILD)/gen/render/scene_parts.o: $(SHARE)/gen/render/scene_parts.c render/scene_parts.h render/page_parts.h
 	@echo "cc $<"
-	$(Q)$(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
 # ---- demo, tests
 
@@ -147,17 +154,23 @@ format:
 	$(Q)clang-format -i $(shell find src farm render tests -name '*.[ch]' -o -name '*_shim.cpp')
 
 ## lint: warnings of both compilers, format, headers that stand alone, walls between folders
-lint: deps-test
-	$(Q)sh tests/lint.sh $(PACKAGES) $(TEST_PACKAGES) $(DEV_PACKAGES)
+lint: $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.c
+	$(Q)sh tests/run.sh $(BUILD) lint.sh
 
-## asan: build and run the tests under the address sanitizer
-# (no leak check: Mesa keeps memory until the process ends)
-asan:
-	$(Q)ASAN_OPTIONS=detect_leaks=0 $(MAKE) BUILD=build-asan OPT='-O1 -g' SANITIZE='-fsanitize=address -fno-omit-frame-pointer' test
+# The sanitizers' builds share the shaders and what is generated from them with the ordinary one. Of the checks of
+# -fsanitize=undefined, vptr is out: OpenVDB's classes have no type information to look at.
+## test-asan: the unit and gpu tests under the address, leak and undefined behaviour sanitizers
+test-asan: $(SHARE)/gen/gpu/kernels.c $(SHARE)/gen/render/scene_parts.c
+	$(Q)$(MAKE) BUILD=build-asan SHARE=$(SHARE) OPT='-O1 -g' test-sanitized \
+		SANITIZE='-fsanitize=address,undefined -fno-sanitize=vptr -fno-sanitize-recover=all -fno-omit-frame-pointer'
 
-## ubsan: build and run the tests under the undefined behaviour sanitizer
-ubsan:
-	$(Q)$(MAKE) BUILD=build-ubsan OPT='-O1 -g' SANITIZE='-fsanitize=undefined -fno-sanitize-recover=all' test
+## test-tsan: the unit and gpu tests under the thread sanitizer
+# by clang, whose OpenMP library tells the sanitizer what waits for what; under gcc's every parallel loop looks like a race
+test-tsan: $(SHARE)/gen/gpu/kernels.c $(SHARE)/gen/render/scene_parts.c
+	$(Q)$(MAKE) BUILD=build-tsan SHARE=$(SHARE) CC=clang CXX=clang++ OPT='-O1 -g' test-sanitized SANITIZE=-fsanitize=thread
+
+test-sanitized: $(BUILD)/hoodoo $(BUILD)/.deps-test $(filter $(BUILD)/tests/unit/% $(BUILD)/tests/gpu/%,$(TEST_BIN))
+	$(Q)sh tests/run.sh $(BUILD) unit gpu
 
 ## install: copy hoodoo to PREFIX/bin (default /usr/local)
 PREFIX = /usr/local
@@ -166,13 +179,13 @@ install: $(BUILD)/hoodoo
 
 ## clean: remove what was built (out/ stays)
 clean:
-	rm -rf build build-asan build-ubsan
+	rm -rf build build-asan build-tsan
 
 ## help: list the targets
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-peers demo test test-peers test-long bench reference format lint asan ubsan install clean help
+.PHONY: all deps deps-test deps-dev deps-peers demo test test-peers test-long bench reference format lint test-asan test-tsan test-sanitized install clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

@@ -1,33 +1,56 @@
 #!/bin/sh
-# lint.sh PACKAGE...: both compilers' warnings, the layout, headers that stand alone, and the walls between folders.
+# lint.sh: a TAP line for each rule: both compilers' warnings, the layout, headers that stand alone, the walls between
+# folders. Needs the headers of DEV_PACKAGES in the Makefile, and build/gen.
 set -u
-sh tests/deps.sh "$@" || exit 1
-bad=0
-say() {
-    echo "lint: $*"
-    bad=1
-}
+cd "$(dirname "$0")/.." || exit 1
 flags="-std=c11 -D_GNU_SOURCE -Isrc -Ishaders -I. -Ibuild/gen -Itests -isystem /usr/include/OpenEXR -isystem /usr/include/Imath"
 warnings="-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"
-make -s build/gen/gpu/kernels.h build/gen/gpu/kernels.c || exit 1
-for f in $(git ls-files 'src/*.c' 'render/*.c' 'farm/*.c'); do
-    extra=
-    [ "$f" = src/base/version.c ] && extra='-DHOODOO_VERSION="" -DHOODOO_COMMIT=""'
-    # shellcheck disable=SC2086 # lists of flags
-    gcc $flags $warnings $extra -fopenmp -fsyntax-only "$f" || say "gcc warns of $f"
-    # shellcheck disable=SC2086
-    clang $flags $warnings $extra -Wno-unknown-pragmas -fsyntax-only "$f" || say "clang warns of $f"
-done
-for h in $(git ls-files 'src/*.h' 'render/*.h' 'farm/*.h'); do
-    # shellcheck disable=SC2086
-    printf '#include "%s"\n' "$h" | gcc $flags $warnings -fsyntax-only -x c - || say "$h does not stand alone"
-done
-files=$(git ls-files '*.c' '*.h' '*_shim.cpp' '*.hpp')
-# shellcheck disable=SC2086
-clang-format --dry-run --Werror $files || say "the layout differs; run make format"
-git grep -nE '\bVk[A-Z]|\bvk[A-Z]' -- 'src/*.c' 'src/*.h' 'render' ':!src/gpu' && say "Vulkan outside src/gpu"
-git grep -nE 'std::|openvdb::' -- '*.c' '*.h' && say "C++ outside *_shim.cpp"
-# Includes point down: a folder may include those of lower rank, and itself.
+# shellcheck disable=SC2089 # the quotes are the compiler's
+version='-DHOODOO_VERSION="" -DHOODOO_COMMIT=""'
+said=$(mktemp)
+trap 'rm -f "$said"' EXIT
+
+# rule NAME COMMAND...: it holds if the command says nothing and succeeds.
+rule() {
+    name=$1
+    shift
+    if "$@" >"$said" 2>&1 && [ ! -s "$said" ]; then
+        echo "ok $name"
+    else
+        echo "not ok $name"
+        sed 's/^/# /' "$said"
+    fi
+}
+# each COMMAND...: with one file name of stdin at a time, as many at once as there are cores
+each() {
+    xargs -P "$(nproc)" -n 1 "$@"
+}
+none() {
+    ! "$@"
+}
+
+sources() {
+    # shellcheck disable=SC2086,SC2090 # lists of flags
+    git ls-files 'src/*.c' 'render/*.c' 'farm/*.c' | each "$@" $flags $warnings $version -fsyntax-only
+}
+rule "gcc warns of nothing" sources gcc -fopenmp
+rule "clang warns of nothing" sources clang -Wno-unknown-pragmas
+
+headers() {
+    git ls-files 'src/*.h' 'render/*.h' 'farm/*.h' | FLAGS="$flags $warnings" each sh -c \
+        'printf "#include \"%s\"\n" "$1" | gcc $FLAGS -fsyntax-only -x c - || echo "of $1"' -
+}
+rule "every header stands alone" headers
+
+layout() {
+    git ls-files '*.c' '*.h' '*_shim.cpp' '*.hpp' | xargs -P "$(nproc)" -n 40 clang-format --dry-run --Werror
+}
+rule "the layout is that of .clang-format (make format)" layout
+
+rule "no Vulkan outside src/gpu" none git grep -nE '\bVk[A-Z]|\bvk[A-Z]' -- 'src/*.c' 'src/*.h' 'render' ':!src/gpu'
+rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*.h'
+
+# A folder may include those of lower rank, and itself.
 rank() {
     case $1 in
     base) echo 0 ;; gpu | job | mesh) echo 1 ;; particles | stacks) echo 2 ;;
@@ -35,14 +58,18 @@ rank() {
     frame) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; cli) echo 9 ;; *) echo 10 ;;
     esac
 }
-for f in $(git ls-files 'src/*/*.c' 'src/*/*.h' 'src/*/*_shim.cpp' 'farm/*.c' 'farm/*.h' 'render/*.c' 'render/*.h'); do
-    own=$(basename "$(dirname "$f")")
-    for other in $(sed -n 's|^#include "\([a-z]*\)/.*|\1|p' "$f" | sort -u); do
-        case $other in "$own" | shared) continue ;; esac
-        [ "$(rank "$other")" -lt "$(rank "$own")" ] || echo "$f includes $other/"
+includes() {
+    for f in $(git ls-files 'src/*/*.c' 'src/*/*.h' 'src/*/*_shim.cpp' 'farm/*.c' 'farm/*.h' 'render/*.c' 'render/*.h'); do
+        own=$(basename "$(dirname "$f")")
+        for other in $(sed -n 's|^#include "\([a-z]*\)/.*|\1|p' "$f" | sort -u); do
+            case $other in "$own" | shared) continue ;; esac
+            [ "$(rank "$other")" -lt "$(rank "$own")" ] || echo "$f includes $other/"
+        done
     done
-done >build/lint-includes
-[ -s build/lint-includes ] && cat build/lint-includes && say "includes that do not point down"
-for f in $(git ls-files '*.sh'); do sh -n "$f" || say "$f"; done
-[ $bad = 0 ] && echo "lint: nothing to say"
-exit $bad
+}
+rule "includes point down" includes
+
+scripts() {
+    git ls-files '*.sh' | each sh -n
+}
+rule "shell scripts parse" scripts

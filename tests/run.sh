@@ -1,8 +1,9 @@
 #!/bin/sh
-# run.sh BUILD FOLDER...: runs tests/FOLDER's programs (test_*.c, built) and scripts (*.sh, *.py), each of which prints
-# TAP lines ("ok ...", "not ok ..."), and ends with "N passed, N failed". A program that dies without saying "not ok"
-# counts as one failure. As many run side by side as there are cores; peers one by one, for they are systems of their
-# own.
+# run.sh BUILD FOLDER|PROGRAM...: runs tests/FOLDER's programs (test_*.c, built) and scripts (*.sh, *.py), or the one
+# named, as unit/test_job or cli/aov.py. Each prints TAP lines ("ok ...", "not ok ...", either with "# skip ..."); the last
+# line here is "N passed, N failed". What is skipped counts as neither; the names of those that skipped something go to
+# BUILD/skipped, for root may be able to run them. A program that dies without saying "not ok" counts as one failure. As
+# many run side by side as there are cores; peers one by one, for they are systems of their own.
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -15,16 +16,17 @@ if [ "$1" = --one ]; then
     start=$(date +%s)
     $run >"$log" 2>&1
     code=$?
-    ok=$(grep -c '^ok ' "$log")
-    bad=$(grep -c '^not ok ' "$log")
+    skipped=$(grep -ciE '^(not )?ok .*# ?skip' "$log")
+    ok=$(grep -iE '^ok ' "$log" | grep -civE '# ?skip')
+    bad=$(grep -E '^not ok ' "$log" | grep -civE '# ?skip')
     [ $code -ne 0 ] && [ "$bad" = 0 ] && bad=1
-    [ $((ok + bad)) = 0 ] && bad=1
+    [ $((ok + bad + skipped)) = 0 ] && bad=1
     {
-        echo "$name: $ok passed, $bad failed ($(($(date +%s) - start)) s)"
-        [ "$bad" = 0 ] || sed 's/^/    /' "$log" | tail -n 60
+        echo "$name: $ok passed, $bad failed$([ "$skipped" = 0 ] || echo ", $skipped skipped") ($(($(date +%s) - start)) s)"
+        [ "$bad" = 0 ] || sed 's/^/    /' "$log" | tail -n 200
     } >"$log.said"
     cat "$log.said" # at once, so that the lines of two programs stay apart
-    echo "$ok $bad" >"$log.count"
+    echo "$ok $bad $skipped $name" >"$log.count"
     cd "$top" && rm -rf "${HOODOO_SCRATCH:?}/$name"
     exit 0
 fi
@@ -41,10 +43,20 @@ list() {
             case $t in *.d | *.o) continue ;; esac
             [ -f "$t" ] && printf '%s\0%s\0' "$t" "$folder/$(basename "$t")"
         done
+        for t in "$build/tests/$folder" "$top/tests/$folder"; do
+            [ -f "$t" ] && printf '%s\0%s\0' "$t" "$folder"
+        done
     done
 }
 at_once=$(nproc)
 [ "$*" = peers ] && at_once=1
-list "$@" | xargs -0 -n 2 -P "$at_once" sh "$top/tests/run.sh" --one
-find "$HOODOO_SCRATCH" -name '*.count' -exec cat {} + |
-    awk '{ passed += $1; failed += $2 } END { if (NR == 0) failed = 1; printf "%d passed, %d failed\n", passed, failed; exit failed > 0 }'
+list "$@" | xargs -0 -r -n 2 -P "$at_once" sh "$top/tests/run.sh" --one
+find "$HOODOO_SCRATCH" -name '*.count' -exec cat {} + >"$HOODOO_SCRATCH/counts"
+awk '$3 > 0 { print $4 }' "$HOODOO_SCRATCH/counts" >"$build/skipped"
+awk '{ passed += $1; failed += $2; skipped += $3 }
+    END {
+        if (NR == 0) failed = 1
+        if (skipped > 0) printf "%d skipped\n", skipped
+        printf "%d passed, %d failed\n", passed, failed
+        exit failed > 0
+    }' "$HOODOO_SCRATCH/counts"
