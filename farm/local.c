@@ -6,22 +6,17 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
-#include <unistd.h>
 
+#include "base/child.h"
+#include "base/clock.h"
 #include "base/memory.h"
-#include "farm/child.h"
 #include "farm/command.h"
 #include "gpu/gpu.h"
 
-enum { POLL_US = 10000, PAUSE_S = 1 };
+enum { PAUSE_S = 1 };
 
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
+/* How long a stop may go unnoticed where its signal came to another thread, and a pause may overrun. */
+static const double LOOK_S = 0.1;
 
 static int cores(void)
 {
@@ -106,7 +101,6 @@ struct task {
 };
 
 struct worker {
-    pid_t pid; /* 0: idle */
     size_t task;
     double since;
 };
@@ -116,6 +110,7 @@ struct local {
     const struct local_options *options;
     struct task *task;
     struct worker worker[LOCAL_WORKERS];
+    struct child child[LOCAL_WORKERS]; /* of each worker; none: it is idle */
     struct local_state state;
     bool stopping;
     int code; /* of the first task that failed */
@@ -148,9 +143,11 @@ static status start(struct local *l, size_t task, int k)
     bool cpu = strcmp(w->device, "cpu") == 0;
     const struct child_variable variables[] = {{"OMP_NUM_THREADS", threads},
                                                {cpu ? "LP_NUM_THREADS" : NULL, threads}};
-    TRY(child_start(command->argv, log, variables, 2, &l->worker[k].pid));
+    const struct child_options options = {
+        .argv = command->argv, .log = log, .variable = variables, .n_variables = 2, .at_our_end = SIGTERM};
+    TRY(child_start(&options, &l->child[k]));
     l->worker[k].task = task;
-    l->worker[k].since = seconds_now();
+    l->worker[k].since = clock_seconds();
     l->task[task].state = RUNNING;
     l->task[task].tries++;
     l->state.running++;
@@ -167,10 +164,9 @@ static void finish(struct local *l, int k, int how)
     struct worker *w = &l->worker[k];
     struct task *task = &l->task[w->task];
     const struct farm_task *t = &l->farm->graph.task[w->task];
-    double took = seconds_now() - w->since;
+    double took = clock_seconds() - w->since;
     char why[600] = "", log[FARM_PATH + 128];
     int code = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
-    w->pid = 0;
     l->state.running--;
     l->state.task[k] = NULL;
     if (code == 0) {
@@ -187,7 +183,7 @@ static void finish(struct local *l, int k, int how)
     }
     farm_log_path(l->farm, t, log);
     child_reason(how, log, why, sizeof why);
-    task->not_before = seconds_now() + PAUSE_S * task->tries;
+    task->not_before = clock_seconds() + PAUSE_S * task->tries;
     if (code == STOPPED) {
         task->tries--; /* someone stopped it alone: no failure */
         task->state = WAITING;
@@ -235,7 +231,7 @@ static status ready(struct local *l, size_t i, bool *yes)
             return OK;
         }
     }
-    *yes = seconds_now() >= task->not_before;
+    *yes = clock_seconds() >= task->not_before;
 done:
     return st;
 }
@@ -253,7 +249,7 @@ static status hand_out(struct local *l)
             TRY(ready(l, i, &yes));
             for (size_t k = 0; yes && k < l->options->n_workers; k++) {
                 const struct local_worker *w = &l->options->worker[k];
-                if (l->worker[k].pid == 0 && (sim ? w->sims : w->others)) {
+                if (l->child[k].pid == 0 && (sim ? w->sims : w->others)) {
                     TRY(start(l, i, (int)k));
                     break;
                 }
@@ -267,21 +263,18 @@ static void stop_all(struct local *l)
 {
     l->stopping = true;
     for (size_t k = 0; k < l->options->n_workers; k++)
-        if (l->worker[k].pid)
-            kill(l->worker[k].pid, SIGTERM);
+        if (l->child[k].pid)
+            kill(l->child[k].pid, SIGTERM);
 }
 
-/* Takes in what has ended; true if anything has. */
-static bool reap(struct local *l)
+/* Takes in what has ended or ends within `seconds`; true if anything has. */
+static bool reap(struct local *l, double seconds)
 {
+    const size_t n = l->options->n_workers;
     bool any = false;
-    for (size_t k = 0; k < l->options->n_workers; k++) {
-        int how;
-        if (l->worker[k].pid && waitpid(l->worker[k].pid, &how, WNOHANG) == l->worker[k].pid) {
-            finish(l, (int)k, how);
-            any = true;
-        }
-    }
+    int how = 0;
+    for (size_t k; (k = child_wait(l->child, n, any ? 0 : seconds, &how)) < n; any = true)
+        finish(l, (int)k, how);
     return any;
 }
 
@@ -309,10 +302,10 @@ status local_run(const struct farm *f, const struct local_options *options)
 {
     status st = OK;
     struct local l = {.farm = f, .options = options, .state = {.total = f->graph.n}};
-    double ticked = 0;
+    double ticked = 0, wait = 0;
     TRY(memory_alloc(f->graph.n, sizeof *l.task, "the tasks", &l.task));
     for (;;) {
-        bool any = reap(&l);
+        bool any = reap(&l, wait);
         if (!l.stopping && options->stop && options->stop())
             stop_all(&l);
         if (!l.stopping && st == OK && (st = hand_out(&l)) != OK)
@@ -320,12 +313,11 @@ status local_run(const struct farm *f, const struct local_options *options)
         size_t over = l.state.done + l.state.failed + l.state.left_out;
         if (l.state.running == 0 && (l.stopping || over == l.state.total))
             break;
-        if (options->tick && (any || seconds_now() - ticked > 1)) {
+        if (options->tick && (any || clock_seconds() - ticked > 1)) {
             options->tick(options->user, &l.state);
-            ticked = seconds_now();
+            ticked = clock_seconds();
         }
-        if (!any)
-            usleep(POLL_US);
+        wait = LOOK_S;
     }
     if (options->tick)
         options->tick(options->user, &l.state);

@@ -7,10 +7,10 @@
 #include <sys/stat.h>
 
 #include "base/atomic_file.h"
+#include "base/child.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/version.h"
-#include "farm/child.h"
 #include "farm/command.h"
 #include "farm/slurm_jobs.h"
 
@@ -256,7 +256,7 @@ static status call_sbatch(const struct words *w, const char *name, char id[SLURM
     struct text answer = {0};
     char said[512];
     int code = 0;
-    TRY(child_ask(w->argv, &answer, said, &code));
+    TRY(child_ask(w->argv, SLURM_ANSWER_S, &answer, said, &code));
     size_t n = answer.data ? strspn(answer.data, "0123456789") : 0;
     if (code == 127)
         st = fail(E_INPUT, "sbatch is not installed here; submit from a machine of the cluster");

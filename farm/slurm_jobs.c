@@ -6,9 +6,9 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/child.h"
 #include "base/json.h"
 #include "base/memory.h"
-#include "farm/child.h"
 
 enum { FILE_MAX = 64 << 20 };
 
@@ -74,7 +74,7 @@ static status ask_squeue(struct slurm_job **out, size_t *n)
     size_t capacity = 0;
     *out = NULL;
     *n = 0;
-    TRY(child_ask(argv, &answer, said, &code));
+    TRY(child_ask(argv, SLURM_ANSWER_S, &answer, said, &code));
     if (code != 0) {
         st = fail(E_INPUT, code == 127 ? "squeue is not installed here%.0s" : "squeue: %s", said);
         goto done;

@@ -4,6 +4,9 @@
 
 #include "farm/farm.h"
 
+/* s: a busy controller answers late, one that hangs never. */
+enum { SLURM_ANSWER_S = 600 };
+
 enum { SLURM_ID = 64 };
 
 /* A job as squeue shows it. */

@@ -10,11 +10,14 @@
 
 #include <stdbool.h>
 
+#include "base/child.h"
 #include "base/progress.h"
 #include "base/ranges.h"
 #include "job/job.h"
-#include "render/child.h"
 #include "render/povray.h"
+
+/* Where what this and the turntable run comes from. */
+#define PICTURE_PACKAGES "povray, ffmpeg and openimageio-tools"
 
 /* What is asked for. */
 struct preview {

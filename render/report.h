@@ -7,10 +7,10 @@
 #ifndef HOODOO_REPORT_H
 #define HOODOO_REPORT_H
 
+#include "base/child.h"
 #include "base/json.h"
 #include "job/job.h"
 #include "output/folder.h"
-#include "render/child.h"
 
 struct report_frame {
     struct manifest manifest;

@@ -229,7 +229,8 @@ status report_pictures(struct report *r)
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     snprintf(path, sizeof path, "%.4096s/log", r->root);
     TRY(folder_make(path));
-    children_begin(&children, r->root, "log/report.log", cores > 0 ? (int)cores : 1);
+    children_begin(&children, r->root, "log/report.log", "ffmpeg and openimageio-tools",
+                   cores > 0 ? (int)cores : 1);
     st = copy_video(r);
     if (st == OK)
         st = make_views(r, &children);

@@ -163,7 +163,7 @@ static status wedges(struct preview *p)
     p->job = base;
     signals_install();
     TRY(make_folder(p->root, "log"));
-    children_begin(&p->children, p->root, "log/preview.log", 1);
+    children_begin(&p->children, p->root, "log/preview.log", PICTURE_PACKAGES, 1);
     TRY(turntable_wedges(p, all, n));
 done:
     children_end(&p->children);
@@ -245,7 +245,7 @@ status cli_preview(int argc, char **argv)
     signals_install();
     progress_begin_notes(&progress, (enum progress_style)w.common.progress);
     p.progress = &progress;
-    children_begin(&p.children, p.root, "log/preview.log", w.jobs);
+    children_begin(&p.children, p.root, "log/preview.log", PICTURE_PACKAGES, w.jobs);
     if (w.range && strcmp(w.range, "data") == 0)
         TRY(picture_data_range(&p, w.turntable ? frames + n - 1 : frames, w.turntable ? 1 : n, &p.range));
     TRY(w.turntable ? turntable(&p, &w, frames, n) : stills(&p, frames, n, w.only));

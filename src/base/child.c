@@ -1,0 +1,172 @@
+#include "base/child.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/pidfd.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/memory.h"
+#include "base/signals.h"
+
+enum { BLIND_MS = 10, HIGH = 64 };
+
+/* ---- start */
+
+/* Puts descriptors in their places; each is moved out of the others' way first. False if that fails. */
+static bool place_descriptors(const struct child_options *o)
+{
+    int in = open("/dev/null", O_RDWR | O_CLOEXEC);
+    int log = o->log ? open(o->log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666) : in;
+    int to[3] = {in, o->out > 0 ? o->out : log, o->err > 0 ? o->err : log};
+    const int n = 3 + (int)o->n_pass;
+    for (int i = 0; i < n; i++)
+        if (fcntl(i < 3 ? to[i] : o->pass[i - 3], F_DUPFD_CLOEXEC, HIGH + i) != HIGH + i)
+            return false;
+    for (int i = 0; i < n; i++)
+        if (dup2(HIGH + i, i) < 0)
+            return false;
+    close_range((unsigned)n, ~0U,
+                CLOSE_RANGE_CLOEXEC); /* what a library has opened without asking for that */
+    return true;
+}
+
+/* In the child, which shares our memory until it has become another program: it changes none of it. */
+static _Noreturn void become(const struct child_options *o, char *const *environment, pid_t parent)
+{
+    sigset_t none;
+    signals_reset();
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+    setpgid(0, 0);
+    prctl(PR_SET_PDEATHSIG, o->at_our_end ? o->at_our_end : SIGKILL);
+    if (getppid() != parent)
+        _exit(CHILD_NOT_SET_UP);
+    if ((o->folder && chdir(o->folder) != 0) || !place_descriptors(o))
+        _exit(CHILD_NOT_SET_UP);
+    execvpe(o->argv[0], (char *const *)o->argv, environment);
+    _exit(CHILD_NO_PROGRAM);
+}
+
+/* A function of its own: none of its caller's variables may change between the two returns. No handler of ours may run in
+ * the child before it has its own. */
+static __attribute__((noinline)) pid_t launch(const struct child_options *o, char *const *environment)
+{
+    sigset_t all, before;
+    const pid_t parent = getpid();
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    pid_t pid = vfork();
+    if (pid == 0)
+        become(o, environment, parent);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return pid;
+}
+
+/* Our environment and the variables that it lacks, as "NAME=value" behind the array. */
+static status make_environment(const struct child_options *o, char ***out)
+{
+    size_t n = 0, bytes = 0;
+    while (environ[n])
+        n++;
+    for (size_t i = 0; i < o->n_variables; i++)
+        if (o->variable[i].name)
+            bytes += strlen(o->variable[i].name) + strlen(o->variable[i].value) + 2;
+    char **made = NULL;
+    status st = memory_alloc((n + o->n_variables + 1) * sizeof *made + bytes, 1, "an environment", &made);
+    if (st != OK)
+        return st;
+    char *at = (char *)(made + n + o->n_variables + 1);
+    memcpy(made, environ, n * sizeof *made);
+    for (size_t i = 0; i < o->n_variables; i++) {
+        const struct child_variable *v = &o->variable[i];
+        if (v->name && !getenv(v->name)) {
+            made[n++] = at;
+            at += sprintf(at, "%s=%s", v->name, v->value) + 1;
+        }
+    }
+    made[n] = NULL;
+    *out = made;
+    return OK;
+}
+
+status child_start(const struct child_options *o, struct child *out)
+{
+    char **environment = NULL;
+    status st = make_environment(o, &environment);
+    if (st != OK)
+        return st;
+    fflush(NULL); /* what we have said stands before what it says */
+    pid_t pid = launch(o, environment);
+    int error = errno;
+    free(environment);
+    if (pid < 0)
+        return fail(E_MEMORY, "%s: no new process: %s", o->argv[0], strerror(error));
+    *out = (struct child){.pid = pid, .fd = pidfd_open(pid, 0)};
+    return OK;
+}
+
+/* ---- end */
+
+static void forget(struct child *child)
+{
+    if (child->fd >= 0)
+        close(child->fd);
+    *child = (struct child){0};
+}
+
+static size_t reap(struct child *child, size_t n, int *how)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (!child[i].pid)
+            continue;
+        pid_t pid = waitpid(child[i].pid, how, WNOHANG);
+        if (pid == 0 || (pid < 0 && errno == EINTR))
+            continue;
+        if (pid < 0) /* someone else has reaped it: whatever it did, nobody knows */
+            *how = CHILD_NOT_SET_UP << 8;
+        forget(&child[i]);
+        return i;
+    }
+    return n;
+}
+
+size_t child_wait(struct child *child, size_t n, double seconds, int *how)
+{
+    struct pollfd wait[CHILDREN_MAX];
+    const double until = clock_seconds() + seconds;
+    for (;;) {
+        size_t ended = reap(child, n, how), k = 0;
+        double left = until - clock_seconds();
+        bool blind = n > CHILDREN_MAX;
+        if (ended < n || (seconds >= 0 && left <= 0))
+            return ended;
+        for (size_t i = 0; i < n && !blind; i++)
+            if (child[i].pid) {
+                blind = child[i].fd < 0;
+                wait[k++] = (struct pollfd){.fd = child[i].fd, .events = POLLIN};
+            }
+        int ms = seconds < 0 || left > 1e6 ? -1 : (int)(left * 1000) + 1;
+        if (blind && (ms < 0 || ms > BLIND_MS))
+            ms = BLIND_MS;
+        if (poll(wait, blind ? 0 : (nfds_t)k, ms) < 0)
+            return reap(child, n, how);
+    }
+}
+
+void child_kill(struct child *child)
+{
+    if (!child->pid)
+        return;
+    kill(child->pid, SIGKILL);
+    while (waitpid(child->pid, NULL, 0) < 0 && errno == EINTR)
+        ;
+    forget(child);
+}
