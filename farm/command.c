@@ -1,97 +1,80 @@
 #include "farm/command.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-static void add(struct farm_command *c, const char *word)
+/* The value that {name} stands for. */
+static const char *value_named(const struct command_values *v, const char *name, size_t length)
 {
-    c->argv[c->n++] = word;
-    c->argv[c->n] = NULL;
+#define COMMAND_LOOK(member)                                                                                 \
+    if (length == sizeof #member - 1 && memcmp(name, #member, length) == 0)                                  \
+        return v->member;
+    COMMAND_VALUES(COMMAND_LOOK)
+#undef COMMAND_LOOK
+    return NULL;
 }
 
-static void add_made(struct farm_command *c, const char *format, ...) PRINTF_LIKE(2, 3);
-static void add_made(struct farm_command *c, const char *format, ...)
+/* One word of `length` bytes with its value put in, behind what is in c->text; false if it does not fit. */
+static bool add_word(struct farm_command *c, size_t *used, const char *word, size_t length,
+                     const struct command_values *values)
 {
-    va_list args;
-    va_start(args, format);
-    vsnprintf(c->word[c->n_words], sizeof c->word[0], format, args);
-    va_end(args);
-    add(c, c->word[c->n_words++]);
-}
-
-void farm_command(const struct farm *f, const struct farm_task *t, const char *device, struct farm_command *c)
-{
-    char root[FARM_PATH + 16], frames[48];
-    c->n = c->n_words = 0;
-    farm_root(f, t->wedge, root);
-    range_text(t->frames, frames);
-    add(c, f->hoodoo);
-    switch (t->kind) {
-    case FARM_SIM:
-        add(c, "run");
-        add_made(c, "%s/farm/job.yaml", f->root);
-        if (t->wedge)
-            add_made(c, "--wedge=%d", t->wedge);
-        add(c, "--out");
-        add_made(c, "%s", root);
-        add_made(c, "--frames=%s", frames);
-        add(c, "--progress=plain");
-        if (device)
-            add_made(c, "--device=%.200s", device);
-        break;
-    case FARM_MESH:
-        add(c, "mesh");
-        add_made(c, "%s", root);
-        add_made(c, "--frames=%s", frames);
-        add(c, "--missing");
-        break;
-    case FARM_AOV:
-        add(c, "aov");
-        add_made(c, "%s", root);
-        add_made(c, "--frames=%s", frames);
-        add(c, "--missing");
-        if (device)
-            add_made(c, "--device=%.200s", device);
-        break;
-    case FARM_STILL:
-        add(c, "preview");
-        add_made(c, "%s", root);
-        add_made(c, "--frames=%s", frames);
-        add(c, "--only=stills");
-        break;
-    case FARM_SHEET:
-        add(c, "preview");
-        add_made(c, "%s", root);
-        add(c, "--only=sheet");
-        break;
-    case FARM_SHOW:
-        add(c, "preview");
-        add_made(c, "%s", root);
-        add_made(c, "--frames=%s", frames);
-        add(c, "--only=stills");
-        add_made(c, "--show=%s", t->show);
-        break;
-    case FARM_VIEW:
-        add(c, "preview");
-        add_made(c, "%s", root);
-        add(c, "--only=views");
-        add_made(c, "--views=%d", (int)farm_job(f, t)->farm.turntable);
-        add_made(c, "--view=%s", range_text(t->views, frames));
-        break;
-    case FARM_TURNTABLE:
-        add(c, "preview");
-        add_made(c, "%s", root);
-        add(c, "--only=video");
-        add_made(c, "--views=%d", (int)farm_job(f, t)->farm.turntable);
-        break;
-    case FARM_WEDGES:
-    case FARM_KINDS:
-        add(c, "preview");
-        add_made(c, "%s", root);
-        add(c, "--only=wedges");
-        break;
+    const size_t room = sizeof c->text - *used;
+    const char *open = memchr(word, '{', length),
+               *close = open ? memchr(open, '}', length - (size_t)(open - word)) : NULL;
+    const char *value = "";
+    int written;
+    if (close) {
+        value = value_named(values, open + 1, (size_t)(close - open) - 1);
+        if (!value)
+            return true;
+        written = snprintf(c->text + *used, room, "%.*s%s%.*s", (int)(open - word), word, value,
+                           (int)(word + length - close - 1), close + 1);
+    } else {
+        written = snprintf(c->text + *used, room, "%.*s", (int)length, word);
     }
+    if (written < 0 || (size_t)written >= room || c->n + 1 >= sizeof c->argv / sizeof *c->argv)
+        return false;
+    c->argv[c->n++] = c->text + *used;
+    *used += (size_t)written + 1;
+    return true;
+}
+
+status command_fill(const char *hoodoo, enum farm_kind kind, const struct command_values *values,
+                    struct farm_command *c)
+{
+    size_t used = 0;
+    c->n = 0;
+    c->argv[c->n++] = hoodoo;
+    for (const char *word = farm_kinds[kind].command; *word;) {
+        const size_t length = strcspn(word, " ");
+        if (!add_word(c, &used, word, length, values))
+            return fail(E_USAGE, "the command of a task (%s) is longer than %zu bytes", farm_kinds[kind].name,
+                        sizeof c->text);
+        word += length + (word[length] == ' ');
+    }
+    c->argv[c->n] = NULL;
+    return OK;
+}
+
+status farm_command(const struct farm *f, const struct farm_task *t, const char *device, int jobs,
+                    struct farm_command *c)
+{
+    char job[FARM_PATH + 32], wedge[16], frames[48], view[48], views[16], side[16];
+    snprintf(job, sizeof job, "%s/farm/job.yaml", f->root);
+    snprintf(wedge, sizeof wedge, "%d", t->wedge);
+    snprintf(views, sizeof views, "%d", (int)farm_job(f, t)->farm.turntable);
+    snprintf(side, sizeof side, "%d", jobs);
+    const struct command_values values = {.job = job,
+                                          .out = f->root,
+                                          .wedge = t->wedge ? wedge : NULL,
+                                          .frames = range_text(t->frames, frames),
+                                          .views = views,
+                                          .view = range_text(t->views, view),
+                                          .value = t->show,
+                                          .device = device,
+                                          .jobs = jobs ? side : NULL,
+                                          .progress = "plain"};
+    return command_fill(f->hoodoo, t->kind, &values, c);
 }
 
 void farm_quote(struct text *out, const char *word)

@@ -54,7 +54,7 @@ void farm_describe(const struct farm *f, bool words, struct text *out)
             continue;
         json_object(out, NULL);
         json_text(out, "name", t->name);
-        json_text(out, "kind", graph_kind(t->kind));
+        json_text(out, "kind", farm_kinds[t->kind].stage);
         if (!words)
             json_integer(out, "wedge", t->wedge);
         json_text(out, "frames", range_text(t->frames, frames));

@@ -1,40 +1,14 @@
 #include "farm/graph.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 
-/* Seconds of one core, measured on jobs/demo.yaml's frames; they only tell a minute from an hour. */
-static const double MESH_S = 0.2, AOV_S = 1, MESH_PARTICLE_S = 4e-6, STILL_S = 1.5, STILL_PARTICLE_S = 2e-6,
-                    VIEW_S = 1.5, VIEW_PARTICLE_S = 1e-6, VIDEO_S = 0.1, SHEET_S = 0.1;
-/* Bytes of a mesh for each particle of the surface, PLY and OBJ; of a picture. */
-enum {
-    MESH_BYTES = 220,
-    AOV_BYTES = 4000000,
-    STILL_BYTES = 400000,
-    VIEW_BYTES = 200000,
-    VIDEO_BYTES = 60000
-};
-
-const char *graph_kind(enum farm_kind kind)
-{
-    static const char *const names[FARM_KINDS] = {"sim",     "derive", "derive", "preview", "preview",
-                                                  "preview", "finish", "finish", "finish"};
-    return names[kind];
-}
-
 bool graph_has_volumes(const struct job *job, int frame)
 {
     return job_writes(job, JOB_VOLUMES, frame);
-}
-
-/* Pictures out of files need both. */
-static bool has_points(const struct job *job, int frame)
-{
-    return job_writes(job, JOB_VOLUMES, frame) && job_writes(job, JOB_POINTS, frame);
 }
 
 bool graph_has_still(const struct job *job, int frame)
@@ -44,35 +18,65 @@ bool graph_has_still(const struct job *job, int frame)
     return (frame - job->frames.first) % job->farm.still_every == 0 || frame == job->frames.last;
 }
 
-bool graph_needs_device(enum farm_kind kind)
-{
-    return kind == FARM_SIM || kind == FARM_AOV;
-}
-
 /* ---- building */
 
-static status add_task(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind,
-                       struct frame_range frames, struct farm_task **out)
+/* "w0001.show.von-mises.1001-1010": '_' is none of a name's letters. */
+static void name_task(struct farm_task *t)
 {
-    static const char *const names[FARM_KINDS] = {"sim",   "mesh",  "aov",       "still", "show",
-                                                  "views", "sheet", "turntable", "wedges"};
-    char wedge[16] = "", range[48];
+    const bool views = farm_kinds[t->kind].cut == CUT_VIEWS;
+    char wedge[16] = "", value[20] = "", range[50] = "", text[48], *under;
+    if (t->wedge)
+        snprintf(wedge, sizeof wedge, "w%04d.", t->wedge);
+    if (t->show)
+        snprintf(value, sizeof value, ".%.15s", t->show);
+    while ((under = strchr(value, '_')))
+        *under = '-';
+    if (farm_kind_is_cut(t->kind))
+        snprintf(range, sizeof range, ".%s", range_text(views ? t->views : t->frames, text));
+    snprintf(t->name, sizeof t->name, "%s%s%s%.*s", wedge, farm_kinds[t->kind].name, value, 40, range);
+}
+
+static double particles_of_surface(double particles)
+{
+    double side = 1;
+    while (side * side * side < particles)
+        side *= 1.02;
+    return 6 * side * side;
+}
+
+static void estimate_task(struct farm_task *t, const struct farm_wedge *w)
+{
+    const struct farm_kind_info *kind = &farm_kinds[t->kind];
+    const double particles = (double)w->estimate.n_particles;
+    const double n = (double)(kind->items ? kind->items(w->job, t) : range_count(t->frames));
+    t->host_bytes = w->estimate.host_bytes;
+    if (kind->device)
+        t->device_bytes = w->estimate.device_bytes;
+    if (kind->cut != CUT_BLOCKS) {
+        t->seconds = n * (kind->seconds + kind->particle_seconds * particles);
+        t->disk_bytes = (uint64_t)(n * (kind->bytes + kind->surface_bytes * particles_of_surface(particles)));
+        return;
+    }
+    t->seconds = n * w->frame_seconds;
+    t->disk_bytes = disk_frames_bytes(w->job, &w->estimate.disk, t->frames, NULL);
+    if (t->frames.first == w->job->frames.first)
+        t->disk_bytes += w->estimate.checkpoint_bytes * (uint64_t)w->job->checkpoint.keep;
+}
+
+/* Adds `task`, named and, but for tasks of all wedges (w is NULL), estimated. */
+static status add_task(struct farm_graph *g, const struct farm_wedge *w, const struct farm_task *task)
+{
     status st = memory_grow(&g->task, &g->capacity, g->n + 1, sizeof *g->task, "the tasks");
     if (st != OK)
         return st;
     struct farm_task *t = &g->task[g->n++];
-    *t = (struct farm_task){.kind = kind, .frames = frames, .after = g->n_after};
+    *t = *task;
+    t->after = g->n_after;
     if (w) {
         t->wedge = (int)w->job->wedge.index;
-        t->host_bytes = w->estimate.host_bytes;
+        estimate_task(t, w);
     }
-    if (t->wedge)
-        snprintf(wedge, sizeof wedge, "w%04d.", t->wedge);
-    if (kind < FARM_SHEET)
-        snprintf(t->name, sizeof t->name, "%s%s.%s", wedge, names[kind], range_text(frames, range));
-    else
-        snprintf(t->name, sizeof t->name, "%s%s", wedge, names[kind]);
-    *out = t;
+    name_task(t);
     return OK;
 }
 
@@ -87,64 +91,13 @@ static status add_after(struct farm_graph *g, size_t task)
     return OK;
 }
 
-static double bytes_of_meshes(const struct farm_wedge *w)
-{
-    double side = 1, n = (double)w->estimate.n_particles;
-    while (side * side * side < n)
-        side *= 1.02;
-    return 6 * side * side * MESH_BYTES;
-}
-
-static void estimate_task(struct farm_task *t, const struct farm_wedge *w, bool first_block)
-{
-    double n = (double)range_count(t->frames), particles = (double)w->estimate.n_particles;
-    switch (t->kind) {
-    case FARM_SIM:
-        t->seconds = n * w->frame_seconds;
-        t->device_bytes = w->estimate.device_bytes;
-        t->disk_bytes = disk_frames_bytes(w->job, &w->estimate.disk, t->frames, NULL);
-        if (first_block)
-            t->disk_bytes += w->estimate.checkpoint_bytes * (uint64_t)w->job->checkpoint.keep;
-        break;
-    case FARM_MESH:
-        t->seconds = n * (MESH_S + MESH_PARTICLE_S * particles);
-        t->disk_bytes = (uint64_t)(n * bytes_of_meshes(w));
-        break;
-    case FARM_AOV:
-        t->seconds = n * (double)w->job->farm.n_cameras * (AOV_S + MESH_PARTICLE_S * particles);
-        t->device_bytes = w->estimate.device_bytes;
-        t->disk_bytes = (uint64_t)n * w->job->farm.n_cameras * AOV_BYTES;
-        break;
-    case FARM_STILL:
-    case FARM_SHOW:
-        t->seconds = n * (STILL_S + STILL_PARTICLE_S * particles);
-        t->disk_bytes = (uint64_t)n * STILL_BYTES;
-        break;
-    case FARM_VIEW:
-        n = (double)range_count(t->views);
-        t->seconds = n * (VIEW_S + VIEW_PARTICLE_S * particles);
-        t->disk_bytes = (uint64_t)n * VIEW_BYTES;
-        break;
-    case FARM_TURNTABLE:
-        t->seconds = (double)w->job->farm.turntable * VIDEO_S;
-        t->disk_bytes = (uint64_t)w->job->farm.turntable * VIDEO_BYTES;
-        break;
-    case FARM_SHEET:
-    case FARM_WEDGES:
-    case FARM_KINDS:
-        t->seconds = n * SHEET_S;
-        t->disk_bytes = (uint64_t)n * STILL_BYTES;
-        break;
-    }
-}
-
-/* The next run of frames in `block`, from *frame on, that are wanted and evenly apart: a task's worth. */
-static bool next_chunk(const struct job *job, bool (*wanted)(const struct job *, int),
+/* The next run of frames in `block`, from *frame on, that are taken and evenly apart: a task's worth. */
+static bool next_chunk(const struct job *job, bool (*takes)(const struct job *, int),
                        struct frame_range block, int *frame, struct frame_range *out)
 {
     int64_t n = 0;
     for (; *frame <= block.last; *frame += block.step) {
-        if (!wanted(job, *frame))
+        if (!takes(job, *frame))
             continue;
         if (n == 0)
             *out = (struct frame_range){*frame, *frame, 1};
@@ -157,117 +110,119 @@ static bool next_chunk(const struct job *job, bool (*wanted)(const struct job *,
     return n > 0;
 }
 
-/* "show.1001-1010" to "show.von-mises.1001-1010": '_' is none of a name's letters. */
-static void name_after(struct farm_task *t, const char *show)
-{
-    char value[48], *under;
-    const char *range = strrchr(t->name, '.');
-    snprintf(value, sizeof value, ".%.15s%.30s", show, range);
-    while ((under = strchr(value, '_')))
-        *under = '-';
-    snprintf(t->name + (range - t->name), 48, "%s", value);
-    t->show = show;
-}
-
+/* What is derived from the frames of a block, the task `sim`. */
 static status add_chunks(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind,
-                         const char *show, struct frame_range block, size_t sim)
+                         const char *show, size_t sim)
 {
     status st = OK;
-    struct farm_task *t;
+    const struct frame_range block = g->task[sim].frames;
     struct frame_range chunk;
-    bool still = kind == FARM_STILL || kind == FARM_SHOW;
-    bool (*wanted)(const struct job *, int) = still              ? graph_has_still
-                                              : kind == FARM_AOV ? has_points
-                                                                 : graph_has_volumes;
-    for (int frame = block.first; next_chunk(w->job, wanted, block, &frame, &chunk);) {
-        TRY(add_task(g, w, kind, chunk, &t));
-        if (show)
-            name_after(t, show);
-        estimate_task(t, w, false);
+    for (int frame = block.first; next_chunk(w->job, farm_kinds[kind].takes, block, &frame, &chunk);) {
+        TRY(add_task(g, w, &(struct farm_task){.kind = kind, .frames = chunk, .show = show}));
         TRY(add_after(g, sim));
     }
 done:
     return st;
 }
 
-/* The views of the last frame's turntable, in tasks as large as those of stills. */
-static status add_views(struct farm_graph *g, const struct farm_wedge *w, size_t last_sim)
+/* The blocks of a wedge, each with what is derived from it; *last is the last of them. */
+static status add_blocks(struct farm_graph *g, const struct farm_wedge *w, size_t *last)
 {
     status st = OK;
-    struct farm_task *t;
-    const int views = (int)w->job->farm.turntable, chunk = (int)w->job->farm.chunk_frames;
-    const int frame = w->job->frames.last;
-    for (int at = 0; at < views; at += chunk) {
-        struct frame_range which = {at, views - at > chunk ? at + chunk - 1 : views - 1, 1};
-        char range[48];
-        TRY(add_task(g, w, FARM_VIEW, (struct frame_range){frame, frame, 1}, &t));
-        t->views = which;
-        /* Called after the views: the frame is always the last. */
-        snprintf(strrchr(t->name, '.') + 1, 48, "%s", range_text(which, range));
-        estimate_task(t, w, false);
-        TRY(add_after(g, last_sim));
-    }
-done:
-    return st;
-}
-
-static status add_finish(struct farm_graph *g, const struct farm_wedge *w, size_t first, size_t last_sim,
-                         size_t *sheet)
-{
-    status st = OK;
-    struct farm_task *t;
-    *sheet = SIZE_MAX;
-    if (w->job->farm.still_every) {
-        *sheet = g->n;
-        TRY(add_task(g, w, FARM_SHEET, w->job->frames, &t));
-        estimate_task(t, w, false);
-        for (size_t i = first; i < *sheet; i++)
-            if (g->task[i].kind == FARM_STILL)
-                TRY(add_after(g, i));
-    }
-    if (w->job->farm.turntable) {
-        int last = w->job->frames.last;
-        size_t first_view = g->n;
-        TRY(add_views(g, w, last_sim));
-        size_t end_views = g->n;
-        TRY(add_task(g, w, FARM_TURNTABLE, (struct frame_range){last, last, 1}, &t));
-        estimate_task(t, w, false);
-        for (size_t i = first_view; i < end_views; i++)
-            TRY(add_after(g, i));
-        /* It makes a sheet of its own where there is none. */
-        if (*sheet != SIZE_MAX)
-            TRY(add_after(g, *sheet));
-    }
-done:
-    return st;
-}
-
-static status add_wedge(struct farm_graph *g, const struct farm_wedge *w, size_t *sheet)
-{
-    status st = OK;
-    const struct frame_range all = w->job->frames;
-    const int64_t size = w->job->farm.block_frames;
-    const size_t first = g->n;
+    const struct job *job = w->job;
+    const struct frame_range all = job->frames;
+    const int64_t stride = job->farm.block_frames * all.step;
     size_t sim = SIZE_MAX;
-    struct farm_task *t;
-    for (int64_t at = all.first; at <= all.last; at += size * all.step) {
-        int64_t last = at + (size - 1) * all.step;
-        struct frame_range block = {(int)at, last >= all.last ? all.last : (int)last, all.step};
-        size_t before = sim;
+    for (int64_t at = all.first; at <= all.last; at += stride) {
+        const int64_t end = at + stride - all.step;
+        const struct frame_range block = {(int)at, end >= all.last ? all.last : (int)end, all.step};
+        const size_t before = sim;
         sim = g->n;
-        TRY(add_task(g, w, FARM_SIM, block, &t));
-        estimate_task(t, w, before == SIZE_MAX);
+        TRY(add_task(g, w, &(struct farm_task){.kind = FARM_SIM, .frames = block}));
         if (before != SIZE_MAX)
             TRY(add_after(g, before));
-        if (w->job->farm.meshes)
-            TRY(add_chunks(g, w, FARM_MESH, NULL, block, sim));
-        if (w->job->farm.n_cameras)
-            TRY(add_chunks(g, w, FARM_AOV, NULL, block, sim));
-        TRY(add_chunks(g, w, FARM_STILL, NULL, block, sim));
-        for (size_t i = 0; i < w->job->farm.n_show; i++)
-            TRY(add_chunks(g, w, FARM_SHOW, w->job->farm.show[i], block, sim));
+        for (int k = 0; k < FARM_KINDS; k++) {
+            const struct farm_kind_info *kind = &farm_kinds[k];
+            const size_t n = kind->wanted ? kind->wanted(job) : 1;
+            for (size_t i = 0; i < n && (kind->cut == CUT_CHUNKS || kind->cut == CUT_LIST); i++)
+                TRY(add_chunks(g, w, (enum farm_kind)k, kind->value ? kind->value(job, i) : NULL, sim));
+        }
     }
-    TRY(add_finish(g, w, first, sim, sheet));
+    *last = sim;
+done:
+    return st;
+}
+
+/* The task added last waits for those from `first` on that its kind comes after; of the blocks for the last one. */
+static status add_all_after(struct farm_graph *g, size_t first, size_t last_sim)
+{
+    status st = OK;
+    const size_t task = g->n - 1;
+    const unsigned after = farm_kinds[g->task[task].kind].after;
+    for (size_t i = first; i < task; i++)
+        if ((after & 1u << g->task[i].kind) && (g->task[i].kind != FARM_SIM || i == last_sim))
+            TRY(add_after(g, i));
+done:
+    return st;
+}
+
+/* What is made of a wedge's frames together: one task, or tasks for some of the turntable's views each. */
+static status add_finish(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind, size_t first,
+                         size_t last_sim)
+{
+    status st = OK;
+    const struct job *job = w->job;
+    const int last = job->frames.last, views = (int)job->farm.turntable, chunk = (int)job->farm.chunk_frames;
+    struct farm_task t = {.kind = kind, .frames = {last, last, 1}};
+    if (farm_kinds[kind].cut == CUT_VIEWS) {
+        for (int at = 0; at < views; at += chunk) {
+            t.views = (struct frame_range){at, views - at > chunk ? at + chunk - 1 : views - 1, 1};
+            TRY(add_task(g, w, &t));
+            TRY(add_all_after(g, first, last_sim));
+        }
+        return OK;
+    }
+    if (farm_kinds[kind].cut == CUT_ONCE)
+        t.frames = job->frames;
+    TRY(add_task(g, w, &t));
+    TRY(add_all_after(g, first, last_sim));
+done:
+    return st;
+}
+
+static status add_wedge(struct farm_graph *g, const struct farm_wedge *w)
+{
+    status st = OK;
+    const size_t first = g->n;
+    size_t last_sim;
+    TRY(add_blocks(g, w, &last_sim));
+    for (int k = 0; k < FARM_KINDS; k++) {
+        const struct farm_kind_info *kind = &farm_kinds[k];
+        if ((kind->cut == CUT_ONCE || kind->cut == CUT_LAST || kind->cut == CUT_VIEWS) &&
+            kind->wanted(w->job))
+            TRY(add_finish(g, w, (enum farm_kind)k, first, last_sim));
+    }
+done:
+    return st;
+}
+
+/* A task across the wedges, if more than one of them has what it is made of. */
+static status add_across(struct farm_graph *g, const struct farm_wedge *wedge, enum farm_kind kind)
+{
+    status st = OK;
+    const struct farm_kind_info *info = &farm_kinds[kind];
+    const int last = wedge[0].job->frames.last;
+    size_t n = 0;
+    for (size_t i = 0; i < g->n; i++)
+        n += (info->after >> g->task[i].kind) & 1;
+    if (n < 2)
+        return OK;
+    TRY(add_task(g, NULL,
+                 &(struct farm_task){.kind = kind,
+                                     .frames = {last, last, 1},
+                                     .seconds = (double)n * info->seconds,
+                                     .disk_bytes = (uint64_t)((double)n * info->bytes)}));
+    TRY(add_all_after(g, 0, SIZE_MAX));
 done:
     return st;
 }
@@ -275,24 +230,12 @@ done:
 status graph_make(const struct farm_wedge *wedge, size_t n_wedges, struct farm_graph *out)
 {
     status st = OK;
-    size_t *sheet = NULL, n_sheets = 0;
-    struct farm_task *t;
-    TRY(memory_alloc(n_wedges, sizeof *sheet, "the tasks", &sheet));
-    for (size_t i = 0; i < n_wedges; i++) {
-        TRY(add_wedge(out, &wedge[i], &sheet[i]));
-        n_sheets += sheet[i] != SIZE_MAX;
-    }
-    if (n_sheets > 1) {
-        int last = wedge[0].job->frames.last;
-        TRY(add_task(out, NULL, FARM_WEDGES, (struct frame_range){last, last, 1}, &t));
-        t->seconds = (double)n_sheets * SHEET_S;
-        t->disk_bytes = n_sheets * STILL_BYTES;
-        for (size_t i = 0; i < n_wedges; i++)
-            if (sheet[i] != SIZE_MAX)
-                TRY(add_after(out, sheet[i]));
-    }
+    for (size_t i = 0; i < n_wedges; i++)
+        TRY(add_wedge(out, &wedge[i]));
+    for (int k = 0; k < FARM_KINDS; k++)
+        if (farm_kinds[k].cut == CUT_ALL_WEDGES)
+            TRY(add_across(out, wedge, (enum farm_kind)k));
 done:
-    free(sheet);
     return st;
 }
 

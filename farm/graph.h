@@ -1,9 +1,7 @@
 /* The tasks a job is cut into: one pure function from jobs to a graph.
  *
- *   sim        frames a-b simulated; block n+1 of a wedge goes on from block n's last checkpoint
- *   derive     meshes and AOVs of some frames, once their block is done
- *   preview    stills of some frames, of the rock or of a value, once their block is done; views of the last frame's turntable
- *   finish     contact sheet, turntable's video, and a sheet across the wedges
+ * The kinds of tasks are in kinds.def: blocks of simulated frames, of which each goes on from the last checkpoint of
+ * the one before it; what is derived from a block's frames; and what is made of all of them at the end.
  *
  * Order       A task stands behind all it waits for: the list can be worked off from its start.
  * Once        Every frame of a job is simulated by exactly one task; so is every mesh, AOV, still and view made.
@@ -12,21 +10,9 @@
 #ifndef HOODOO_FARM_GRAPH_H
 #define HOODOO_FARM_GRAPH_H
 
+#include "farm/kinds.h"
 #include "job/job.h"
 #include "model/model.h"
-
-enum farm_kind {
-    FARM_SIM,
-    FARM_MESH,
-    FARM_AOV,
-    FARM_STILL,
-    FARM_SHOW,
-    FARM_VIEW,
-    FARM_SHEET,
-    FARM_TURNTABLE,
-    FARM_WEDGES,
-    FARM_KINDS
-};
 
 /* One job of those that are submitted together: a wedge, or the only one. */
 struct farm_wedge {
@@ -38,9 +24,9 @@ struct farm_wedge {
 struct farm_task {
     enum farm_kind kind;
     int wedge;                 /* wedge.index of its job; 0: the only one, or all of them */
-    struct frame_range frames; /* the ones it makes; FARM_SHEET and below: those it shows */
-    const char *show;          /* FARM_SHOW: which value; the job's own text */
-    struct frame_range views;  /* FARM_VIEW: which of farm.turntable views */
+    struct frame_range frames; /* the ones it makes, or those it shows */
+    const char *show;          /* which value of farm.show, the job's own text; NULL: none */
+    struct frame_range views;  /* CUT_VIEWS: which of farm.turntable views */
     char name[80];             /* unique: "w0001.sim.1001-1050". Letters, digits, dots, '-' */
     size_t after, n_after;     /* graph->after[after ...]: tasks it waits for, all before it */
     double seconds;            /* of machine time; 0: not known */
@@ -57,12 +43,6 @@ struct farm_graph {
 /* {0} is an empty graph; freed with graph_free(), also after an error (memory alone). */
 MUST_USE status graph_make(const struct farm_wedge *wedge, size_t n_wedges, struct farm_graph *out);
 void graph_free(struct farm_graph *graph);
-
-/* "sim", "derive", "preview" or "finish". */
-const char *graph_kind(enum farm_kind kind);
-
-/* Do tasks of this kind run on a Vulkan device? The others are for the CPU alone. */
-bool graph_needs_device(enum farm_kind kind);
 
 /* Does the job write volumes of this frame? What meshes and stills are made of. */
 bool graph_has_volumes(const struct job *job, int frame);

@@ -130,14 +130,9 @@ static status start(struct local *l, size_t task, int k)
     const struct farm_task *t = &l->farm->graph.task[task];
     const struct local_worker *w = &l->options->worker[k];
     struct farm_command *command = NULL;
-    char log[FARM_PATH + 128], jobs[32], threads[32];
+    char log[FARM_PATH + 128], threads[32];
     TRY(memory_alloc(1, sizeof *command, "a command", &command));
-    farm_command(l->farm, t, *w->device ? w->device : NULL, command);
-    if (t->kind != FARM_SIM && t->kind != FARM_MESH && t->kind != FARM_AOV && t->kind != FARM_WEDGES) {
-        snprintf(jobs, sizeof jobs, "--jobs=%d", w->threads);
-        command->argv[command->n++] = jobs;
-        command->argv[command->n] = NULL;
-    }
+    TRY(farm_command(l->farm, t, *w->device ? w->device : NULL, w->threads, command));
     farm_log_path(l->farm, t, log);
     snprintf(threads, sizeof threads, "%d", w->threads);
     bool cpu = strcmp(w->device, "cpu") == 0;
@@ -243,7 +238,7 @@ static status hand_out(struct local *l)
     const struct farm_graph *g = &l->farm->graph;
     for (int others = 0; others < 2; others++)
         for (size_t i = 0; i < g->n; i++) {
-            bool sim = graph_needs_device(g->task[i].kind), yes;
+            bool sim = farm_kinds[g->task[i].kind].device, yes;
             if (l->task[i].state != WAITING || sim == (others == 1))
                 continue;
             TRY(ready(l, i, &yes));

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "farm/command.h"
+
 /* Seconds between the notice and the end of a task: a frame, and its checkpoint. */
 enum { NOTIFY_SIM_S = 300, NOTIFY_S = 30, MIB = 1 << 20 };
 
@@ -29,14 +31,28 @@ static const char *plain_or(const char *text, const char *otherwise)
     return text;
 }
 
+/* The tasks of a kind that steps are written from: those of the first wedge, or of all. */
+static bool in_template(const struct farm *f, const struct farm_task *task, enum farm_kind kind)
+{
+    return task->kind == kind &&
+           (farm_kinds[kind].cut == CUT_ALL_WEDGES || task->wedge == (int)f->wedge[0].job->wedge.index);
+}
+
+static bool has(const struct farm *f, enum farm_kind kind)
+{
+    for (size_t i = 0; i < f->graph.n; i++)
+        if (in_template(f, &f->graph.task[i], kind))
+            return true;
+    return false;
+}
+
 /* The frames of all tasks of a kind, as "1001-1010,1011-1020:5". */
 static void frames_of(const struct farm *f, enum farm_kind kind, struct text *t)
 {
-    int wedge = (int)f->wedge[0].job->wedge.index;
     const char *comma = "";
     for (size_t i = 0; i < f->graph.n; i++) {
         const struct farm_task *task = &f->graph.task[i];
-        if (task->kind != kind || task->wedge != wedge)
+        if (!in_template(f, task, kind))
             continue;
         text_add(t, "%s%d", comma, task->frames.first);
         if (task->frames.last > task->frames.first)
@@ -49,10 +65,11 @@ static void frames_of(const struct farm *f, enum farm_kind kind, struct text *t)
         text_add(t, "%s", "");
 }
 
-static bool has(const struct farm *f, enum farm_kind kind)
+/* Is there a task whose command has that value? */
+static bool uses(const struct farm *f, const char *value)
 {
-    for (size_t i = 0; i < f->graph.n; i++)
-        if (f->graph.task[i].kind == kind)
+    for (int k = 0; k < FARM_KINDS; k++)
+        if (strstr(farm_kinds[k].command, value) && has(f, (enum farm_kind)k))
             return true;
     return false;
 }
@@ -89,7 +106,7 @@ static status put_parameters(const struct farm *f, const char *device, struct te
         put_parameter(t, "StillFrames", "STRING", frames.data ? frames.data : "", "Frames to make stills of");
         json_end_object(t);
     }
-    if ((has(f, FARM_STILL) || has(f, FARM_TURNTABLE)) && job->n_cameras) {
+    if (uses(f, "{camera}") && job->n_cameras) {
         put_parameter(t, "Camera", "STRING", job->cameras[0].name, "The camera of the stills");
         json_array(t, "allowedValues");
         for (size_t i = 0; i < job->n_cameras; i++)
@@ -105,21 +122,23 @@ static status put_parameters(const struct farm *f, const char *device, struct te
 
 /* ---- steps */
 
+enum { AFTER_MAX = 4, STEP_NAME = 64 };
+
 struct step {
-    const char *name, *after, *also_after; /* NULL: none */
-    const char *frames;                    /* the range of a chunked step, or NULL */
-    int64_t chunk;
-    const struct farm_wedge *gpu; /* what it needs of a GPU, or NULL */
-    const char *args[12];         /* ends with NULL; "" stands for the wedge */
+    const struct farm *farm;
+    enum farm_kind kind;
+    char name[STEP_NAME];
+    char after[AFTER_MAX][STEP_NAME];
+    size_t n_after;
+    const char *chunks; /* the range of a step in chunks, or NULL */
+    struct command_values values;
 };
 
-static void put_space(const struct farm *f, const struct step *s, struct text *t)
+static void put_space(const struct step *s, struct text *t)
 {
-    bool wedges = f->wedge[0].job->wedge.index > 0;
-    bool wedge = false;
-    for (size_t i = 0; s->args[i]; i++)
-        wedge |= wedges && !*s->args[i];
-    if (!wedge && !s->frames)
+    const struct job *job = s->farm->wedge[0].job;
+    const bool wedge = s->values.wedge && strstr(farm_kinds[s->kind].command, "{wedge}");
+    if (!wedge && !s->chunks)
         return;
     json_object(t, "parameterSpace");
     json_array(t, "taskParameterDefinitions");
@@ -130,13 +149,13 @@ static void put_space(const struct farm *f, const struct step *s, struct text *t
         json_text(t, "range", "{{Param.Wedges}}");
         json_end_object(t);
     }
-    if (s->frames) {
+    if (s->chunks) {
         json_object(t, NULL);
         json_text(t, "name", "Frames");
         json_text(t, "type", "CHUNK[INT]");
-        json_text(t, "range", s->frames);
+        json_text(t, "range", s->chunks);
         json_object(t, "chunks");
-        json_integer(t, "defaultTaskCount", s->chunk);
+        json_integer(t, "defaultTaskCount", job->farm.chunk_frames);
         json_text(t, "rangeConstraint", "CONTIGUOUS");
         json_end_object(t);
         json_end_object(t);
@@ -145,23 +164,23 @@ static void put_space(const struct farm *f, const struct step *s, struct text *t
     json_end_object(t);
 }
 
+static void put_amount(struct text *t, const char *name, int64_t least)
+{
+    json_object(t, NULL);
+    json_text(t, "name", name);
+    json_integer(t, "min", least);
+    json_end_object(t);
+}
+
 static void put_host(const struct step *s, struct text *t)
 {
+    const struct model_estimate *e = &s->farm->wedge[0].estimate;
     json_object(t, "hostRequirements");
-    if (s->gpu) {
+    if (farm_kinds[s->kind].device) {
         json_array(t, "amounts");
-        json_object(t, NULL);
-        json_text(t, "name", "amount.worker.gpu");
-        json_integer(t, "min", 1);
-        json_end_object(t);
-        json_object(t, NULL);
-        json_text(t, "name", "amount.worker.gpu.memory");
-        json_integer(t, "min", (int64_t)(s->gpu->estimate.device_bytes / MIB) + 1);
-        json_end_object(t);
-        json_object(t, NULL);
-        json_text(t, "name", "amount.worker.memory");
-        json_integer(t, "min", (int64_t)(s->gpu->estimate.host_bytes / MIB) + 1);
-        json_end_object(t);
+        put_amount(t, "amount.worker.gpu", 1);
+        put_amount(t, "amount.worker.gpu.memory", (int64_t)(e->device_bytes / MIB) + 1);
+        put_amount(t, "amount.worker.memory", (int64_t)(e->host_bytes / MIB) + 1);
         json_end_array(t);
     }
     json_array(t, "attributes");
@@ -176,178 +195,182 @@ static void put_host(const struct step *s, struct text *t)
 }
 
 /* The program itself, not a shell: the notice goes to the first process alone. */
-static void put_step(const struct farm *f, const struct step *s, struct text *t)
+static status put_script(const struct step *s, struct text *t)
 {
-    json_object(t, NULL);
-    json_text(t, "name", s->name);
-    if (s->after) {
-        json_array(t, "dependencies");
-        json_object(t, NULL);
-        json_text(t, "dependsOn", s->after);
-        json_end_object(t);
-        if (s->also_after) {
-            json_object(t, NULL);
-            json_text(t, "dependsOn", s->also_after);
-            json_end_object(t);
-        }
-        json_end_array(t);
-    }
-    put_space(f, s, t);
-    put_host(s, t);
+    struct farm_command c;
+    status st = command_fill("", s->kind, &s->values, &c);
+    if (st != OK)
+        return st;
     json_object(t, "script");
     json_object(t, "actions");
     json_object(t, "onRun");
     json_text(t, "command", "{{Param.Hoodoo}}");
     json_array(t, "args");
-    for (size_t i = 0; s->args[i]; i++) {
-        if (*s->args[i])
-            json_text(t, NULL, s->args[i]);
-        else if (f->wedge[0].job->wedge.index)
-            json_text(t, NULL, "--wedge={{Task.Param.Wedge}}");
-    }
+    for (size_t i = 1; i < c.n; i++)
+        json_text(t, NULL, c.argv[i]);
     json_end_array(t);
     json_object(t, "cancelation");
     json_text(t, "mode", "NOTIFY_THEN_TERMINATE");
-    json_integer(t, "notifyPeriodInSeconds", s->gpu ? NOTIFY_SIM_S : NOTIFY_S);
+    json_integer(t, "notifyPeriodInSeconds", farm_kinds[s->kind].device ? NOTIFY_SIM_S : NOTIFY_S);
     json_end_object(t);
     json_end_object(t);
     json_end_object(t);
     json_end_object(t);
+    return OK;
+}
+
+static status put_step(const struct step *s, struct text *t)
+{
+    json_object(t, NULL);
+    json_text(t, "name", s->name);
+    if (s->n_after) {
+        json_array(t, "dependencies");
+        for (size_t i = 0; i < s->n_after; i++) {
+            json_object(t, NULL);
+            json_text(t, "dependsOn", s->after[i]);
+            json_end_object(t);
+        }
+        json_end_array(t);
+    }
+    put_space(s, t);
+    put_host(s, t);
+    status st = put_script(s, t);
     json_end_object(t);
+    return st;
+}
+
+static struct step step_of(const struct farm *f, enum farm_kind kind)
+{
+    const struct job *job = f->wedge[0].job;
+    const struct command_values values = {.job = "{{Param.JobFile}}",
+                                          .out = "{{Param.OutDir}}",
+                                          .wedge = job->wedge.index ? "{{Task.Param.Wedge}}" : NULL,
+                                          .frames = "{{Task.Param.Frames}}",
+                                          .view = "{{Task.Param.Frames}}",
+                                          .device = "{{Param.Device}}",
+                                          .camera = job->n_cameras ? "{{Param.Camera}}" : NULL,
+                                          .map = "{{Session.PathMappingRulesFile}}",
+                                          .gaps = "--allow-none",
+                                          .progress = "openjd"};
+    struct step s = {.farm = f, .kind = kind, .values = values};
+    snprintf(s.name, sizeof s.name, "%s", farm_kinds[kind].step);
+    return s;
+}
+
+static void add_after(struct step *s, const char *name)
+{
+    if (*name && s->n_after < AFTER_MAX)
+        snprintf(s->after[s->n_after++], STEP_NAME, "%s", name);
 }
 
 /* "Sim_1001-1050" */
-static void step_name(const char *kind, struct frame_range frames, char out[64])
+static void name_after_frames(struct step *s, const char *frames)
 {
-    char range[48];
-    snprintf(out, 64, "%s_%s", kind, range_text(frames, range));
+    snprintf(s->name, sizeof s->name, "%s_%s", farm_kinds[s->kind].step, frames);
 }
 
-/* What is derived from a block's volumes, in chunks of frames. */
-static void put_derived(const struct farm *f, const char *kind, const char *verb, struct frame_range frames,
-                        struct frame_range made, const char *block, struct text *t)
-{
-    bool device = strcmp(verb, "aov") == 0;
-    char name[64], list[64];
-    step_name(kind, frames, name);
-    snprintf(list, sizeof list, "%d-%d", made.first, made.last);
-    put_step(f,
-             &(struct step){.name = name,
-                            .after = block,
-                            .frames = list,
-                            .chunk = f->wedge[0].job->farm.chunk_frames,
-                            .gpu = device ? &f->wedge[0] : NULL,
-                            .args = {verb, "{{Param.OutDir}}", "", "--frames={{Task.Param.Frames}}",
-                                     "--missing", "--allow-none", "--progress=openjd",
-                                     device ? "--device={{Param.Device}}" : NULL, NULL}},
-             t);
-}
-
-/* A block, and the meshes and AOVs of its frames. */
-static void put_block(const struct farm *f, struct frame_range frames, const char *before, char name[64],
-                      struct text *t)
+/* What is derived from a block's frames, in chunks of those from the first to the last that have it. */
+static status put_derived(const struct farm *f, enum farm_kind kind, const char *block,
+                          struct frame_range frames, struct text *t)
 {
     const struct job *job = f->wedge[0].job;
-    char range[64];
-    struct frame_range made = {0, 0, 0};
-    step_name("Sim", frames, name);
-    snprintf(range, sizeof range, "--frames=%s", name + 4);
-    put_step(
-        f,
-        &(struct step){.name = name,
-                       .after = before,
-                       .gpu = &f->wedge[0],
-                       .args = {"run", "{{Param.JobFile}}", "", "--farm={{Param.OutDir}}", range,
-                                "--device={{Param.Device}}", "--path-map={{Session.PathMappingRulesFile}}",
-                                "--progress=openjd", NULL}},
-        t);
+    const struct farm_kind_info *info = &farm_kinds[kind];
+    char text[48], chunks[48];
+    struct frame_range taken = {0, 0, 0};
     for (int frame = frames.first; frame <= frames.last; frame += frames.step)
-        if (graph_has_volumes(job, frame)) {
-            made.first = made.step ? made.first : frame;
-            made.last = frame;
-            made.step = 1;
-        }
-    if (!made.step)
-        return;
-    if (job->farm.meshes)
-        put_derived(f, "Mesh", "mesh", frames, made, name, t);
-    if (job->farm.n_cameras)
-        put_derived(f, "Aov", "aov", frames, made, name, t);
+        if (info->takes(job, frame))
+            taken = (struct frame_range){taken.step ? taken.first : frame, frame, 1};
+    if (!taken.step || (info->wanted && !info->wanted(job)))
+        return OK;
+    struct step s = step_of(f, kind);
+    snprintf(chunks, sizeof chunks, "%d-%d", taken.first, taken.last);
+    name_after_frames(&s, range_text(frames, text));
+    add_after(&s, block);
+    s.chunks = chunks;
+    return put_step(&s, t);
 }
 
-static void put_finish(const struct farm *f, const char *last_sim, struct text *t)
+/* A block, and what is derived from it. `name` is that of the block before it and becomes its own. */
+static status put_block(const struct farm *f, struct frame_range frames, char name[STEP_NAME], struct text *t)
 {
+    status st = OK;
+    char text[48];
+    struct step s = step_of(f, FARM_SIM);
+    s.values.frames = range_text(frames, text);
+    name_after_frames(&s, text);
+    add_after(&s, name);
+    snprintf(name, STEP_NAME, "%s", s.name);
+    TRY(put_step(&s, t));
+    for (int k = 0; k < FARM_KINDS; k++)
+        if (farm_kinds[k].cut == CUT_CHUNKS)
+            TRY(put_derived(f, (enum farm_kind)k, name, frames, t));
+done:
+    return st;
+}
+
+/* The steps it waits for, as far as the template has them; else the last block, which all else waits for. */
+static void add_all_after(struct step *s, const char *last_sim)
+{
+    const unsigned after = farm_kinds[s->kind].after;
+    for (int k = 0; k < FARM_KINDS; k++)
+        if ((after & 1u << k) && k != FARM_SIM && has(s->farm, (enum farm_kind)k))
+            add_after(s, farm_kinds[k].step);
+    if (s->n_after == 0)
+        add_after(s, last_sim);
+}
+
+/* What is made of all frames together, of lists of them, or of views of the last. */
+static status put_finish(const struct farm *f, enum farm_kind kind, const char *last_sim, struct text *t)
+{
+    status st = OK;
     const struct job *job = f->wedge[0].job;
-    const char *camera = job->n_cameras ? "--camera={{Param.Camera}}" : NULL;
-    const char *sheet = last_sim;
+    const struct farm_kind_info *info = &farm_kinds[kind];
+    const size_t n = info->value ? info->wanted(job) : 1;
+    const int last = (int)job->farm.turntable - 1;
     char views[32], list[32];
-    if (has(f, FARM_STILL)) {
-        put_step(f,
-                 &(struct step){.name = "Stills",
-                                .after = last_sim,
-                                .frames = "{{Param.StillFrames}}",
-                                .chunk = job->farm.chunk_frames,
-                                .args = {"preview", "{{Param.OutDir}}", "", "--frames={{Task.Param.Frames}}",
-                                         "--only=stills", "--progress=openjd", camera, NULL}},
-                 t);
-        for (size_t i = 0; i < job->farm.n_show; i++) {
-            char name[64], show[64];
-            snprintf(name, sizeof name, "Stills_%.40s", job->farm.show[i]);
-            snprintf(show, sizeof show, "--show=%.40s", job->farm.show[i]);
-            put_step(
-                f,
-                &(struct step){.name = name,
-                               .after = last_sim,
-                               .frames = "{{Param.StillFrames}}",
-                               .chunk = job->farm.chunk_frames,
-                               .args = {"preview", "{{Param.OutDir}}", "", "--frames={{Task.Param.Frames}}",
-                                        "--only=stills", show, "--progress=openjd", camera, NULL}},
-                t);
+    snprintf(views, sizeof views, "%d", (int)job->farm.turntable);
+    snprintf(list, sizeof list, last > 0 ? "0-%d" : "%d", last);
+    for (size_t i = 0; i < n; i++) {
+        struct step s = step_of(f, kind);
+        s.values.views = views;
+        s.chunks = info->cut == CUT_LIST ? "{{Param.StillFrames}}" : info->cut == CUT_VIEWS ? list : NULL;
+        if (info->value) {
+            s.values.value = info->value(job, i);
+            snprintf(s.name, sizeof s.name, "%s_%.40s", info->step, s.values.value);
         }
-        put_step(f,
-                 &(struct step){
-                     .name = "Sheet",
-                     .after = "Stills",
-                     .args = {"preview", "{{Param.OutDir}}", "", "--only=sheet", "--progress=openjd", NULL}},
-                 t);
-        sheet = "Sheet";
+        add_all_after(&s, last_sim);
+        TRY(put_step(&s, t));
     }
-    if (has(f, FARM_TURNTABLE)) {
-        snprintf(views, sizeof views, "--views=%d", (int)job->farm.turntable);
-        snprintf(list, sizeof list, job->farm.turntable > 1 ? "0-%d" : "%d", (int)job->farm.turntable - 1);
-        put_step(f,
-                 &(struct step){.name = "Views",
-                                .after = last_sim,
-                                .frames = list,
-                                .chunk = job->farm.chunk_frames,
-                                .args = {"preview", "{{Param.OutDir}}", "", "--only=views", views,
-                                         "--view={{Task.Param.Frames}}", "--progress=openjd", camera, NULL}},
-                 t);
-        put_step(f,
-                 &(struct step){.name = "Turntable",
-                                .after = "Views",
-                                .also_after = sheet != last_sim ? sheet : NULL,
-                                .args = {"preview", "{{Param.OutDir}}", "", "--only=video", views,
-                                         "--progress=openjd", NULL}},
-                 t);
-    }
-    if (has(f, FARM_WEDGES))
-        put_step(f,
-                 &(struct step){
-                     .name = "Wedges",
-                     .after = "Sheet",
-                     .args = {"preview", "{{Param.OutDir}}", "--only=wedges", "--progress=openjd", NULL}},
-                 t);
+done:
+    return st;
+}
+
+static status put_steps(const struct farm *f, struct text *t)
+{
+    status st = OK;
+    char last_sim[STEP_NAME] = "";
+    json_array(t, "steps");
+    for (size_t i = 0; i < f->graph.n; i++)
+        if (in_template(f, &f->graph.task[i], FARM_SIM))
+            TRY(put_block(f, f->graph.task[i].frames, last_sim, t));
+    for (int k = 0; k < FARM_KINDS; k++)
+        if (farm_kinds[k].cut != CUT_BLOCKS && farm_kinds[k].cut != CUT_CHUNKS && has(f, (enum farm_kind)k))
+            TRY(put_finish(f, (enum farm_kind)k, last_sim, t));
+    json_end_array(t);
+done:
+    return st;
 }
 
 status openjd_template(const struct farm *f, const char *device, struct text *t)
 {
     status st = OK;
-    char name[96], last[2][64] = {"", ""};
-    int wedge = (int)f->wedge[0].job->wedge.index, k = 0;
+    bool chunks = false;
+    char name[96];
+    for (int k = 0; k < FARM_KINDS; k++)
+        chunks |= k != FARM_SIM && farm_kind_is_cut((enum farm_kind)k) && has(f, (enum farm_kind)k);
     json_object(t, NULL);
     json_text(t, "specificationVersion", "jobtemplate-2023-09");
-    if (has(f, FARM_MESH) || has(f, FARM_AOV) || has(f, FARM_STILL) || has(f, FARM_VIEW)) {
+    if (chunks) {
         json_array(t, "extensions");
         json_text(t, NULL, "TASK_CHUNKING");
         json_end_array(t);
@@ -355,16 +378,7 @@ status openjd_template(const struct farm *f, const char *device, struct text *t)
     snprintf(name, sizeof name, "hoodoo %s", f->base->name);
     json_text(t, "name", name);
     TRY(put_parameters(f, device, t));
-    json_array(t, "steps");
-    for (size_t i = 0; i < f->graph.n; i++) {
-        const struct farm_task *task = &f->graph.task[i];
-        if (task->kind != FARM_SIM || task->wedge != wedge)
-            continue;
-        put_block(f, task->frames, *last[k] ? last[k] : NULL, last[!k], t);
-        k = !k;
-    }
-    put_finish(f, last[k], t);
-    json_end_array(t);
+    TRY(put_steps(f, t));
     json_end_object(t);
     TRY(text_status(t));
 done:

@@ -30,15 +30,14 @@ struct batch {
 static status put_cases(const struct farm *f, const struct slurm_options *o, const struct batch *b,
                         struct text *t)
 {
+    status st = OK;
     struct farm_command *c = NULL;
     char log[FARM_PATH + 128];
-    status st = memory_alloc(1, sizeof *c, "a command", &c);
-    if (st != OK)
-        return st;
+    TRY(memory_alloc(1, sizeof *c, "a command", &c));
     text_add(t, "case ${SLURM_ARRAY_TASK_ID:-0} in\n");
     for (size_t i = 0; i < b->n; i++) {
         const struct farm_task *task = &b->task[i];
-        farm_command(f, task, o->device ? o->device : "slurm", c);
+        TRY(farm_command(f, task, o->device ? o->device : "slurm", 0, c));
         farm_log_path(f, task, log);
         text_add(t, "%zu)\n    task=%s\n    log=", i, task->name);
         farm_quote(t, log);
@@ -51,8 +50,10 @@ static status put_cases(const struct farm *f, const struct slurm_options *o, con
     }
     text_add(t, "*)\n    echo \"no task $SLURM_ARRAY_TASK_ID here\" >&2\n    exit %d\n    ;;\nesac\n",
              E_USAGE);
+    TRY(text_status(t));
+done:
     free(c);
-    return text_status(t);
+    return st;
 }
 
 /* Slurm signals the batch script alone: USR1 before the time limit (--signal=B:), TERM when it cancels,
@@ -174,7 +175,7 @@ static void words_of(const struct farm *f, const struct slurm_options *o, const 
     word(w, "--signal=B:USR1@180");
     word(w, "--nodes=1");
     word(w, "--ntasks=1");
-    if (graph_needs_device(task->kind))
+    if (farm_kinds[task->kind].device)
         word(w, "--gres=gpu:1");
     if (b->n > 1) {
         t = made(w);
@@ -205,10 +206,9 @@ static status words_status(const struct words *w)
 /* Tasks that stand together, of one kind and wedge, and wait for the same ones. */
 static bool alike(const struct farm_graph *g, const struct farm_task *a, const struct farm_task *b)
 {
-    return a->kind == b->kind && a->show == b->show && a->wedge == b->wedge &&
-           (a->kind == FARM_MESH || a->kind == FARM_AOV || a->kind == FARM_STILL || a->kind == FARM_SHOW ||
-            a->kind == FARM_VIEW) &&
-           a->n_after == 1 && b->n_after == 1 && g->after[a->after] == g->after[b->after];
+    return a->kind == b->kind && a->show == b->show && a->wedge == b->wedge && a->kind != FARM_SIM &&
+           farm_kind_is_cut(a->kind) && a->n_after == 1 && b->n_after == 1 &&
+           g->after[a->after] == g->after[b->after];
 }
 
 /* `todo` is which tasks are left; the batch is the run of them from `first` on. */
@@ -225,7 +225,7 @@ static void next_batch(const struct farm *f, const bool *todo, size_t first, str
         char *range = strrchr(b->name, '.');
         const struct farm_task *last = &b->task[b->n - 1];
         struct frame_range all = {b->task->frames.first, last->frames.last, 1};
-        if (b->task->kind == FARM_VIEW)
+        if (farm_kinds[b->task->kind].cut == CUT_VIEWS)
             all = (struct frame_range){b->task->views.first, last->views.last, 1};
         char text[48];
         snprintf(range + 1, sizeof b->name - (size_t)(range + 1 - b->name), "%s", range_text(all, text));

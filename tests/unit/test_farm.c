@@ -184,9 +184,13 @@ static void every_value_is_shown(void **state)
                         !range_holds(t->frames, frame) || strcmp(t->show, job->farm.show[v]) != 0)
                         continue;
                     times++;
-                    farm_command(&f, t, NULL, c);
-                    assert_non_null(strstr(c->argv[c->n - 1], "--show="));
-                    assert_string_equal(c->argv[c->n - 1] + 7, job->farm.show[v]);
+                    char show[40];
+                    int words = 0;
+                    snprintf(show, sizeof show, "--show=%s", job->farm.show[v]);
+                    assert_ok(farm_command(&f, t, NULL, 0, c));
+                    for (size_t k = 0; k < c->n; k++)
+                        words += strcmp(c->argv[k], show) == 0;
+                    assert_int_equal(words, 1);
                     assert_non_null(strstr(t->name, v ? "show.von-mises." : "show.stress."));
                 }
                 assert_int_equal(times, range_holds(job->frames, frame) && graph_has_still(job, frame));
@@ -213,9 +217,9 @@ static void tasks_stand_behind_what_they_wait_for(void **state)
             for (size_t k = 0; k < t->n_after; k++)
                 assert_true(g.after[t->after + k] < i); /* so there is no circle */
             assert_true(range_count(t->frames) <=
-                        (size_t)(t->kind == FARM_SIM    ? job_of(&s, t)->farm.block_frames
-                                 : t->kind < FARM_SHEET ? job_of(&s, t)->farm.chunk_frames
-                                                        : 100000));
+                        (size_t)(t->kind == FARM_SIM         ? job_of(&s, t)->farm.block_frames
+                                 : farm_kind_is_cut(t->kind) ? job_of(&s, t)->farm.chunk_frames
+                                                             : 100000));
             if (t->kind == FARM_SIM) {
                 /* A block waits for the one before it, and for nothing else. */
                 size_t before = last_sim[t->wedge];
@@ -240,6 +244,35 @@ static void tasks_stand_behind_what_they_wait_for(void **state)
             assert_int_equal(strspn(t->name, "abcdefghijklmnopqrstuvwxyz0123456789.-"), strlen(t->name));
         }
         graph_free(&g);
+    }
+}
+
+/* Each row of kinds.def is whole, and its command says what its tasks are for. */
+static void kinds_say_what_is_needed(void **state)
+{
+    (void)state;
+    const struct command_values none = {.progress = "none"};
+    struct farm_command c;
+    for (int k = 0; k < FARM_KINDS; k++) {
+        const struct farm_kind_info *kind = &farm_kinds[k];
+        assert_true(*kind->name && *kind->stage && *kind->step && *kind->command);
+        if (kind->cut == CUT_CHUNKS || kind->cut == CUT_LIST)
+            assert_non_null(kind->takes);
+        if (kind->cut == CUT_ONCE || kind->cut == CUT_LAST || kind->cut == CUT_VIEWS) {
+            assert_non_null(kind->wanted);
+            assert_int_not_equal(kind->after, 0);
+        }
+        assert_int_equal(kind->after >> k, 0); /* only kinds that stand before it */
+        assert_int_equal(kind->device, strstr(kind->command, "{device}") != NULL);
+        assert_int_equal(kind->cut == CUT_VIEWS, strstr(kind->command, "{view}") != NULL);
+        assert_int_equal(farm_kind_is_cut((enum farm_kind)k) && kind->cut != CUT_VIEWS,
+                         strstr(kind->command, "{frames}") != NULL);
+        assert_int_equal(kind->cut == CUT_ALL_WEDGES, strstr(kind->command, "{wedge}") == NULL);
+        /* Words without a value are left out, and no brace is left. */
+        assert_ok(command_fill("hoodoo", (enum farm_kind)k, &none, &c));
+        for (size_t i = 1; i < c.n; i++)
+            assert_null(strpbrk(c.argv[i], "{}"));
+        assert_string_equal(c.argv[c.n - 1], "--progress=none");
     }
 }
 
@@ -340,7 +373,7 @@ static void paths_stay_single_words_of_a_command(void **state)
         assert_ok(graph_make(s.wedge, s.n, &f.graph));
         for (size_t k = 0; k < f.graph.n; k++) {
             bool root = false;
-            farm_command(&f, &f.graph.task[k], hostile[i], c);
+            assert_ok(farm_command(&f, &f.graph.task[k], hostile[i], 2, c));
             assert_string_equal(c->argv[0], f.hoodoo);
             for (size_t word = 1; word < c->n; word++) {
                 root |= strncmp(c->argv[word], f.root, strlen(f.root)) == 0;
@@ -363,6 +396,7 @@ int main(void)
         cmocka_unit_test(every_view_is_made_exactly_once),
         cmocka_unit_test(every_value_is_shown),
         cmocka_unit_test(tasks_stand_behind_what_they_wait_for),
+        cmocka_unit_test(kinds_say_what_is_needed),
         cmocka_unit_test(longer_jobs_take_longer),
         cmocka_unit_test(a_shell_takes_quoted_words_as_they_are),
         cmocka_unit_test(paths_stay_single_words_of_a_command),
