@@ -107,7 +107,7 @@ static const struct job_camera *chosen_camera(const struct preview *p)
 /* All that decides what the picture looks like, but for the frame. view < 0: a still. */
 static void tag_of(const struct preview *p, int width, int height, int view, int views, char out[PNG_TAG])
 {
-    static const char *const presets[] = {"draft", "preview", "final"};
+    static const char *const presets[] = {CHOICE_LIST(PRESET_CHOICE)};
     const struct job_camera *camera = chosen_camera(p);
     bool slate = !p->no_slate && height >= SLATE_LEAST_HEIGHT;
     int n = snprintf(out, PNG_TAG, "show=%s", p->show == SHOW_ROCK ? "rock" : show_name(p->show));

@@ -2,13 +2,15 @@
 #ifndef HOODOO_POVRAY_H
 #define HOODOO_POVRAY_H
 
+#include "base/choice.h"
 #include "base/text.h"
 #include "field/camera.h"
 #include "output/vdb.h"
 #include "piles/piles.h"
 #include "render/show.h"
 
-enum preset { PRESET_DRAFT, PRESET_PREVIEW, PRESET_FINAL };
+#define PRESET_CHOICE (PRESET_DRAFT, "draft")(PRESET_PREVIEW, "preview")(PRESET_FINAL, "final")
+enum preset { CHOICE_CONSTANTS(PRESET_CHOICE) };
 
 /* Rocks in piles: the tile's shapes, and where they lie. */
 struct scene_rocks {

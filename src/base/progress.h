@@ -15,10 +15,13 @@
 
 #include <stddef.h>
 
+#include "base/choice.h"
 #include "base/ranges.h"
 
-/* In the order of --progress's words. */
-enum progress_style { PROGRESS_AUTO, PROGRESS_BAR, PROGRESS_PLAIN, PROGRESS_OPENJD, PROGRESS_NONE };
+#define PROGRESS_CHOICE                                                                                      \
+    (PROGRESS_AUTO, "auto")(PROGRESS_BAR, "bar")(PROGRESS_PLAIN, "plain")(PROGRESS_OPENJD,                   \
+                                                                          "openjd")(PROGRESS_NONE, "none")
+enum progress_style { CHOICE_CONSTANTS(PROGRESS_CHOICE) };
 
 struct progress {
     enum progress_style style;

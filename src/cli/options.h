@@ -20,6 +20,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/choice.h"
+#include "base/progress.h"
 #include "base/ranges.h"
 #include "base/status.h"
 
@@ -63,7 +65,10 @@ MUST_USE status options_parse(const struct usage *usage, const struct option *op
 
 /* ---- what verbs share (DESIGN 2). {0} is right for every member. */
 
-enum { RESUME_AUTO, RESUME_NEVER, RESUME_REQUIRE, RESUME_OTHER_DEVICE };
+#define RESUME_CHOICE                                                                                        \
+    (RESUME_AUTO, "auto")(RESUME_NEVER, "never")(RESUME_REQUIRE, "require")(RESUME_OTHER_DEVICE,             \
+                                                                            "other-device")
+enum { CHOICE_CONSTANTS(RESUME_CHOICE) };
 
 struct common {
     const char *out;           /* NULL: out/NAME */
@@ -99,12 +104,12 @@ void common_free(struct common *c);
     }
 #define OPTION_PROGRESS(c)                                                                                   \
     {                                                                                                        \
-        "progress", "auto|bar|plain|openjd|none", OPTION_CHOICE, &(c)->progress,                             \
+        "progress", CHOICE_TEXT(PROGRESS_CHOICE), OPTION_CHOICE, &(c)->progress,                             \
             "auto: a bar on a terminal, else plain lines"                                                    \
     }
 #define OPTION_RESUME(c)                                                                                     \
     {                                                                                                        \
-        "resume", "auto|never|require|other-device", OPTION_CHOICE, &(c)->resume,                            \
+        "resume", CHOICE_TEXT(RESUME_CHOICE), OPTION_CHOICE, &(c)->resume,                                   \
             "never: start over; require: fail without a checkpoint; other-device: go on, though not bit "    \
             "for bit"                                                                                        \
     }

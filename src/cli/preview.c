@@ -16,7 +16,10 @@
 #include "render/picture.h"
 #include "render/turntable.h"
 
-enum { ONLY_ALL, ONLY_STILLS, ONLY_SHEET, ONLY_VIEWS, ONLY_VIDEO, ONLY_WEDGES };
+#define ONLY_CHOICE                                                                                          \
+    (ONLY_ALL, "all")(ONLY_STILLS, "stills")(ONLY_SHEET, "sheet")(ONLY_VIEWS, "views")(ONLY_VIDEO, "video")( \
+        ONLY_WEDGES, "wedges")
+enum { CHOICE_CONSTANTS(ONLY_CHOICE) };
 
 struct wanted {
     struct common common;
@@ -206,10 +209,10 @@ status cli_preview(int argc, char **argv)
          "these "
          "frames' values; or LO:HI in the legend's unit"},
         {"camera", "NAME", OPTION_TEXT, &w.camera, "of the job (default: its first)"},
-        {"preset", "draft|preview|final", OPTION_CHOICE, &w.preset,
+        {"preset", CHOICE_TEXT(PRESET_CHOICE), OPTION_CHOICE, &w.preset,
          "how much care is taken (default preview)"},
         {"resolution", "WxH", OPTION_TEXT, &w.resolution, "of the pictures (default: the preset's)"},
-        {"only", "all|stills|sheet|views|video|wedges", OPTION_CHOICE, &w.only,
+        {"only", CHOICE_TEXT(ONLY_CHOICE), OPTION_CHOICE, &w.only,
          "a part of it: stills without a sheet, the sheet of the stills there are, views of the turntable "
          "without a video, the video of the views there are, or the sheet across the wedges of a farm's "
          "folder"},

@@ -13,7 +13,8 @@
 #include "farm/openjd.h"
 #include "farm/slurm.h"
 
-enum target { TO_LOCAL, TO_SLURM, TO_OPENJD };
+#define TO_CHOICE (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")
+enum target { CHOICE_CONSTANTS(TO_CHOICE) };
 
 struct wanted {
     struct common common;
@@ -210,7 +211,7 @@ status cli_submit(int argc, char **argv)
     char root[FARM_PATH + 16];
     bool help = false;
     const struct option options[] = {
-        {"to", "local|slurm|openjd", OPTION_CHOICE, &w.to,
+        {"to", CHOICE_TEXT(TO_CHOICE), OPTION_CHOICE, &w.to,
          "this machine's devices; sbatch; or a job template (jobtemplate-2023-09)"},
         OPTION_OUT(&w.common),
         {"dry-run", NULL, OPTION_FLAG, &w.dry_run, "print what would be submitted, and do nothing"},

@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/choice.h"
 #include "base/ranges.h"
 #include "base/status.h"
 #include "base/text.h"
@@ -112,24 +113,9 @@ struct job_node {
     } u;
 };
 
-enum { WEDGE_ZIP, WEDGE_CROSS };
-enum { MODEL_ARENITE, MODEL_GOBLINS, MODEL_ARCHES };
-enum { TOOL_SCULPT, TOOL_SWEEP, TOOL_DEPOSIT, TOOL_ERODE, TOOL_FILL, TOOL_NOISE };
-enum { MODE_CARVE, MODE_ADD };
-enum { DEPTH_SURFACE, DEPTH_DEEP };
-enum { EDGES_CLOSED, EDGES_OPEN };
-enum { UNHELD_FALL, UNHELD_STAY };
-enum { STACKS_LAST, STACKS_ALL, STACKS_NONE };
-enum { FLOW_SPH, FLOW_UNIFORM };
-enum { BUBBLE_SPHERE, BUBBLE_ELLIPSOID, BUBBLE_GUMDROP };
-enum { STRESS_PCG, STRESS_MPM };
-enum { COLLAPSE_VANISH, COLLAPSE_FALL };
-enum { OUTPUT_UP_Y, OUTPUT_UP_Z };
-enum { VDB_CODEC_BLOSC, VDB_CODEC_ZIP, VDB_CODEC_NONE };
-enum { VDB_POINTS_ALL, VDB_POINTS_SURFACE, VDB_POINTS_NONE };
-enum { VDB_PRECISION_EXACT, VDB_PRECISION_16_BIT };
-enum { USD_POINTS_SURFACE, USD_POINTS_NONE };
-enum { AOV_LAYOUT_MULTI, AOV_LAYOUT_SINGLE };
+/* The choices' constants, an enum each. */
+#define CHOICE(section, key, use, preset, choices, meaning, source) enum { CHOICE_CONSTANTS(choices) };
+#include "job/keys.def"
 
 /* The layers of an AOV picture (DESIGN 2), by name; output.aov.layers chooses among them. */
 #define AOV_LAYERS(X)                                                                                        \

@@ -42,7 +42,8 @@
 #define BOOL(s_, key_, use_, number_, meaning_, source_)                                                     \
     ROW(s_, key_, KEY_BOOL, use_, "", meaning_, source_, .number = number_)
 #define CHOICE(s_, key_, use_, preset_, choices_, meaning_, source_)                                         \
-    ROW(s_, key_, KEY_CHOICE, use_, "", meaning_, source_, .preset = preset_, .choices = choices_)
+    ROW(s_, key_, KEY_CHOICE, use_, "", meaning_, source_, .preset = preset_,                                \
+        .choices = CHOICE_TEXT(choices_))
 #define VEC(s_, key_, use_, unit_, n_, preset_, min_, max_, meaning_, source_)                               \
     ROW(s_, key_, KEY_VEC, use_, unit_, meaning_, source_, .preset = preset_, .n = n_, .min = min_,          \
         .max = max_)

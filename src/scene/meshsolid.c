@@ -6,8 +6,6 @@
 #include "base/log.h"
 #include "scene/meshfile.h"
 
-enum { UP_Y, UP_Z }; /* job_mesh.up */
-
 /* Grid values a mesh may take, about 1 GiB with what building it needs on top. */
 #define MAX_GRID_VALUES 64e6
 
@@ -16,7 +14,7 @@ static status place_vertices(struct mesh *mesh, const struct job_mesh *job, cons
 {
     for (size_t i = 0; i < mesh->n_vertices; i++) {
         double *v = mesh->vertex[i];
-        double local[3] = {v[0], job->up == UP_Y ? -v[2] : v[1], job->up == UP_Y ? v[1] : v[2]};
+        double local[3] = {v[0], job->up == MESH_UP_Y ? -v[2] : v[1], job->up == MESH_UP_Y ? v[1] : v[2]};
         placement_apply(place->world_from_local, local, v);
         for (int a = 0; a < 3; a++) {
             if (!(fabs(v[a]) <= 1e6))
