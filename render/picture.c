@@ -24,63 +24,49 @@ struct picture {
     struct preview *preview;
     struct picture *next;
     char what[64], tag[PNG_TAG];
-    char path[512];
-    char rendered[600], drawn[600], bar[600], scene[600]; /* "": none to remove */
+    struct path path;
+    struct path rendered, drawn, bar, scene; /* "": none to remove */
     struct slate slate;
     struct slate_command command;
 };
 
-void picture_name(const struct preview *p, char out[256])
+const char *picture_part(const struct preview *p)
 {
-    snprintf(out, 256, "%.200s%s%s", p->job->name, p->show == SHOW_ROCK ? "" : ".", show_name(p->show));
+    return p->show == SHOW_ROCK ? NULL : show_name(p->show);
 }
 
-void picture_still_path(const struct preview *p, int frame, char out[512])
+status picture_still_path(const struct preview *p, int frame, struct path *out)
 {
-    char name[256];
-    picture_name(p, name);
-    snprintf(out, 512, "preview/%s.%04d.png", name, frame);
+    return folder_name(out, p->job->name, FILE_STILL, frame, picture_part(p));
 }
 
-void picture_view_path(const struct preview *p, int frame, int view, char out[512])
+status picture_view_path(const struct preview *p, int frame, int view, struct path *out)
 {
-    char name[256];
-    picture_name(p, name);
-    snprintf(out, 512, "turntable/%s.%04d.%03d.png", name, frame, view);
+    return folder_view(out, p->job->name, picture_part(p), frame, view);
 }
 
-static void volumes_path(const struct preview *p, int frame, char out[512])
-{
-    snprintf(out, 512, "volumes/%.200s.%04d.vdb", p->job->name, frame);
-}
-
-bool picture_current(const struct preview *p, const char *path, const char *source)
-{
-    char full[4700];
-    struct stat made, from;
-    snprintf(full, sizeof full, "%s/%s", p->root, path);
-    if (stat(full, &made) != 0 || made.st_size == 0)
-        return false;
-    snprintf(full, sizeof full, "%s/%s", p->root, source);
-    return stat(full, &from) != 0 || made.st_mtim.tv_sec >= from.st_mtim.tv_sec;
-}
-
-/* Is it as it is asked for now, too? A draft is no preview. */
+/* Is root/`path` there, as it is asked for (a draft is no preview), and no older than root/`source`? */
 static bool current_as_asked(const struct preview *p, const char *path, const char *source, const char *tag)
 {
-    char full[4700], has[PNG_TAG];
-    if (!picture_current(p, path, source))
+    struct path full, from;
+    char has[PNG_TAG];
+    struct stat made, of;
+    if (path_join(&full, p->root, path) != OK || stat(full.text, &made) != 0 || made.st_size == 0)
         return false;
-    snprintf(full, sizeof full, "%s/%s", p->root, path);
-    png_tag(full, has);
+    if (path_join(&from, p->root, source) == OK && stat(from.text, &of) == 0 &&
+        made.st_mtim.tv_sec < of.st_mtim.tv_sec)
+        return false;
+    png_tag(full.text, has);
     return strcmp(has, tag) == 0;
 }
 
 bool picture_has_slate(const struct preview *p, const char *path)
 {
-    char full[4700], has[PNG_TAG];
-    snprintf(full, sizeof full, "%s/%s", p->root, path);
-    png_tag(full, has);
+    struct path full;
+    char has[PNG_TAG];
+    if (path_join(&full, p->root, path) != OK)
+        return false;
+    png_tag(full.text, has);
     return strstr(has, "slate=yes") != NULL;
 }
 
@@ -139,13 +125,13 @@ static double orbit_start(const struct preview *p, int frame)
 static status read_from_points(const struct preview *p, int frame, struct vdb_mesh *mesh)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct rock rock = {0};
     float *value = NULL;
-    TRY(folder_path(path, p->root, p->job->name, FILE_POINTS, frame, NULL));
-    TRY(vdb_points_read(path, &rock));
+    TRY(folder_path(path.text, p->root, p->job->name, FILE_POINTS, frame, NULL));
+    TRY(vdb_points_read(path.text, &rock));
     if (!rock.erodibility) {
-        st = fail(E_INPUT, "%s: its points have no %s", path, show_name(p->show));
+        st = fail(E_INPUT, "%s: its points have no %s", path.text, show_name(p->show));
         goto done;
     }
     TRY(memory_alloc(mesh->n_vertices + 1, sizeof *value, "values", &value));
@@ -162,19 +148,18 @@ done:
 static status read_mesh(const struct preview *p, int frame, struct vdb_mesh *mesh)
 {
     status st = OK;
-    char full[4700], volumes[512];
+    struct path full;
     const char *const value = show_name(p->show);
-    volumes_path(p, frame, volumes);
-    snprintf(full, sizeof full, "%s/%s", p->root, volumes);
+    TRY(folder_path(full.text, p->root, p->job->name, FILE_VOLUMES, frame, NULL));
     if (p->show == SHOW_ERODIBILITY) {
-        TRY(vdb_mesh_read(full, 0, NULL, 0, 0, mesh));
+        TRY(vdb_mesh_read(full.text, 0, NULL, 0, 0, mesh));
         TRY(read_from_points(p, frame, mesh));
         goto done;
     }
     if (p->show != SHOW_ROCK)
-        return vdb_mesh_read(full, 0, &value, 1, 0, mesh);
+        return vdb_mesh_read(full.text, 0, &value, 1, 0, mesh);
     double adaptivity = p->job->model == MODEL_ARCHES ? 0 : ADAPTIVITY;
-    TRY(vdb_mesh_read(full, adaptivity, scene_values, SCENE_VALUES, SCENE_VALUES, mesh));
+    TRY(vdb_mesh_read(full.text, adaptivity, scene_values, SCENE_VALUES, SCENE_VALUES, mesh));
 done:
     return st;
 }
@@ -184,7 +169,7 @@ static status write_scene(const struct preview *p, int frame, int views, const c
                           int height)
 {
     status st = OK;
-    char full[4700];
+    struct path full;
     struct vdb_mesh mesh = {0};
     struct camera *camera = NULL;
     struct text text = {0};
@@ -196,13 +181,13 @@ static status write_scene(const struct preview *p, int frame, int views, const c
                           .preset = p->preset,
                           .show = p->show,
                           .range = p->range,
-                          .file = strrchr(path, '/') + 1};
+                          .file = path_last(path)};
     const struct job_camera *own = chosen_camera(p);
     TRY(read_mesh(p, frame, &mesh));
     if (job_piles(p->job)) {
         TRY(rocks_tile(p->job, &tile));
-        TRY(folder_path(full, p->root, p->job->name, FILE_ROCKS, frame, NULL));
-        TRY(vdb_points_read(full, &rocks));
+        TRY(folder_path(full.text, p->root, p->job->name, FILE_ROCKS, frame, NULL));
+        TRY(vdb_points_read(full.text, &rocks));
         scene.rocks = (struct scene_rocks){&tile, &rocks};
     }
     TRY(scene_bounds(&scene));
@@ -215,8 +200,8 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     scene.camera = camera;
     scene.n_cameras = (size_t)(views ? views : 1);
     TRY(scene_write(&scene, &text));
-    snprintf(full, sizeof full, "%s/%s", p->root, path);
-    TRY(atomic_file_write(full, text.data, text.size));
+    TRY(path_join(&full, p->root, path));
+    TRY(atomic_file_write(full.text, text.data, text.size));
 done:
     text_free(&text);
     pile_tile_destroy(&tile);
@@ -251,14 +236,12 @@ done:
 
 /* ---- POV-Ray, then what is burnt in */
 
-static void forget(const struct preview *p, char path[600])
+static void forget(const struct preview *p, struct path *path)
 {
-    char full[4700];
-    if (!*path)
-        return;
-    snprintf(full, sizeof full, "%s/%s", p->root, path);
-    unlink(full);
-    path[0] = '\0';
+    struct path full;
+    if (*path->text && path_join(&full, p->root, path->text) == OK)
+        unlink(full.text);
+    path->text[0] = '\0';
 }
 
 /* Takes it off the list and away, with all it has left. */
@@ -270,10 +253,10 @@ static void picture_end(struct picture *picture)
         at = &(*at)->next;
     if (*at)
         *at = picture->next;
-    forget(p, picture->rendered);
-    forget(p, picture->drawn);
-    forget(p, picture->bar);
-    forget(p, picture->scene);
+    forget(p, &picture->rendered);
+    forget(p, &picture->drawn);
+    forget(p, &picture->bar);
+    forget(p, &picture->scene);
     free(picture);
 }
 
@@ -287,18 +270,18 @@ void pictures_end(struct preview *p)
 static status picture_place(struct picture *picture, const char *made)
 {
     status st = OK;
-    char from[4700], to[4700];
+    struct path from, to;
     void *bytes = NULL, *tagged = NULL;
     size_t n = 0;
-    snprintf(from, sizeof from, "%s/%s", picture->preview->root, made);
-    snprintf(to, sizeof to, "%s/%s", picture->preview->root, picture->path);
-    TRY(file_read(from, (size_t)1 << 30, &bytes, &n));
+    TRY(path_join(&from, picture->preview->root, made));
+    TRY(path_join(&to, picture->preview->root, picture->path.text));
+    TRY(file_read(from.text, (size_t)1 << 30, &bytes, &n));
     if (!png_whole(bytes, n)) {
-        st = fail(E_OUTPUT, "%s: the picture is cut short; is the disk full?", from);
+        st = fail(E_OUTPUT, "%s: the picture is cut short; is the disk full?", from.text);
         goto done;
     }
     TRY(png_with_tag(bytes, n, picture->tag, &tagged, &n));
-    TRY(atomic_file_write(to, tagged, n));
+    TRY(atomic_file_write(to.text, tagged, n));
 done:
     free(bytes);
     free(tagged);
@@ -309,16 +292,7 @@ done:
 static status picture_drawn(void *user)
 {
     struct picture *picture = user;
-    return picture_place(picture, picture->drawn);
-}
-
-static status own_name(const char *path, const char *ending, char out[600])
-{
-    char name[600];
-    status st = atomic_file_temporary(path, name, sizeof name - 8);
-    if (st == OK) /* programs go by the ending */
-        snprintf(out, 600, "%.590s%s", name, ending);
-    return st;
+    return picture_place(picture, picture->drawn.text);
 }
 
 /* POV-Ray has made it: now the strip and the legend. */
@@ -327,16 +301,17 @@ static status picture_rendered(void *user)
     struct picture *picture = user;
     struct preview *p = picture->preview;
     status st = OK;
-    char full[4700];
+    struct path full;
     if (!slate_draws(&picture->slate))
-        return picture_place(picture, picture->rendered);
-    TRY(own_name(picture->path, ".png", picture->drawn));
+        return picture_place(picture, picture->rendered.text);
+    TRY(atomic_file_temporary(picture->path.text, ".png", &picture->drawn));
     if (p->show != SHOW_ROCK) {
-        TRY(own_name(picture->path, ".ppm", picture->bar));
-        snprintf(full, sizeof full, "%s/%s", p->root, picture->bar);
-        TRY(slate_write_bar(&picture->slate, full));
+        TRY(atomic_file_temporary(picture->path.text, ".ppm", &picture->bar));
+        TRY(path_join(&full, p->root, picture->bar.text));
+        TRY(slate_write_bar(&picture->slate, full.text));
     }
-    slate_command(&picture->slate, picture->rendered, picture->bar, picture->drawn, &picture->command);
+    slate_command(&picture->slate, picture->rendered.text, picture->bar.text, picture->drawn.text,
+                  &picture->command);
     TRY(children_run(&p->children, picture->command.argv, picture->what, picture_drawn, picture));
 done:
     return st;
@@ -344,9 +319,11 @@ done:
 
 static status start(struct preview *p, struct picture *picture, const char *scene, int view)
 {
-    char in[700], out[700], w[32], h[32], declare[40];
-    snprintf(in, sizeof in, "+I%s", scene);
-    snprintf(out, sizeof out, "+O%s", picture->rendered);
+    status st = OK;
+    struct path in, out;
+    char w[32], h[32], declare[40];
+    TRY(path_format(&in, "+I%s", scene));
+    TRY(path_format(&out, "+O%s", picture->rendered.text));
     snprintf(w, sizeof w, "+W%d", picture->slate.width);
     snprintf(h, sizeof h, "+H%d", picture->slate.height);
     snprintf(declare, sizeof declare, "Declare=View=%d", view);
@@ -354,8 +331,8 @@ static status start(struct preview *p, struct picture *picture, const char *scen
     /* One thread each: reading the mesh takes one anyway, so several pictures side by side use the cores
      * better. */
     const char *const argv[] = {"povray",
-                                in,
-                                out,
+                                in.text,
+                                out.text,
                                 w,
                                 h,
                                 declare,
@@ -371,7 +348,9 @@ static status start(struct preview *p, struct picture *picture, const char *scen
                                 "+WT1",
                                 "-GA",
                                 NULL};
-    return children_run(&p->children, argv, picture->what, picture_rendered, picture);
+    TRY(children_run(&p->children, argv, picture->what, picture_rendered, picture));
+done:
+    return st;
 }
 
 /* What the strip says, and the legend marks. */
@@ -401,7 +380,7 @@ static void describe(const struct preview *p, int frame, const char *seen_from, 
 }
 
 /* On the list of those under way; picture_end() takes it off. */
-static status new_picture(struct preview *p, const char *what, const char *path, int width, int height,
+static status new_picture(struct preview *p, const char *what, const struct path *path, int width, int height,
                           struct picture **out)
 {
     status st = memory_alloc(1, sizeof **out, "a picture", out);
@@ -413,41 +392,40 @@ static status new_picture(struct preview *p, const char *what, const char *path,
     (*out)->slate.width = width;
     (*out)->slate.height = height;
     snprintf((*out)->what, sizeof(*out)->what, "%s", what);
-    snprintf((*out)->path, sizeof(*out)->path, "%s", path);
-    return own_name(path, ".png", (*out)->rendered);
+    (*out)->path = *path;
+    return atomic_file_temporary(path->text, ".png", &(*out)->rendered);
 }
 
 /* Scenes that stay are named like their picture; others have names of their own. */
-static status scene_path(const struct preview *p, const char *path, char out[600])
+static status scene_path(const struct preview *p, enum folder_file kind, int frame, struct path *out)
 {
-    if (!p->keep_scenes)
-        return own_name(path, ".pov", out);
-    snprintf(out, 600, "%.*s.pov", (int)(strlen(path) - 4), path);
-    return OK;
+    const status st = folder_name(out, p->job->name, kind, frame, picture_part(p));
+    return st == OK && !p->keep_scenes ? atomic_file_temporary(out->text, ".pov", out) : st;
 }
 
 status picture_still(struct preview *p, int frame)
 {
     status st = OK;
-    char path[512], source[512], what[64], tag[PNG_TAG], scene[600];
+    struct path path, source, scene;
+    char what[64], tag[PNG_TAG];
     struct picture *picture = NULL;
     const struct job_camera *own = chosen_camera(p);
     int width, height;
-    picture_still_path(p, frame, path);
-    volumes_path(p, frame, source);
+    TRY(picture_still_path(p, frame, &path));
+    TRY(folder_name(&source, p->job->name, FILE_VOLUMES, frame, NULL));
     size_of(p, own, false, &width, &height);
     tag_of(p, width, height, -1, 0, tag);
-    if (current_as_asked(p, path, source, tag))
+    if (current_as_asked(p, path.text, source.text, tag))
         return OK;
     snprintf(what, sizeof what, "the still of frame %d", frame);
-    TRY(scene_path(p, path, scene));
-    TRY(write_scene(p, frame, 0, scene, width, height));
-    TRY(new_picture(p, what, path, width, height, &picture));
+    TRY(scene_path(p, FILE_STILL_SCENE, frame, &scene));
+    TRY(write_scene(p, frame, 0, scene.text, width, height));
+    TRY(new_picture(p, what, &path, width, height, &picture));
     snprintf(picture->tag, sizeof picture->tag, "%s", tag);
     if (!p->keep_scenes)
-        snprintf(picture->scene, sizeof picture->scene, "%s", scene);
+        picture->scene = scene;
     describe(p, frame, own ? own->name : "", &picture->slate);
-    TRY(start(p, picture, scene, 0));
+    TRY(start(p, picture, scene.text, 0));
 done:
     return st;
 }
@@ -455,33 +433,32 @@ done:
 status picture_orbit(struct preview *p, int frame, int views, struct frame_range which)
 {
     status st = OK;
-    char path[512], source[512], what[64], scene[600] = "", tag[PNG_TAG], number[32];
+    struct path path, source, scene = {""};
+    char what[64], tag[PNG_TAG], number[32];
     struct picture *picture = NULL;
     int width, height;
-    volumes_path(p, frame, source);
+    TRY(folder_name(&source, p->job->name, FILE_VOLUMES, frame, NULL));
     size_of(p, chosen_camera(p), true, &width, &height);
     for (int view = which.first, k = 0; view <= which.last; view += which.step, k++) {
-        picture_view_path(p, frame, view, path);
+        TRY(picture_view_path(p, frame, view, &path));
         tag_of(p, width, height, view, views, tag);
-        if (current_as_asked(p, path, source, tag))
+        if (current_as_asked(p, path.text, source.text, tag))
             continue;
-        if (!*scene) {
-            char whole[512];
-            snprintf(whole, sizeof whole, "%.*s.png", (int)(strlen(path) - 8), path); /* without the view */
-            TRY(scene_path(p, whole, scene));
-            TRY(write_scene(p, frame, views, scene, width, height));
+        if (!*scene.text) {
+            TRY(scene_path(p, FILE_ORBIT_SCENE, frame, &scene));
+            TRY(write_scene(p, frame, views, scene.text, width, height));
         }
         snprintf(what, sizeof what, "view %d of frame %d", view, frame);
-        TRY(new_picture(p, what, path, width, height, &picture));
+        TRY(new_picture(p, what, &path, width, height, &picture));
         snprintf(picture->tag, sizeof picture->tag, "%s", tag);
         snprintf(number, sizeof number, "view %03d", view); /* as its file is called */
         describe(p, frame, number, &picture->slate);
-        TRY(start(p, picture, scene, view));
+        TRY(start(p, picture, scene.text, view));
         progress_note(p->progress, (size_t)k, range_count(which), what);
     }
     TRY(children_wait(&p->children));
 done:
     if (!p->keep_scenes)
-        forget(p, scene);
+        forget(p, &scene);
     return st;
 }

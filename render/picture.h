@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #include "base/child.h"
+#include "base/path.h"
 #include "base/progress.h"
 #include "base/ranges.h"
 #include "job/job.h"
@@ -49,17 +50,14 @@ void pictures_end(struct preview *p);
 MUST_USE status picture_data_range(const struct preview *p, const int *frames, size_t n,
                                    struct show_range *out);
 
-/* Their paths, relative to root. */
-void picture_still_path(const struct preview *p, int frame, char out[512]);
-void picture_view_path(const struct preview *p, int frame, int view, char out[512]);
+/* Their paths, relative to root. E_OUTPUT if they are too long. */
+MUST_USE status picture_still_path(const struct preview *p, int frame, struct path *out);
+MUST_USE status picture_view_path(const struct preview *p, int frame, int view, struct path *out);
 
-/* "NAME", or "NAME.stress": what the names of files begin with. */
-void picture_name(const struct preview *p, char out[256]);
+/* What the names of files have after the job's (folder_name()): the value that is shown, or NULL. */
+const char *picture_part(const struct preview *p);
 
 /* Does the picture at root/`path` say itself what it shows? */
 bool picture_has_slate(const struct preview *p, const char *path);
-
-/* Is root/`path` there, and no older than root/`source`? */
-bool picture_current(const struct preview *p, const char *path, const char *source);
 
 #endif

@@ -15,8 +15,8 @@
 struct report_frame {
     struct manifest manifest;
     bool damaged;
-    char what[512];   /* what is wrong with it */
-    char source[512]; /* a picture of it, relative to root, or "": its still, or else its AOVs */
+    char what[512];     /* what is wrong with it */
+    struct path source; /* a picture of it, relative to root, or "": its still, or else its AOVs */
     bool has_volumes;
     bool pictured, thumb; /* report/frame.1001.jpg, report/thumb.1001.jpg are there */
 };

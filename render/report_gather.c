@@ -39,9 +39,8 @@ static bool is_plain(const char *path)
 
 static bool there(const struct report *r, const char *path)
 {
-    char full[4700];
-    snprintf(full, sizeof full, "%.4096s/%s", r->root, path);
-    return access(full, R_OK) == 0;
+    struct path full;
+    return path_join(&full, r->root, path) == OK && access(full.text, R_OK) == 0;
 }
 
 static bool lists(const struct report_frame *f, const char *folder, const char *ending)
@@ -56,19 +55,19 @@ static bool lists(const struct report_frame *f, const char *folder, const char *
 
 static void find_still(const struct report *r, struct report_frame *f)
 {
-    char still[512];
-    snprintf(still, sizeof still, "preview/%.200s.%04d.png", r->name, f->manifest.frame);
-    if (there(r, still))
-        memcpy(f->source, still, sizeof f->source);
+    if (folder_name(&f->source, r->name, FILE_STILL, f->manifest.frame, NULL) != OK ||
+        !there(r, f->source.text))
+        f->source.text[0] = '\0';
 }
 
 static void find_field_picture(const struct report *r, struct report_frame *f)
 {
-    *f->source = '\0';
-    for (size_t i = 0; i < f->manifest.n_files && !*f->source; i++) {
+    f->source.text[0] = '\0';
+    for (size_t i = 0; i < f->manifest.n_files && !*f->source.text; i++) {
         const char *path = f->manifest.file[i].path;
-        if (strncmp(path, "aov/", 4) == 0 && is_plain(path) && there(r, path))
-            snprintf(f->source, sizeof f->source, "%s", path);
+        if (strncmp(path, "aov/", 4) == 0 && is_plain(path) && there(r, path) &&
+            path_format(&f->source, "%s", path) != OK)
+            return;
     }
 }
 
@@ -79,7 +78,7 @@ static void find_sources(struct report *r)
     for (size_t i = 0; i < r->n_frames; i++)
         if (!r->frame[i].damaged) {
             find_still(r, &r->frame[i]);
-            n_stills += *r->frame[i].source != '\0';
+            n_stills += *r->frame[i].source.text != '\0';
             n_others += lists(&r->frame[i], "aov/", ".exr");
         }
     r->stills = n_stills >= 2 || (n_stills == 1 && n_others < 2);
@@ -209,12 +208,12 @@ done:
 static status read_points(struct report *r, const struct report_frame *f, bool start)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct rock rock = {0};
     const bool all = r->job->output.vdb.points == VDB_POINTS_ALL;
     if (lists(f, "points/", ".vdb")) {
-        TRY(folder_path(path, r->root, r->name, FILE_POINTS, f->manifest.frame, NULL));
-        TRY(vdb_points_read(path, &rock));
+        TRY(folder_path(path.text, r->root, r->name, FILE_POINTS, f->manifest.frame, NULL));
+        TRY(vdb_points_read(path.text, &rock));
         if (all && !r->layer)
             TRY(memory_alloc(r->job->n_strata, sizeof *r->layer, "layers", &r->layer));
         if (all)
@@ -222,8 +221,8 @@ static status read_points(struct report *r, const struct report_frame *f, bool s
         if (!start)
             TRY(stress_of_points(r, &rock));
     } else if (!start) {
-        TRY(folder_path(path, r->root, r->name, FILE_VOLUMES, f->manifest.frame, NULL));
-        TRY(stress_of_volumes(r, path));
+        TRY(folder_path(path.text, r->root, r->name, FILE_VOLUMES, f->manifest.frame, NULL));
+        TRY(stress_of_volumes(r, path.text));
     }
 done:
     rock_free(&rock);
@@ -262,10 +261,11 @@ static status find_values(struct report *r)
 
 static void read_timing(struct report *r)
 {
-    char path[4300], *bytes = NULL;
+    struct path path;
+    char *bytes = NULL;
     size_t n = 0, capacity = 0;
-    snprintf(path, sizeof path, "%.4096s/log/timing.jsonl", r->root);
-    if (file_read(path, LARGEST_LOG, &bytes, &n) != OK)
+    if (path_join(&path, r->root, "log/timing.jsonl") != OK ||
+        file_read(path.text, LARGEST_LOG, &bytes, &n) != OK)
         return;
     for (char *line = bytes, *next; line && *line && r->n_timing < MAX_SESSIONS; line = next) {
         struct json *json = NULL;
@@ -285,11 +285,11 @@ static void read_timing(struct report *r)
 
 static void read_log(struct report *r)
 {
-    char path[4300], *bytes = NULL;
+    struct path path;
+    char *bytes = NULL;
     size_t n = 0;
     int lines = 0;
-    snprintf(path, sizeof path, "%.4096s/log/run.log", r->root);
-    if (file_read(path, LARGEST_LOG, &bytes, &n) != OK)
+    if (path_join(&path, r->root, "log/run.log") != OK || file_read(path.text, LARGEST_LOG, &bytes, &n) != OK)
         return;
     char *from = bytes + n;
     while (from > bytes && lines <= LOG_LINES)
@@ -303,10 +303,11 @@ static void read_log(struct report *r)
 
 static void read_run(struct report *r)
 {
-    char path[4300], *bytes = NULL;
+    struct path path;
+    char *bytes = NULL;
     size_t n = 0;
-    snprintf(path, sizeof path, "%.4096s/run.json", r->root);
-    if (file_read(path, 16 << 20, &bytes, &n) != OK || json_read(path, bytes, n, &r->run) != OK)
+    if (path_join(&path, r->root, "run.json") != OK || file_read(path.text, 16 << 20, &bytes, &n) != OK ||
+        json_read(path.text, bytes, n, &r->run) != OK)
         report_note(r, "No provenance: %s", status_message());
     free(bytes);
 }
@@ -314,11 +315,11 @@ static void read_run(struct report *r)
 status report_gather(const char *root, struct report *r)
 {
     status st = OK;
-    char path[4300];
+    struct path path;
     *r = (struct report){.root = root};
     TRY(folder_open(root, r->name));
-    snprintf(path, sizeof path, "%.4096s/job.yaml", root);
-    TRY(job_load(path, NULL, 0, &r->job));
+    TRY(path_join(&path, root, "job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &r->job));
     r->frames = r->job->frames;
     TRY(find_frames(r));
     TRY(checkpoint_list(root, r->name, &r->checkpoint, &r->n_checkpoints));

@@ -1,6 +1,4 @@
 /* The page's own pictures: small, in one folder with it, so that report/ can be moved or mailed as it is. */
-#include <dirent.h>
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,19 +15,17 @@ enum { CONTACT = 24 /* thumbs at most */, MAX_VIEWS = 72, LARGEST_VIDEO = 1 << 3
 /* One conversion under way. */
 struct conversion {
     const struct report *report;
-    char source[512], temporary[600], path[512]; /* relative to root */
+    struct path source, temporary, path; /* relative to root */
     bool *made;
 };
 
 static bool current(const struct report *r, const char *path, const char *source)
 {
-    char full[4700];
+    struct path full;
     struct stat made, from;
-    snprintf(full, sizeof full, "%.4096s/%s", r->root, path);
-    if (stat(full, &made) != 0 || made.st_size == 0)
+    if (path_join(&full, r->root, path) != OK || stat(full.text, &made) != 0 || made.st_size == 0)
         return false;
-    snprintf(full, sizeof full, "%.4096s/%s", r->root, source);
-    return stat(full, &from) == 0 &&
+    return path_join(&full, r->root, source) == OK && stat(full.text, &from) == 0 &&
            (made.st_mtim.tv_sec > from.st_mtim.tv_sec ||
             (made.st_mtim.tv_sec == from.st_mtim.tv_sec && made.st_mtim.tv_nsec >= from.st_mtim.tv_nsec));
 }
@@ -37,10 +33,12 @@ static bool current(const struct report *r, const char *path, const char *source
 static status converted(void *user)
 {
     struct conversion *c = user;
-    char from[4700], to[4700];
-    snprintf(from, sizeof from, "%.4096s/%s", c->report->root, c->temporary);
-    snprintf(to, sizeof to, "%.4096s/%s", c->report->root, c->path);
-    status st = atomic_file_adopt(from, to);
+    status st = OK;
+    struct path from, to;
+    TRY(path_join(&from, c->report->root, c->temporary.text));
+    TRY(path_join(&to, c->report->root, c->path.text));
+    TRY(atomic_file_adopt(from.text, to.text));
+done:
     *c->made = st == OK;
     return st;
 }
@@ -62,18 +60,18 @@ static status convert(struct report *r, struct children *children, struct conver
     char resize[32];
     const char *argv[32];
     size_t k = 0;
-    const bool linear = strlen(c->source) > 4 && strcmp(c->source + strlen(c->source) - 4, ".exr") == 0;
+    const char *ending = strrchr(path_last(c->source.text), '.');
+    const bool linear = ending && strcmp(ending, ".exr") == 0;
     c->report = r;
-    if (current(r, c->path, c->source)) {
+    if (current(r, c->path.text, c->source.text)) {
         *c->made = true;
         return OK;
     }
-    TRY(atomic_file_temporary(c->path, c->temporary, sizeof c->temporary - 4));
-    strcat(c->temporary, ".jpg");
+    TRY(atomic_file_temporary(c->path.text, ".jpg", &c->temporary));
     argv[k++] = "oiiotool";
     argv[k++] = "--threads";
     argv[k++] = "1";
-    argv[k++] = c->source;
+    argv[k++] = c->source.text;
     if (linear) { /* a picture of the fields: nothing behind the rock */
         static const char *const steps[] = {
             "--subimage", "0",      "--ch",    "R,G,B,A", "--colorconvert",   "linear", "sRGB",
@@ -88,11 +86,12 @@ static status convert(struct report *r, struct children *children, struct conver
         argv[k++] = "--resize";
         argv[k++] = resize;
     }
-    const char *const last[] = {"-d", "uint8", "--quality", "88", "--nosoftwareattrib", "-o", c->temporary};
+    const char *const last[] = {"-d", "uint8",          "--quality", "88", "--nosoftwareattrib",
+                                "-o", c->temporary.text};
     for (size_t i = 0; i < sizeof last / sizeof *last; i++)
         argv[k++] = last[i];
     argv[k] = NULL;
-    TRY(children_run(children, argv, c->source, converted, c));
+    TRY(children_run(children, argv, c->source.text, converted, c));
 done:
     return st;
 }
@@ -107,44 +106,34 @@ static status wait_all(struct report *r, struct children *children)
 
 /* ---- the turntable */
 
-/* The frame of the newest orbit in turntable/: its view 0 is there. */
-static bool find_orbit(const struct report *r, int *frame)
+/* The frame of the newest orbit in turntable/. */
+static status find_orbit(const struct report *r, int *frame, bool *found)
 {
-    char path[4300], expected[300];
-    bool found = false;
-    snprintf(path, sizeof path, "%.4096s/turntable", r->root);
-    DIR *d = opendir(path);
-    for (struct dirent *e; d && (e = readdir(d));) {
-        const size_t n = strlen(r->name);
-        int number;
-        if (strncmp(e->d_name, r->name, n) != 0 || sscanf(e->d_name + n, ".%d.", &number) != 1)
-            continue;
-        snprintf(expected, sizeof expected, "%.200s.%04d.000.png", r->name, number);
-        if (strcmp(e->d_name, expected) == 0 && (!found || number > *frame)) {
-            *frame = number;
-            found = true;
-        }
-    }
-    if (d)
-        closedir(d);
-    return found;
+    int *frames = NULL;
+    size_t n = 0;
+    status st = folder_orbits(r->root, r->name, &frames, &n);
+    *found = st == OK && n > 0;
+    if (*found)
+        *frame = frames[n - 1];
+    free(frames);
+    return st;
 }
 
 /* A copy: a link would not survive the mail. */
 static status copy_video(struct report *r)
 {
     status st = OK;
-    char source[300], from[4700], to[4700];
+    struct path source, from, to;
     void *bytes = NULL;
     size_t n = 0;
-    snprintf(source, sizeof source, "%.200s.turntable.mp4", r->name);
-    snprintf(from, sizeof from, "%.4096s/%s", r->root, source);
-    snprintf(to, sizeof to, "%.4096s/report/turntable.mp4", r->root);
-    if (access(from, R_OK) != 0)
+    TRY(folder_name(&source, r->name, FILE_VIDEO, 0, NULL));
+    TRY(path_join(&from, r->root, source.text));
+    TRY(path_join(&to, r->root, "report/turntable.mp4"));
+    if (access(from.text, R_OK) != 0)
         return OK;
-    if (!current(r, "report/turntable.mp4", source)) {
-        TRY(file_read(from, LARGEST_VIDEO, &bytes, &n));
-        TRY(atomic_file_write(to, bytes, n));
+    if (!current(r, "report/turntable.mp4", source.text)) {
+        TRY(file_read(from.text, LARGEST_VIDEO, &bytes, &n));
+        TRY(atomic_file_write(to.text, bytes, n));
     }
     r->video = true;
 done:
@@ -156,20 +145,20 @@ static status make_views(struct report *r, struct children *children)
 {
     status st = OK;
     struct conversion *c = NULL;
-    bool made[MAX_VIEWS] = {false};
-    char full[4700];
+    bool made[MAX_VIEWS] = {false}, found = false;
+    struct path full;
     int n = 0;
-    if (!find_orbit(r, &r->turntable_frame))
+    TRY(forgive(r, find_orbit(r, &r->turntable_frame, &found)));
+    if (!found)
         return OK;
     TRY(memory_alloc(MAX_VIEWS, sizeof *c, "pictures", &c));
     /* A video needs one picture: what is seen before it plays. */
     for (; n < (r->video ? 1 : MAX_VIEWS); n++) {
         c[n].made = &made[n];
-        snprintf(c[n].source, sizeof c[n].source, "turntable/%.200s.%04d.%03d.png", r->name,
-                 r->turntable_frame, n);
-        snprintf(c[n].path, sizeof c[n].path, "report/view.%03d.jpg", n);
-        snprintf(full, sizeof full, "%.4096s/%s", r->root, c[n].source);
-        if (access(full, R_OK) != 0)
+        TRY(folder_view(&c[n].source, r->name, NULL, r->turntable_frame, n));
+        TRY(path_format(&c[n].path, "report/view.%03d.jpg", n));
+        TRY(path_join(&full, r->root, c[n].source.text));
+        if (access(full.text, R_OK) != 0)
             break;
         TRY(forgive(r, convert(r, children, &c[n], 0)));
     }
@@ -193,7 +182,7 @@ static status make_stills(struct report *r, struct children *children)
     struct conversion *c = NULL;
     TRY(memory_alloc(r->n_frames, sizeof *frame, "pictures", &frame));
     for (size_t i = 0; i < r->n_frames; i++)
-        if (*r->frame[i].source)
+        if (*r->frame[i].source.text)
             frame[n++] = &r->frame[i];
     TRY(memory_alloc(CONTACT + 2, sizeof *c, "pictures", &c));
     const size_t n_thumbs = n < CONTACT ? n : CONTACT;
@@ -207,9 +196,8 @@ static status make_stills(struct report *r, struct children *children)
         if (!thumb && i > n_thumbs && n == 1)
             continue;
         c[k].made = thumb ? &f->thumb : &f->pictured;
-        memcpy(c[k].source, f->source, sizeof c[k].source);
-        snprintf(c[k].path, sizeof c[k].path, "report/%s.%d.jpg", thumb ? "thumb" : "frame",
-                 f->manifest.frame);
+        c[k].source = f->source;
+        TRY(path_format(&c[k].path, "report/%s.%d.jpg", thumb ? "thumb" : "frame", f->manifest.frame));
         TRY(forgive(r, convert(r, children, &c[k++], thumb ? 320 : 0)));
     }
     TRY(wait_all(r, children));
@@ -225,10 +213,10 @@ status report_pictures(struct report *r)
 {
     status st = OK;
     struct children children;
-    char path[4300];
+    struct path path;
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    snprintf(path, sizeof path, "%.4096s/log", r->root);
-    TRY(folder_make(path));
+    TRY(path_join(&path, r->root, "log"));
+    TRY(folder_make(path.text));
     children_begin(&children, r->root, "log/report.log", "ffmpeg and openimageio-tools",
                    cores > 0 ? (int)cores : 1);
     st = copy_video(r);

@@ -172,35 +172,43 @@ void page_provenance(const struct report *r, struct text *t)
 
 static void add_checkpoints(const struct report *r, struct text *t)
 {
-    char path[512], full[4700], size[48];
+    struct path path, full;
+    char number[16], size[48];
     struct stat info;
     text_add(t, "<p>Checkpoints a run goes on from: ");
     for (size_t i = 0; i < r->n_checkpoints; i++) {
         const int frame = r->checkpoint[i];
-        snprintf(path, sizeof path, "checkpoint/%.200s.%s%04d.ckpt", r->name, frame < 0 ? "-" : "",
-                 abs(frame));
-        snprintf(full, sizeof full, "%.4096s/%s", r->root, path);
-        page_bytes(stat(full, &info) == 0 ? (uint64_t)info.st_size : 0, size);
+        if (folder_name(&path, r->name, FILE_CHECKPOINT, frame, NULL) != OK)
+            continue; /* it would not have been found */
+        const bool there = path_join(&full, r->root, path.text) == OK && stat(full.text, &info) == 0;
+        page_bytes(there ? (uint64_t)info.st_size : 0, size);
         text_add(t, i ? ", frame " : "frame ");
-        snprintf(full, sizeof full, "%d", frame);
-        page_link(t, path, full);
+        snprintf(number, sizeof number, "%d", frame);
+        page_link(t, path.text, number);
         text_add(t, " (%s)", size);
     }
     text_add(t, r->n_checkpoints ? ".</p>\n" : "none.</p>\n");
 }
 
-/* If it is there. */
+/* If it is there. `path` is relative to root. */
 static void add_file(const struct report *r, const char *path, const char *what, struct text *t)
 {
-    char full[4700], size[48];
+    struct path full;
+    char size[48];
     struct stat info;
-    snprintf(full, sizeof full, "%.4096s/%s", r->root, path);
-    if (stat(full, &info) != 0)
+    if (path_join(&full, r->root, path) != OK || stat(full.text, &info) != 0)
         return;
     page_bytes((uint64_t)info.st_size, size);
     text_add(t, "<tr><td>");
     page_link(t, path, path);
     text_add(t, "</td><td>%s</td><td class=\"n\">%s</td></tr>\n", what, S_ISREG(info.st_mode) ? size : "");
+}
+
+static void add_named(const struct report *r, enum folder_file kind, const char *what, struct text *t)
+{
+    struct path path;
+    if (folder_name(&path, r->name, kind, 0, NULL) == OK)
+        add_file(r, path.text, what, t);
 }
 
 static void add_frames(const struct report *r, struct text *t)
@@ -242,14 +250,10 @@ static void add_frames(const struct report *r, struct text *t)
 
 void page_files(const struct report *r, struct text *t)
 {
-    char path[300];
     text_add(t, "<section><h2>Files</h2>\n<div class=\"scroll\"><table><tbody>\n");
-    snprintf(path, sizeof path, "%.200s.usda", r->name);
-    add_file(r, path, "the sequence as a USD stage: volumes, points, cameras", t);
-    snprintf(path, sizeof path, "%.200s.turntable.mp4", r->name);
-    add_file(r, path, "the turntable", t);
-    snprintf(path, sizeof path, "%.200s.contact.png", r->name);
-    add_file(r, path, "the contact sheet", t);
+    add_named(r, FILE_STAGE, "the sequence as a USD stage: volumes, points, cameras", t);
+    add_named(r, FILE_VIDEO, "the turntable", t);
+    add_named(r, FILE_SHEET, "the contact sheet", t);
     add_file(r, "points/", "OpenVDB points, and USD points of the surface, a file a frame", t);
     add_file(r, "volumes/", "OpenVDB grids, a file a frame", t);
     add_file(r, "aov/", "EXR pictures of the fields, a file a frame", t);

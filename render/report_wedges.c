@@ -30,12 +30,10 @@ struct sweep {
 
 bool report_has_wedges(const char *root)
 {
-    char path[4700];
-    snprintf(path, sizeof path, "%.4500s/run.json", root);
-    if (access(path, F_OK) == 0)
+    struct path path;
+    if (path_join(&path, root, "run.json") != OK || access(path.text, F_OK) == 0)
         return false;
-    snprintf(path, sizeof path, "%.4500s/farm/job.yaml", root);
-    return access(path, F_OK) == 0;
+    return path_join(&path, root, "farm/job.yaml") == OK && access(path.text, F_OK) == 0;
 }
 
 static void free_sweep(struct sweep *s)
@@ -53,16 +51,16 @@ static void free_sweep(struct sweep *s)
 static status gather_wedge(struct sweep *s, struct wedge *w)
 {
     status st = OK;
-    char root[4200];
+    struct path root;
     int *frames = NULL;
     size_t n, k = 0;
     double share = 100;
-    snprintf(root, sizeof root, "%.4000s/w%04d", s->root, (int)w->job->wedge.index);
+    TRY(path_wedge(&root, s->root, (int)w->job->wedge.index));
     TRY(memory_alloc(s->n_x, sizeof *w->share, "curves", &w->share));
-    TRY(folder_frames(root, w->job->name, &frames, &n));
+    TRY(folder_frames(root.text, w->job->name, &frames, &n));
     for (size_t i = 0; i < n; i++) {
         struct manifest m = {0};
-        st = manifest_read(root, w->job->name, frames[i], &m);
+        st = manifest_read(root.text, w->job->name, frames[i], &m);
         if (st == E_INPUT) { /* damaged: it is not counted */
             st = OK;
             continue;
@@ -85,9 +83,9 @@ done:
 static status gather(struct sweep *s)
 {
     status st = OK;
-    char path[4700];
-    snprintf(path, sizeof path, "%.4500s/farm/job.yaml", s->root);
-    TRY(job_load(path, NULL, 0, &s->base));
+    struct path path;
+    TRY(path_join(&path, s->root, "farm/job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &s->base));
     size_t n = job_wedges(s->base);
     if (n == 0) {
         st = fail(E_INPUT, "%s holds neither a run nor wedges", s->root);
@@ -95,7 +93,7 @@ static status gather(struct sweep *s)
     }
     TRY(memory_alloc(n, sizeof *s->wedge, "the wedges", &s->wedge));
     for (; s->n < n; s->n++)
-        TRY(job_load_wedge(path, NULL, 0, s->base, (int)s->n + 1, &s->wedge[s->n].job));
+        TRY(job_load_wedge(path.text, NULL, 0, s->base, (int)s->n + 1, &s->wedge[s->n].job));
     s->n_x = range_count(s->wedge[0].job->frames);
     TRY(memory_alloc(s->n_x, sizeof *s->x, "curves", &s->x));
     for (size_t i = 0; i < s->n_x; i++)
@@ -106,22 +104,22 @@ done:
     return st;
 }
 
-/* The still of the wedge's last frame into report/; *there if it has one. */
-static status copy_still(const struct sweep *s, const struct wedge *w, char name[64], bool *there)
+/* The still of the wedge's last frame into report/, as w0001.png; *there if it has one. */
+static status copy_still(const struct sweep *s, const struct wedge *w, bool *there)
 {
     status st = OK;
-    char path[4800];
+    struct path root, path;
+    char number[FRAME_TEXT];
     void *bytes = NULL;
     size_t size;
-    snprintf(path, sizeof path, "%.4000s/w%04d/preview/%.200s.%04d.png", s->root, (int)w->job->wedge.index,
-             w->job->name, w->last.frame);
-    *there = w->n_frames > 0 && access(path, R_OK) == 0;
+    TRY(path_wedge(&root, s->root, (int)w->job->wedge.index));
+    TRY(folder_path(path.text, root.text, w->job->name, FILE_STILL, w->last.frame, NULL));
+    *there = w->n_frames > 0 && access(path.text, R_OK) == 0;
     if (!*there)
         return OK;
-    snprintf(name, 64, "w%04d.png", (int)w->job->wedge.index);
-    TRY(file_read(path, STILL_BYTES, (char **)&bytes, &size));
-    snprintf(path, sizeof path, "%.4500s/report/%s", s->root, name);
-    TRY(atomic_file_write(path, bytes, size));
+    TRY(file_read(path.text, STILL_BYTES, (char **)&bytes, &size));
+    TRY(path_format(&path, "%s/report/%s.png", s->root, wedge_text((int)w->job->wedge.index, number)));
+    TRY(atomic_file_write(path.text, bytes, size));
 done:
     free(bytes);
     return st;
@@ -135,8 +133,9 @@ static void add_table(const struct sweep *s, struct text *t)
     for (size_t i = 0; i < s->n; i++) {
         const struct wedge *w = &s->wedge[i];
         const struct ledger *l = &w->last.ledger;
-        char path[64];
-        text_add(t, "<tr><td>w%04d</td><td>", (int)w->job->wedge.index);
+        struct path path, whole;
+        char number[FRAME_TEXT];
+        text_add(t, "<tr><td>%s</td><td>", wedge_text((int)w->job->wedge.index, number));
         html_text(t, w->job->wedge.label);
         text_add(t, "</td><td>%zu of %zu</td>", w->n_frames, range_count(w->job->frames));
         if (w->n_frames)
@@ -145,11 +144,9 @@ static void add_table(const struct sweep *s, struct text *t)
                      (unsigned long long)l->left);
         else
             text_add(t, "<td colspan=\"4\">not begun</td><td>");
-        snprintf(path, sizeof path, "w%04d/report/index.html", (int)w->job->wedge.index);
-        char whole[4300];
-        snprintf(whole, sizeof whole, "%.4200s/%s", s->root, path);
-        if (access(whole, R_OK) == 0)
-            page_link(t, path, "its report");
+        if (path_join(&path, number, "report/index.html") == OK &&
+            path_join(&whole, s->root, path.text) == OK && access(whole.text, R_OK) == 0)
+            page_link(t, path.text, "its report");
         text_add(t, "</td></tr>\n");
     }
     text_add(t, "</tbody></table></section>\n");
@@ -159,14 +156,14 @@ static void add_chart(const struct sweep *s, struct text *t)
 {
     static const char *const colors[SERIES_MAX] = {"#a9491f", "#2f5f8a", "#e8bd52", "#4d7a3a",
                                                    "#7b4b94", "#111111", "#d0743c", "#7d8a91"};
-    char names[SERIES_MAX][16];
+    char names[SERIES_MAX][FRAME_TEXT];
     struct series series[SERIES_MAX];
     size_t n = 0;
     for (size_t i = 0; i < s->n && n < SERIES_MAX; i++) {
         if (!s->wedge[i].n_frames)
             continue;
-        snprintf(names[n], sizeof names[n], "w%04d", (int)s->wedge[i].job->wedge.index);
-        series[n] = (struct series){names[n], colors[n], s->wedge[i].share};
+        series[n] = (struct series){wedge_text((int)s->wedge[i].job->wedge.index, names[n]), colors[n],
+                                    s->wedge[i].share};
         n++;
     }
     if (n == 0 || s->n_x < 2)
@@ -194,14 +191,14 @@ static status add_stills(const struct sweep *s, struct text *t)
     text_add(t, "<section><h2>Last frames</h2>\n<div class=\"two\">\n");
     for (size_t i = 0; i < s->n; i++) {
         const struct wedge *w = &s->wedge[i];
-        char name[64];
+        char number[FRAME_TEXT];
         bool there;
-        TRY(copy_still(s, w, name, &there));
+        TRY(copy_still(s, w, &there));
         if (!there)
             continue;
         shown++;
-        text_add(t, "<figure><img src=\"%s\" alt=\"wedge %d, frame %d\"><figcaption>", name,
-                 (int)w->job->wedge.index, w->last.frame);
+        text_add(t, "<figure><img src=\"%s.png\" alt=\"wedge %d, frame %d\"><figcaption>",
+                 wedge_text((int)w->job->wedge.index, number), (int)w->job->wedge.index, w->last.frame);
         html_text(t, w->job->wedge.label);
         text_add(t, "</figcaption></figure>\n");
     }
@@ -219,10 +216,11 @@ status report_wedges(const char *root, struct text *page)
 {
     status st = OK;
     struct sweep s = {.root = root};
-    char path[4700], range[48];
+    struct path path;
+    char range[48];
     TRY(gather(&s));
-    snprintf(path, sizeof path, "%.4500s/report", root);
-    TRY(folder_make(path));
+    TRY(path_join(&path, root, "report"));
+    TRY(folder_make(path.text));
     page_begin(s.base->name, page);
     html_text(page, s.base->name);
     text_add(page, "</h1>\n<p class=\"sub\">%zu wedges, frames %s</p>\n</header>\n<main>\n", s.n,

@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "output/folder.h"
 #include "render/slate.h"
 
 static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
@@ -15,38 +16,38 @@ static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 /* A file under root, moved into place when its program has made it. */
 struct sheet {
     const struct preview *preview;
-    char temporary[512], path[512];
+    struct path temporary, path;
 };
 
 static status sheet_done(void *user)
 {
     struct sheet *sheet = user;
-    char from[4700], to[4700];
-    snprintf(from, sizeof from, "%s/%s", sheet->preview->root, sheet->temporary);
-    snprintf(to, sizeof to, "%s/%s", sheet->preview->root, sheet->path);
-    return atomic_file_adopt(from, to);
+    status st = OK;
+    struct path from, to;
+    TRY(path_join(&from, sheet->preview->root, sheet->temporary.text));
+    TRY(path_join(&to, sheet->preview->root, sheet->path.text));
+    TRY(atomic_file_adopt(from.text, to.text));
+done:
+    return st;
 }
 
 status turntable_video(struct preview *p, int frame, int views)
 {
     status st = OK;
-    char name[256], path[512], pattern[512], filter[200], count[16];
+    struct path path, pattern;
+    char filter[200], count[16];
     struct sheet sheet = {.preview = p};
-    picture_name(p, name);
     for (int view = 0; view < views; view++) {
-        char full[4700];
-        picture_view_path(p, frame, view, path);
-        snprintf(full, sizeof full, "%s/%s", p->root, path);
-        if (access(full, R_OK) != 0) {
-            st = fail(E_INPUT, "%s: the view is not there; make it first", full);
+        TRY(picture_view_path(p, frame, view, &path));
+        TRY(path_join(&path, p->root, path.text));
+        if (access(path.text, R_OK) != 0) {
+            st = fail(E_INPUT, "%s: the view is not there; make it first", path.text);
             goto done;
         }
     }
-    snprintf(sheet.path, sizeof sheet.path, "%s.turntable.mp4", name);
-    TRY(atomic_file_temporary(sheet.path, sheet.temporary, sizeof sheet.temporary - 4));
-    strcat(sheet.temporary, ".mp4"); /* programs go by the ending */
-    /* Names hold letters, digits, _ and - alone: no '%' but ours. */
-    snprintf(pattern, sizeof pattern, "turntable/%s.%04d.%%03d.png", name, frame);
+    TRY(folder_name(&sheet.path, p->job->name, FILE_VIDEO, 0, picture_part(p)));
+    TRY(atomic_file_temporary(sheet.path.text, ".mp4", &sheet.temporary));
+    TRY(folder_views(&pattern, p->job->name, picture_part(p), frame));
     /* Three turns: a video of one and a half seconds is over before one has looked. */
     snprintf(
         filter, sizeof filter,
@@ -58,7 +59,7 @@ status turntable_video(struct preview *p, int frame, int views)
                                 "warning",    "-framerate",
                                 "24",         "-start_number",
                                 "0",          "-i",
-                                pattern,      "-frames:v",
+                                pattern.text, "-frames:v",
                                 count,        "-vf",
                                 filter,       "-c:v",
                                 "libx264",    "-threads",
@@ -72,7 +73,7 @@ status turntable_video(struct preview *p, int frame, int views)
                                 "bt709",      "-movflags",
                                 "+faststart", "-fflags",
                                 "+bitexact",  "-flags:v",
-                                "+bitexact",  sheet.temporary,
+                                "+bitexact",  sheet.temporary.text,
                                 NULL};
     TRY(children_run(&p->children, argv, "the turntable's video", sheet_done, &sheet));
     TRY(children_wait(&p->children));
@@ -80,9 +81,14 @@ done:
     return st;
 }
 
+struct tile {
+    struct path picture; /* relative to root */
+    char label[96];      /* "": none */
+};
+
 /* Pictures side by side, a line of text on each that has one. oiiotool takes its pictures and what is done to
  * each in order: IN --text ... IN --text ... --mosaic. */
-static status mosaic(struct preview *p, const char *path, char (*word)[600], size_t n)
+static status mosaic(struct preview *p, const struct path *path, const struct tile *tile, size_t n)
 {
     enum { EACH = 4 };
     status st = OK;
@@ -91,24 +97,23 @@ static status mosaic(struct preview *p, const char *path, char (*word)[600], siz
     char shape[48], text_option[256];
     size_t k = 0, columns = (size_t)ceil(sqrt((double)n));
     TRY(memory_alloc(EACH * n + 8, sizeof *argv, "the contact sheet", &argv));
-    snprintf(sheet.path, sizeof sheet.path, "%s", path);
-    TRY(atomic_file_temporary(sheet.path, sheet.temporary, sizeof sheet.temporary - 4));
-    strcat(sheet.temporary, ".png");
+    sheet.path = *path;
+    TRY(atomic_file_temporary(path->text, ".png", &sheet.temporary));
     snprintf(text_option, sizeof text_option, "--text:x=10:y=26:size=18:color=1,1,1,1:shadow=2:font=%s",
              FONT);
     argv[k++] = "oiiotool";
     for (size_t i = 0; i < n; i++) {
-        argv[k++] = word[2 * i];
-        if (!*word[2 * i + 1])
+        argv[k++] = tile[i].picture.text;
+        if (!*tile[i].label)
             continue;
         argv[k++] = text_option;
-        argv[k++] = word[2 * i + 1];
+        argv[k++] = tile[i].label;
     }
     snprintf(shape, sizeof shape, "%zux%zu", columns, (n + columns - 1) / columns);
     argv[k++] = "--mosaic:pad=4";
     argv[k++] = shape;
     argv[k++] = "-o";
-    argv[k++] = sheet.temporary;
+    argv[k++] = sheet.temporary.text;
     TRY(children_run(&p->children, argv, "the contact sheet", sheet_done, &sheet));
     TRY(children_wait(&p->children));
 done:
@@ -119,25 +124,23 @@ done:
 status turntable_contact(struct preview *p, const int *frames, size_t n, int views)
 {
     status st = OK;
-    char(*word)[600] = NULL, path[512], name[256];
+    struct tile *tile = NULL;
+    struct path path;
     size_t n_pictures = views ? ((size_t)views + 2) / 3 : n;
     if (n_pictures == 0)
         return OK;
-    TRY(memory_alloc(2 * n_pictures, sizeof *word, "the contact sheet", &word));
+    TRY(memory_alloc(n_pictures, sizeof *tile, "the contact sheet", &tile));
     for (size_t i = 0; i < n_pictures; i++) {
         int frame = views ? frames[n - 1] : frames[i];
-        if (views)
-            picture_view_path(p, frame, (int)(3 * i), word[2 * i]);
-        else
-            picture_still_path(p, frame, word[2 * i]);
-        if (!picture_has_slate(p, word[2 * i]))
-            slate_when(p->job, frame, word[2 * i + 1]);
+        TRY(views ? picture_view_path(p, frame, (int)(3 * i), &tile[i].picture)
+                  : picture_still_path(p, frame, &tile[i].picture));
+        if (!picture_has_slate(p, tile[i].picture.text))
+            slate_when(p->job, frame, tile[i].label);
     }
-    picture_name(p, name);
-    snprintf(path, sizeof path, "%s.contact.png", name);
-    TRY(mosaic(p, path, word, n_pictures));
+    TRY(folder_name(&path, p->job->name, FILE_SHEET, 0, picture_part(p)));
+    TRY(mosaic(p, &path, tile, n_pictures));
 done:
-    free(word);
+    free(tile);
     return st;
 }
 
@@ -145,7 +148,8 @@ done:
  * ends. */
 static void plain_label(const struct job *job, char out[96])
 {
-    int n = snprintf(out, 96, "w%04d  ", (int)job->wedge.index);
+    char number[FRAME_TEXT];
+    int n = snprintf(out, 96, "%s  ", wedge_text((int)job->wedge.index, number));
     for (const char *s = job->wedge.label; *s; s++) {
         if (n > 70 && (*s & 0xc0) != 0x80)
             break;
@@ -159,23 +163,26 @@ static void plain_label(const struct job *job, char out[96])
 status turntable_wedges(struct preview *p, const struct job *const *wedge, size_t n)
 {
     status st = OK;
-    char(*word)[600] = NULL, path[512], full[4700];
+    struct tile *tile = NULL;
+    struct path path;
     size_t k = 0;
-    TRY(memory_alloc(2 * n, sizeof *word, "the contact sheet", &word));
+    TRY(memory_alloc(n, sizeof *tile, "the contact sheet", &tile));
     for (size_t i = 0; i < n; i++) {
-        snprintf(word[2 * k], sizeof word[0], "w%04d/preview/%.200s.%04d.png", (int)wedge[i]->wedge.index,
-                 wedge[i]->name, wedge[i]->frames.last);
-        plain_label(wedge[i], word[2 * k + 1]);
-        snprintf(full, sizeof full, "%s/%s", p->root, word[2 * k]);
-        k += access(full, R_OK) == 0;
+        const struct job *job = wedge[i];
+        char number[FRAME_TEXT];
+        TRY(folder_path(tile[k].picture.text, wedge_text((int)job->wedge.index, number), job->name,
+                        FILE_STILL, job->frames.last, NULL));
+        plain_label(job, tile[k].label);
+        TRY(path_join(&path, p->root, tile[k].picture.text));
+        k += access(path.text, R_OK) == 0;
     }
     if (k == 0) {
         st = fail(E_INPUT, "%s holds no still of any wedge's last frame; make those first", p->root);
         goto done;
     }
-    snprintf(path, sizeof path, "%.200s.wedges.png", p->job->name);
-    TRY(mosaic(p, path, word, k));
+    TRY(folder_name(&path, p->job->name, FILE_WEDGES, 0, NULL));
+    TRY(mosaic(p, &path, tile, k));
 done:
-    free(word);
+    free(tile);
     return st;
 }

@@ -19,44 +19,39 @@
 
 static const char TEMPORARY[] = ".tmp-";
 
-status atomic_file_temporary(const char *path, char *out, size_t size)
+status atomic_file_temporary(const char *path, const char *ending, struct path *out)
 {
     static atomic_uint count;
     struct timeval now;
     gettimeofday(&now, NULL);
-    int length =
-        snprintf(out, size, "%s%s%08x-%ld-%lx%05lx-%u", path, TEMPORARY, process_place(), (long)getpid(),
-                 (unsigned long)now.tv_sec, (unsigned long)now.tv_usec, atomic_fetch_add(&count, 1));
-    if (length < 0 || (size_t)length >= size)
-        return fail(E_OUTPUT, "%.200s...: the path is too long", path);
-    return OK;
+    return path_format(out, "%s%s%08x-%ld-%lx%05lx-%u%s", path, TEMPORARY, process_place(), (long)getpid(),
+                       (unsigned long)now.tv_sec, (unsigned long)now.tv_usec, atomic_fetch_add(&count, 1),
+                       ending);
 }
 
 static status fsync_folder_of(const char *path)
 {
-    char folder[4096];
-    const char *slash = strrchr(path, '/');
-    if (!slash)
-        snprintf(folder, sizeof folder, ".");
-    else
-        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
-    int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    struct path folder;
+    status st = path_folder(&folder, path);
+    if (st != OK)
+        return st;
+    int fd = open(folder.text, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0)
-        return fail(E_OUTPUT, "%s: cannot open the folder: %s", folder, strerror(errno));
+        return fail(E_OUTPUT, "%s: cannot open the folder: %s", folder.text, strerror(errno));
     /* Some network file systems refuse fsync on folders (EINVAL); there is nothing more to be had from those.
      * */
     int bad = fsync(fd) != 0 && errno != EINVAL ? errno : 0;
     close(fd);
-    return bad ? fail(E_OUTPUT, "%s: cannot fsync the folder: %s", folder, strerror(bad)) : OK;
+    return bad ? fail(E_OUTPUT, "%s: cannot fsync the folder: %s", folder.text, strerror(bad)) : OK;
 }
 
 status atomic_file_write(const char *path, const void *bytes, size_t n)
 {
-    char temporary[4096];
-    status st = atomic_file_temporary(path, temporary, sizeof temporary);
+    struct path temporary;
+    status st = atomic_file_temporary(path, "", &temporary);
     if (st != OK)
         return st;
-    int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    int fd = open(temporary.text, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd < 0)
         return fail(E_OUTPUT, "%s: cannot be written: %s", path, strerror(errno));
     size_t written = 0;
@@ -75,10 +70,10 @@ status atomic_file_write(const char *path, const void *bytes, size_t n)
         st = fail(E_OUTPUT, "%s: cannot fsync: %s", path, strerror(errno));
     if (close(fd) != 0 && st == OK)
         st = fail(E_OUTPUT, "%s: cannot close: %s", path, strerror(errno));
-    if (st == OK && rename(temporary, path) != 0)
+    if (st == OK && rename(temporary.text, path) != 0)
         st = fail(E_OUTPUT, "%s: cannot rename into place: %s", path, strerror(errno));
     if (st != OK) {
-        unlink(temporary);
+        unlink(temporary.text);
         return st;
     }
     return fsync_folder_of(path);
@@ -105,11 +100,14 @@ status atomic_file_adopt(const char *temporary, const char *path)
 
 status folder_make(const char *path)
 {
-    char part[4096];
-    size_t n = strlen(path);
-    if (n == 0 || n >= sizeof part)
-        return fail(E_OUTPUT, "'%.200s': not a usable folder name", path);
-    memcpy(part, path, n + 1);
+    struct path whole;
+    status st = path_format(&whole, "%s", path);
+    if (st != OK)
+        return st;
+    char *part = whole.text;
+    const size_t n = strlen(part);
+    if (n == 0)
+        return fail(E_OUTPUT, "'': not a usable folder name");
     for (size_t i = 1; i <= n; i++) {
         if (part[i] != '/' && part[i] != '\0')
             continue;

@@ -9,6 +9,7 @@
 
 #include <stddef.h>
 
+#include "base/path.h"
 #include "base/status.h"
 
 /* E_OUTPUT names the path, the bytes and the system's reason (disk full, permission). */
@@ -18,8 +19,9 @@ MUST_USE status atomic_file_write(const char *path, const void *bytes, size_t n)
 MUST_USE status folder_make(const char *path);
 
 /* A temporary name beside `path`, of this machine and process, for files that other programs write: move it
- * over `path` when it is whole. E_OUTPUT if it is longer than `size` allows. */
-MUST_USE status atomic_file_temporary(const char *path, char *out, size_t size);
+ * over `path` when it is whole. It ends in `ending` (".png"), for programs go by that; or in nothing in
+ * particular (""). E_OUTPUT if it is too long. */
+MUST_USE status atomic_file_temporary(const char *path, const char *ending, struct path *out);
 
 /* Moves what stands at that temporary name over `path`, fsynced; it is removed if that fails, as on a disk that was
  * full all along. */

@@ -15,6 +15,7 @@
 #include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/path.h"
 #include "base/process.h"
 #include "base/text.h"
 
@@ -22,7 +23,8 @@ enum { LOCK_BYTES = 4096, COUNT_DIGITS = 12, WATCH_US = 100000 };
 static const double BEAT_S = 5, WATCH_S = 30;
 
 struct lock {
-    char path[4096], token[96];
+    struct path path;
+    char token[96];
     double beat_s;
     pthread_t thread;
     pthread_mutex_t guard;
@@ -113,13 +115,13 @@ static void beat(struct lock *lock)
 {
     struct seen s;
     char count[32];
-    if (look(lock->path, &s) != OK || s.unread)
+    if (look(lock->path.text, &s) != OK || s.unread)
         return; /* the disk is away for a moment; the next beat will tell */
     if (!s.there || strcmp(s.token, lock->token) != 0) {
         atomic_store(&lock->lost, true);
         return;
     }
-    int fd = open(lock->path, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+    int fd = open(lock->path.text, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
     if (fd < 0)
         return;
     snprintf(count, sizeof count, "%0*llu", COUNT_DIGITS, ++lock->count);
@@ -199,20 +201,20 @@ static status judge(const char *path, const struct seen *first, double watch_s, 
  * is not what was judged (someone else was quicker, and holds it now), it is put back. */
 static status remove_stale(const char *path, const struct seen *stale)
 {
-    char aside[4096];
+    struct path aside;
     struct seen moved;
     status st = OK;
-    TRY(atomic_file_temporary(path, aside, sizeof aside));
-    if (rename(path, aside) != 0)
+    TRY(atomic_file_temporary(path, "", &aside));
+    if (rename(path, aside.text) != 0)
         return errno == ENOENT ? OK : fail(E_OUTPUT, "%s: cannot be moved: %s", path, strerror(errno));
-    TRY(look(aside, &moved));
-    if (strcmp(moved.token, stale->token) != 0 && link(aside, path) != 0 && errno != EEXIST)
+    TRY(look(aside.text, &moved));
+    if (strcmp(moved.token, stale->token) != 0 && link(aside.text, path) != 0 && errno != EEXIST)
         st = fail(E_OUTPUT, "%s: cannot be put back: %s", path, strerror(errno));
     else if (strcmp(moved.token, stale->token) == 0)
         log_warn("%s was left behind by process %ld on %s (%s, since %s); taking over", path,
                  stale->holder.pid, *stale->holder.host ? stale->holder.host : "an unknown machine",
                  *stale->what ? stale->what : "unknown", *stale->since ? stale->since : "an unknown time");
-    unlink(aside);
+    unlink(aside.text);
 done:
     return st;
 }
@@ -221,18 +223,18 @@ done:
 static status put_in_place(struct lock *lock, const char *what, bool *mine)
 {
     status st = OK;
-    char own[4096];
+    struct path own;
     struct text t = {0};
     struct stat info = {0};
-    TRY(atomic_file_temporary(lock->path, own, sizeof own));
-    snprintf(lock->token, sizeof lock->token, "%.95s", own + strlen(lock->path) + 1);
+    TRY(atomic_file_temporary(lock->path.text, "", &own));
+    snprintf(lock->token, sizeof lock->token, "%.95s", own.text + strlen(lock->path.text) + 1);
     TRY(compose(lock, what, &t));
-    TRY(atomic_file_write(own, t.data, t.size));
-    int linked = link(own, lock->path), why = errno;
-    *mine = linked == 0 || (stat(own, &info) == 0 && info.st_nlink == 2);
-    unlink(own);
+    TRY(atomic_file_write(own.text, t.data, t.size));
+    int linked = link(own.text, lock->path.text), why = errno;
+    *mine = linked == 0 || (stat(own.text, &info) == 0 && info.st_nlink == 2);
+    unlink(own.text);
     if (!*mine && why != EEXIST)
-        st = fail(E_OUTPUT, "%s: cannot be made: %s", lock->path, strerror(why));
+        st = fail(E_OUTPUT, "%s: cannot be made: %s", lock->path.text, strerror(why));
 done:
     text_free(&t);
     return st;
@@ -248,11 +250,7 @@ status lock_take(const char *path, const char *what, struct lock_patience patien
     bool mine = false;
     *out = NULL;
     TRY(memory_alloc(1, sizeof *lock, "a lock", &lock));
-    if (strlen(path) >= sizeof lock->path) {
-        st = fail(E_OUTPUT, "%.200s...: the path is too long", path);
-        goto done;
-    }
-    strcpy(lock->path, path);
+    TRY(path_format(&lock->path, "%s", path));
     lock->beat_s = patience.beat_s > 0 ? patience.beat_s : BEAT_S;
     for (int i = 0; i < TRIES && !mine; i++) {
         TRY(put_in_place(lock, what, &mine));
@@ -286,7 +284,7 @@ status lock_check(const struct lock *lock)
 {
     if (lock && atomic_load(&lock->lost))
         return fail(E_OUTPUT, "%s: another process took this folder over while this one stood still",
-                    lock->path);
+                    lock->path.text);
     return OK;
 }
 
@@ -311,8 +309,8 @@ void lock_release(struct lock **handle)
     pthread_join(lock->thread, NULL);
     pthread_cond_destroy(&lock->wake);
     pthread_mutex_destroy(&lock->guard);
-    if (look(lock->path, &s) == OK && s.there && strcmp(s.token, lock->token) == 0)
-        unlink(lock->path);
+    if (look(lock->path.text, &s) == OK && s.there && strcmp(s.token, lock->token) == 0)
+        unlink(lock->path.text);
     free(lock);
     *handle = NULL;
 }

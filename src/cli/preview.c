@@ -64,18 +64,21 @@ static status check(struct wanted *w, struct preview *p)
     return OK;
 }
 
-/* The frames whose stills are there, in place. */
-static size_t with_stills(const struct preview *p, int *frames, size_t n)
+/* Leaves the frames whose stills are there, in place. */
+static status with_stills(const struct preview *p, int *frames, size_t *n)
 {
-    char still[512], path[4700];
+    status st = OK;
+    struct path path;
     size_t k = 0;
-    for (size_t i = 0; i < n; i++) {
-        picture_still_path(p, frames[i], still);
-        snprintf(path, sizeof path, "%s/%s", p->root, still);
-        if (access(path, R_OK) == 0)
+    for (size_t i = 0; i < *n; i++) {
+        TRY(picture_still_path(p, frames[i], &path));
+        TRY(path_join(&path, p->root, path.text));
+        if (access(path.text, R_OK) == 0)
             frames[k++] = frames[i];
     }
-    return k;
+    *n = k;
+done:
+    return st;
 }
 
 static status stills(struct preview *p, int *frames, size_t n, int only)
@@ -90,7 +93,7 @@ static status stills(struct preview *p, int *frames, size_t n, int only)
     TRY(children_wait(&p->children));
     if (only == ONLY_STILLS)
         goto done;
-    n = with_stills(p, frames, n);
+    TRY(with_stills(p, frames, &n));
     if (n == 0)
         st = fail(E_INPUT, "%s holds no stills of these frames; make those first", p->root);
     else
@@ -102,16 +105,15 @@ done:
 static status turntable(struct preview *p, const struct wanted *w, const int *frames, size_t n)
 {
     status st = OK;
-    char path[4700], name[256];
+    struct path path;
     if (w->only != ONLY_VIDEO)
         TRY(picture_orbit(p, frames[n - 1], w->views, w->which));
     if (w->only == ONLY_VIEWS)
         goto done;
     TRY(turntable_video(p, frames[n - 1], w->views));
     /* A sheet of stills says more than one of views, if there is one. */
-    picture_name(p, name);
-    snprintf(path, sizeof path, "%s/%s.contact.png", p->root, name);
-    if (access(path, R_OK) != 0)
+    TRY(folder_path(path.text, p->root, p->job->name, FILE_SHEET, 0, picture_part(p)));
+    if (access(path.text, R_OK) != 0)
         TRY(turntable_contact(p, frames, n, w->views));
 done:
     return st;
@@ -119,11 +121,12 @@ done:
 
 static status make_folder(const char *root, const char *name)
 {
-    char path[4700];
-    snprintf(path, sizeof path, "%s/%s", root, name);
-    status st = folder_make(path);
-    if (st == OK)
-        atomic_file_sweep(path);
+    status st = OK;
+    struct path path;
+    TRY(path_join(&path, root, name));
+    TRY(folder_make(path.text));
+    atomic_file_sweep(path.text);
+done:
     return st;
 }
 
@@ -131,11 +134,10 @@ static status make_folder(const char *root, const char *name)
 static void sweep_all(const char *root)
 {
     static const char *const folders[] = {"", "preview", "turntable"};
-    char path[4700];
-    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        snprintf(path, sizeof path, "%s/%s", root, folders[i]);
-        atomic_file_sweep_own(path);
-    }
+    struct path path;
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++)
+        if (path_join(&path, root, folders[i]) == OK)
+            atomic_file_sweep_own(path.text);
 }
 
 /* Those a scheduler left us, not the machine's. */
@@ -150,17 +152,17 @@ static int cores(void)
 static status wedges(struct preview *p)
 {
     status st = OK;
-    char path[4700];
+    struct path path;
     struct job *base = NULL;
     const struct job **all = NULL;
     struct job *one = NULL;
     size_t n = 0;
-    snprintf(path, sizeof path, "%.4000s/farm/job.yaml", p->root);
-    TRY(job_load(path, NULL, 0, &base));
+    TRY(path_join(&path, p->root, "farm/job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &base));
     size_t n_wedges = job_wedges(base);
     TRY(memory_alloc(n_wedges, sizeof *all, "the wedges", &all));
     for (; n < n_wedges; n++) {
-        TRY(job_load_wedge(path, NULL, 0, base, (int)n + 1, &one));
+        TRY(job_load_wedge(path.text, NULL, 0, base, (int)n + 1, &one));
         all[n] = one;
     }
     p->job = base;
@@ -189,7 +191,8 @@ status cli_preview(int argc, char **argv)
     struct progress progress = {0};
     int *frames = NULL;
     size_t n;
-    char root[4096], name[256], path[4700];
+    struct path root, path;
+    char name[256];
     bool help = false;
     const struct option options[] = {
         OPTION_FRAMES(&w.common),
@@ -227,8 +230,8 @@ status cli_preview(int argc, char **argv)
                       &help));
     if (help)
         goto done;
-    TRY(wedge_folder(operands.word[0], w.wedge, root));
-    p.root = root;
+    TRY(wedge_folder(operands.word[0], w.wedge, root.text));
+    p.root = root.text;
     if (w.jobs < 1) {
         st = fail(E_USAGE, "--jobs %d: 1 or more", w.jobs);
         goto done;
@@ -238,8 +241,8 @@ status cli_preview(int argc, char **argv)
         goto done;
     }
     TRY(folder_open(p.root, name));
-    snprintf(path, sizeof path, "%.4096s/job.yaml", p.root);
-    TRY(job_load(path, NULL, 0, &job));
+    TRY(path_join(&path, p.root, "job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &job));
     p.job = job;
     TRY(check(&w, &p));
     TRY(volume_frames(p.root, p.job->name, w.common.frames, &frames, &n));

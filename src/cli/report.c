@@ -14,7 +14,7 @@ status cli_report(int argc, char **argv)
     struct words operands = {0};
     struct report r = {0};
     struct text page = {0};
-    char path[4300];
+    struct path path;
     bool help = false, no_pictures = false;
     const struct option options[] = {
         {"no-pictures", NULL, OPTION_FLAG, &no_pictures,
@@ -28,22 +28,22 @@ status cli_report(int argc, char **argv)
     if (report_has_wedges(operands.word[0])) {
         TRY(report_wedges(operands.word[0], &page));
         TRY(text_status(&page));
-        snprintf(path, sizeof path, "%.4096s/report/index.html", operands.word[0]);
-        TRY(atomic_file_write(path, page.data, page.size));
-        printf("%s\n", path);
+        TRY(path_join(&path, operands.word[0], "report/index.html"));
+        TRY(atomic_file_write(path.text, page.data, page.size));
+        printf("%s\n", path.text);
         goto done;
     }
     TRY(report_gather(operands.word[0], &r));
-    snprintf(path, sizeof path, "%.4096s/report", r.root);
-    TRY(folder_make(path));
-    atomic_file_sweep(path);
+    TRY(path_join(&path, r.root, "report"));
+    TRY(folder_make(path.text));
+    atomic_file_sweep(path.text);
     if (!no_pictures)
         TRY(report_pictures(&r));
     report_page(&r, &page);
     TRY(text_status(&page));
-    snprintf(path, sizeof path, "%.4096s/report/index.html", r.root);
-    TRY(atomic_file_write(path, page.data, page.size));
-    printf("%s\n", path);
+    TRY(path_join(&path, r.root, "report/index.html"));
+    TRY(atomic_file_write(path.text, page.data, page.size));
+    printf("%s\n", path.text);
 done:
     text_free(&page);
     report_free(&r);

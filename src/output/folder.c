@@ -11,6 +11,9 @@
 #include "base/json.h"
 #include "base/memory.h"
 
+#define ORBITS "turntable"
+static const char FIRST_VIEW[] = "000.png";
+
 static const struct {
     const char *folder, *extension;
 } layout[] = {
@@ -27,13 +30,13 @@ static const struct {
     [FILE_ROCKS_USD] = {"rocks", "usdc"},
     [FILE_STACKS] = {"stacks", "stacks"},
     [FILE_STILL] = {"preview", "png"},
+    [FILE_STILL_SCENE] = {"preview", "pov"},
+    [FILE_ORBIT_SCENE] = {ORBITS, "pov"},
     [FILE_SHEET] = {NULL, "contact.png"},
     [FILE_VIDEO] = {NULL, "turntable.mp4"},
     [FILE_WEDGES] = {NULL, "wedges.png"},
     [FILE_STAGE] = {NULL, "usda"},
 };
-static const char ORBITS[] = "turntable", FIRST_VIEW[] = "000.png";
-
 /* Made by who fills them: rocks and stacks by the writer, the others by their verbs: mesh, preview, turntable, report, log. */
 static const enum folder_file always[] = {FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST,
                                           FILE_CHECKPOINT};

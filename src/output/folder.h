@@ -25,6 +25,8 @@ enum folder_file {
     FILE_ROCKS_USD,
     FILE_STACKS,
     FILE_STILL,
+    FILE_STILL_SCENE, /* POV-Ray's */
+    FILE_ORBIT_SCENE,
     FILE_SHEET, /* from here on one file of all frames */
     FILE_VIDEO,
     FILE_WEDGES, /* the sheet across a farm's wedges */
