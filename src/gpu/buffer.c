@@ -38,9 +38,25 @@ void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags u
         gpu_break(gpu, VK_ERROR_FEATURE_NOT_PRESENT, "no memory of the wanted kind");
         goto done;
     }
+    if (gpu->options.allocation_limit && bytes > gpu->options.allocation_limit) {
+        gpu_break(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "as a test asks");
+        goto done;
+    }
     VK_TRY(gpu, vkAllocateMemory(gpu->device, &allocate, NULL, memory));
+    gpu->n_allocations++;
     VK_TRY(gpu, vkBindBufferMemory(gpu->device, *buffer, *memory, 0));
 done:;
+}
+
+/* Why the device did not allocate a buffer. Many devices allocate more at once than they promise, so that is tried. */
+static status refused(const struct gpu *gpu, const struct gpu_buffer *b)
+{
+    char why[160] = "the device does not have them";
+    if (b->bytes > gpu->allocation_limit)
+        snprintf(why, sizeof why, "the device promises no more than %.1f MB in one piece",
+                 (double)gpu->allocation_limit / 1e6);
+    return fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, and %s: %s", gpu->info.name, b->name,
+                (double)b->bytes / 1e6, why, gpu->message);
 }
 
 status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t item, struct gpu_buffer **out)
@@ -59,6 +75,12 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
                   (double)b->bytes / 1e6, (double)gpu_memory_free(gpu) / 1e6);
         goto done;
     }
+    if (gpu->n_allocations >= gpu->allocations_limit) {
+        st = fail(E_MEMORY,
+                  "%s: no room for the %s buffer: the device allows %u allocations, and all are taken",
+                  gpu->info.name, name, gpu->allocations_limit);
+        goto done;
+    }
     raw_buffer_create(
         gpu, b->bytes,
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
@@ -69,8 +91,7 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
         &b->handle, &b->memory);
     if (gpu->st == E_MEMORY) {
         /* Not sticky: the caller may ask for less. */
-        st = fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, and the device does not have them: %s",
-                  gpu->info.name, name, (double)b->bytes / 1e6, gpu->message);
+        st = refused(gpu, b);
         gpu->st = OK;
         goto done;
     }
@@ -100,6 +121,7 @@ void gpu_buffer_destroy(struct gpu *gpu, struct gpu_buffer **handle)
         vkDestroyBufferView(gpu->device, b->view[i], NULL);
     vkDestroyBuffer(gpu->device, b->handle, NULL);
     vkFreeMemory(gpu->device, b->memory, NULL);
+    gpu->n_allocations -= b->memory != VK_NULL_HANDLE;
     free(b);
     *handle = NULL;
 }

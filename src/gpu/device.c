@@ -200,20 +200,26 @@ static status device_open(struct gpu *gpu)
                                .pQueueCreateInfos = &queue,
                                .enabledExtensionCount = n_extensions,
                                .ppEnabledExtensionNames = extension};
-    VkPhysicalDeviceProperties properties;
+    VkPhysicalDeviceMaintenance3Properties sizes = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    VkPhysicalDeviceProperties2 asked = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
+                                         .pNext = &sizes};
+    const VkPhysicalDeviceLimits *limits = &asked.properties.limits;
+    const struct gpu_options *o = &gpu->options;
     VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                     .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
                                     .queueFamilyIndex = gpu->family};
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
-    vkGetPhysicalDeviceProperties(gpu->physical, &properties);
-    gpu->range_limit =
-        gpu->options.range_limit ? gpu->options.range_limit : properties.limits.maxStorageBufferRange;
-    gpu->texel_limit = properties.limits.maxTexelBufferElements;
-    gpu->group_limit = properties.limits.maxComputeWorkGroupCount[0];
-    gpu->timestamp_ns = (double)properties.limits.timestampPeriod;
-    gpu->variant = gpu->options.variant ? (enum kernel_variant)(gpu->options.variant - 1)
-                   : gpu->info.is_cpu   ? VARIANT_TEXEL
-                                        : VARIANT_STORAGE;
+    vkGetPhysicalDeviceProperties2(gpu->physical, &asked);
+    gpu->range_limit = o->range_limit ? o->range_limit : limits->maxStorageBufferRange;
+    gpu->allocation_limit = o->allocation_limit ? o->allocation_limit : sizes.maxMemoryAllocationSize;
+    gpu->allocations_limit = o->allocations_limit ? o->allocations_limit : limits->maxMemoryAllocationCount;
+    gpu->texel_limit = limits->maxTexelBufferElements;
+    gpu->group_limit = limits->maxComputeWorkGroupCount[0];
+    gpu->timestamp_ns = (double)limits->timestampPeriod;
+    gpu->variant = o->variant         ? (enum kernel_variant)(o->variant - 1)
+                   : gpu->info.is_cpu ? VARIANT_TEXEL
+                                      : VARIANT_STORAGE;
     VK_TRY(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device));
     vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
     VK_TRY(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->commands));

@@ -46,9 +46,11 @@ struct gpu_options {
      * "pci:DDDD:BB:DD.F" name one. "slurm": the GPU Slurm gave this job; never a CPU device. */
     const char *device;
     /* For tests: force a kernel variant (enum kernel_variant + 1; 0: the device's own), or pretend that the
-     * device binds at most this many bytes (0: its own limit). */
+     * device binds at most this many bytes, refuses to allocate more than this at once, or allows this many
+     * allocations (0: its own limits). */
     int variant;
-    uint64_t range_limit;
+    uint64_t range_limit, allocation_limit;
+    uint32_t allocations_limit;
 };
 
 /* E_DEVICE if there is no such device; the message lists those there are. */

@@ -59,8 +59,8 @@ struct gpu {
     VkQueue queue;
     uint32_t family;
     VkPhysicalDeviceMemoryProperties memory;
-    uint64_t range_limit, texel_limit;
-    uint32_t group_limit, timestamp_bits;
+    uint64_t range_limit, texel_limit, allocation_limit; /* of bytes, texels, bytes */
+    uint32_t group_limit, timestamp_bits, n_allocations, allocations_limit;
     double timestamp_ns;
     bool has_budget;
     enum kernel_variant variant;

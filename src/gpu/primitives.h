@@ -33,13 +33,12 @@ void gpu_sort(struct gpu *gpu, struct gpu_work *work, const struct gpu_sort *sor
 void gpu_gather(struct gpu *gpu, struct gpu_buffer *order, struct gpu_buffer *from, struct gpu_buffer *to,
                 size_t n);
 
-/* list = the numbers i < n with flags[i] = 1, ascending. `place` (n + 1 items) is scratch. Waits, to know how
- * many. */
+/* list = the numbers i < n with flags[i] = 1, ascending. `place` (n items) is scratch. Waits, to know how many. */
 MUST_USE status gpu_compact(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *flags,
                             struct gpu_buffer *place, struct gpu_buffer *list, size_t n, size_t *n_list);
 
-/* scalars[slot] = the sum (or largest absolute value) of n floats. gpu_partial() is for kernels that do the
- * last step themselves: REDUCE_THREADS partial sums in the work's buffer. */
+/* scalars[slot] = the sum (or largest absolute value) of n floats. gpu_partial_sums() is for kernels that do
+ * the last step themselves: REDUCE_THREADS partial sums in the work's buffer. */
 void gpu_sum(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n,
              struct gpu_buffer *scalars, uint32_t slot);
 void gpu_max(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n,

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "gpu/internal.h"
+#include "gpu/timestamp.h"
 
 bool slots_create(struct gpu *gpu)
 {
@@ -62,7 +63,7 @@ static void collect_times(struct gpu *gpu, struct slot *s)
                                       2 * s->n_dispatches * sizeof *stamp, stamp, sizeof *stamp,
                                       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     for (uint32_t i = 0; i < s->n_dispatches; i++) {
-        uint64_t ns = (uint64_t)((double)(stamp[2 * i + 1] - stamp[2 * i]) * gpu->timestamp_ns);
+        uint64_t ns = timestamp_ns(stamp[2 * i], stamp[2 * i + 1], gpu->timestamp_bits, gpu->timestamp_ns);
         struct gpu_time *times[] = {&gpu->kernel[s->dispatch[i].kernel], &gpu->stage[s->dispatch[i].stage]};
         for (int t = 0; t < 2; t++) {
             times[t]->ns += ns;

@@ -243,6 +243,34 @@ static void a_buffer_too_large_is_refused_with_its_size(void **state)
     gpu_destroy(&gpu);
 }
 
+/* What a device cannot allocate is named with the limit that it met, and less can be had after. */
+static void limits_of_allocations_are_named(void **state)
+{
+    (void)state;
+    enum { MOST = 40 };
+    struct gpu *gpu = NULL;
+    struct gpu_buffer *buffer[MOST] = {NULL}, *more = NULL;
+    size_t n = 0;
+    const struct gpu_options options = {
+        .device = "auto", .allocation_limit = 64 << 20, .allocations_limit = 12};
+    assert_ok(gpu_create(&options, &gpu));
+    assert_int_equal(gpu_buffer_create(gpu, "wide", 17 << 20, 4, &more), E_MEMORY);
+    assert_null(more);
+    assert_non_null(strstr(status_message(), "the wide buffer needs 71.3 MB"));
+    assert_non_null(strstr(status_message(), "no more than 67.1 MB in one piece"));
+    while (n < MOST && gpu_buffer_create(gpu, "small", 16, 4, &buffer[n]) == OK)
+        n++;
+    assert_in_range(n, 1, 12);
+    assert_non_null(
+        strstr(status_message(), "no room for the small buffer: the device allows 12 allocations"));
+    assert_ok(gpu_wait(gpu));
+    gpu_buffer_destroy(gpu, &buffer[n - 1]);
+    assert_ok(gpu_buffer_create(gpu, "small", 16, 4, &buffer[n - 1]));
+    for (size_t i = 0; i < n; i++)
+        gpu_buffer_destroy(gpu, &buffer[i]);
+    gpu_destroy(&gpu);
+}
+
 int main(void)
 {
     static struct gpu_options own = {.device = "auto"};
@@ -261,6 +289,7 @@ int main(void)
         EACH(reductions_agree_with_double, wide),   EACH(pointers_double_to_their_roots, own),
         EACH(pointers_double_to_their_roots, wide), EACH(buffers_beyond_the_storage_range_work, own),
         EACH(unknown_devices_are_refused, own),     EACH(a_buffer_too_large_is_refused_with_its_size, own),
+        EACH(limits_of_allocations_are_named, own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
