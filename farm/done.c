@@ -1,4 +1,5 @@
 /* How far a farm's tasks are, as the files tell. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -45,6 +46,15 @@ done:
     free(frames);
     free(at);
     return each;
+}
+
+int farm_notice_seconds(const struct farm_wedge *wedge, size_t n_wedges, int least, int most)
+{
+    enum { SAVE_S = 60 };
+    double longest = 0;
+    for (size_t i = 0; i < n_wedges; i++)
+        longest = fmax(longest, wedge[i].frame_seconds);
+    return (int)fmin(fmax(ceil(2 * longest + SAVE_S), least), most);
 }
 
 size_t farm_frames(const struct farm *f, size_t *total)

@@ -44,6 +44,10 @@ MUST_USE status farm_freeze(struct farm *f);
 /* The median time between a folder's recent frames, in seconds; 0 if there are too few to tell. */
 double farm_frame_seconds(const char *root, const char *name);
 
+/* How many seconds before its end a scheduler tells a task, that it may finish the frame it is at and save: two of
+ * the wedges' longest frames and a minute, between `least` and `most`. */
+int farm_notice_seconds(const struct farm_wedge *wedge, size_t n_wedges, int least, int most);
+
 /* How many of all wedges' frames are done, going by their manifests' names; *total: how many there are. */
 size_t farm_frames(const struct farm *f, size_t *total);
 

@@ -5,8 +5,8 @@
 
 #include "farm/command.h"
 
-/* Seconds between the notice and the end of a task: a frame, and its checkpoint. */
-enum { NOTIFY_SIM_S = 300, NOTIFY_S = 30, MIB = 1 << 20 };
+/* Seconds between the notice and the end of a task: of a simulation, a frame and its checkpoint. OpenJD allows 600. */
+enum { NOTIFY_SIM_S = 300, NOTIFY_S = 30, NOTIFY_MOST_S = 600, MIB = 1 << 20 };
 
 /* ---- parameters */
 
@@ -211,7 +211,11 @@ static status put_script(const struct step *s, struct text *t)
     json_end_array(t);
     json_object(t, "cancelation");
     json_text(t, "mode", "NOTIFY_THEN_TERMINATE");
-    json_integer(t, "notifyPeriodInSeconds", farm_kinds[s->kind].device ? NOTIFY_SIM_S : NOTIFY_S);
+    const size_t n_wedges = s->kind == FARM_SIM ? s->farm->n_wedges : 0;
+    json_integer(t, "notifyPeriodInSeconds",
+                 farm_kinds[s->kind].device
+                     ? farm_notice_seconds(s->farm->wedge, n_wedges, NOTIFY_SIM_S, NOTIFY_MOST_S)
+                     : NOTIFY_S);
     json_end_object(t);
     json_end_object(t);
     json_end_object(t);

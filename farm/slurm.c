@@ -14,7 +14,8 @@
 #include "farm/command.h"
 #include "farm/slurm_jobs.h"
 
-enum { JOB_PATH = FARM_PATH + 160 };
+/* How long before its time limit a task is told, in seconds; more is no signal time to Slurm. */
+enum { JOB_PATH = FARM_PATH + 160, NOTICE_S = 180, NOTICE_MOST_S = 65535 };
 
 /* Tasks of one kind from one block: an array, unless it is one. */
 struct batch {
@@ -172,7 +173,11 @@ static void words_of(const struct farm *f, const struct slurm_options *o, const 
     word(w, t->data ? t->data : "");
     word(w, "--open-mode=append");
     word(w, "--requeue");
-    word(w, "--signal=B:USR1@180");
+    t = made(w);
+    text_add(
+        t, "--signal=B:USR1@%d",
+        farm_notice_seconds(f->wedge, task->kind == FARM_SIM ? f->n_wedges : 0, NOTICE_S, NOTICE_MOST_S));
+    word(w, t->data ? t->data : "");
     word(w, "--nodes=1");
     word(w, "--ntasks=1");
     if (farm_kinds[task->kind].device)
@@ -269,10 +274,9 @@ done:
     return st;
 }
 
-static void describe(const struct farm *f, const struct batch *b, const struct words *w, const char *id,
-                     bool dry_run, struct text *out)
+static void describe(const struct batch *b, const struct words *w, const char *id, bool dry_run,
+                     struct text *out)
 {
-    (void)f;
     json_object(out, NULL);
     json_text(out, "name", b->name);
     json_integer(out, "tasks", (int64_t)b->n);
@@ -316,7 +320,7 @@ static status submit_batch(const struct farm *f, const struct slurm_options *o, 
             snprintf(job[b->first + i], SLURM_ID, "%.24s_%zu", id, i);
         else
             snprintf(job[b->first + i], SLURM_ID, "%.24s", id);
-    describe(f, b, &w, id, o->dry_run, out);
+    describe(b, &w, id, o->dry_run, out);
 done:
     for (size_t i = 0; i < w.n_own; i++)
         text_free(&w.own[i]);
@@ -356,10 +360,12 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
             continue;
         next_batch(f, todo, i, b);
         st = submit_batch(f, o, b, job, n_batches++, out);
-        /* What is queued is known, also when the rest was refused. */
-        if (st == OK || o->dry_run)
+        if (o->dry_run) {
             TRY(st);
-        if (!o->dry_run && (st != OK || i + b->n >= g->n || n_batches % 16 == 0)) {
+            continue;
+        }
+        /* What is queued is known, also when the rest was refused. */
+        if (st != OK || i + b->n >= g->n || n_batches % 16 == 0) {
             char why[800];
             snprintf(why, sizeof why, "%s", status_message());
             status written = slurm_remember(f, job);

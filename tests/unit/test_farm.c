@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "farm/command.h"
+#include "farm/farm.h"
 
 enum { JOBS = 500, WEDGES = 4 };
 
@@ -63,6 +64,20 @@ static void make_sample(int seed, struct sample *s)
 static const struct job *job_of(const struct sample *s, const struct farm_task *t)
 {
     return &s->job[t->wedge ? t->wedge - 1 : 0];
+}
+
+/* The notice covers the frame that is being made and its checkpoint, within what schedulers take. */
+static void long_frames_are_told_earlier(void **state)
+{
+    (void)state;
+    struct farm_wedge wedge[3] = {{.frame_seconds = 0}, {.frame_seconds = 20}, {.frame_seconds = 0}};
+    assert_int_equal(farm_notice_seconds(wedge, 3, 180, 65535), 180);
+    wedge[2].frame_seconds = 400.25;
+    assert_int_equal(farm_notice_seconds(wedge, 3, 180, 65535), 861);
+    assert_int_equal(farm_notice_seconds(wedge, 2, 180, 65535), 180);
+    assert_int_equal(farm_notice_seconds(wedge, 3, 300, 600), 600);
+    wedge[2].frame_seconds = 1e300;
+    assert_int_equal(farm_notice_seconds(wedge, 3, 180, 65535), 65535);
 }
 
 /* How many tasks of `kind` in `wedge` make `frame`; *which is the last of them. */
@@ -398,6 +413,7 @@ int main(void)
         cmocka_unit_test(tasks_stand_behind_what_they_wait_for),
         cmocka_unit_test(kinds_say_what_is_needed),
         cmocka_unit_test(longer_jobs_take_longer),
+        cmocka_unit_test(long_frames_are_told_earlier),
         cmocka_unit_test(a_shell_takes_quoted_words_as_they_are),
         cmocka_unit_test(paths_stay_single_words_of_a_command),
     };
