@@ -50,11 +50,20 @@ status text_status(const struct text *t)
 
 const char *number_text(double value, char out[32])
 {
-    for (int digits = 1; digits <= 17; digits++) {
+    int low = 1, high = 17, exponent;
+    /* What reads back still does with more digits, so the number of digits is searched by halves. Powers of two are
+     * apart: their neighbour below is nearer than the one above, and a nearer text below may miss where a farther
+     * one above does not. */
+    const bool power = fabs(frexp(value, &exponent)) == 0.5;
+    while (low < high) {
+        const int digits = power ? low : (low + high) / 2;
         snprintf(out, 32, "%.*g", digits, value);
         if (strtod(out, NULL) == value)
-            break;
+            high = digits;
+        else
+            low = digits + 1;
     }
+    snprintf(out, 32, "%.*g", low, value);
     return out;
 }
 

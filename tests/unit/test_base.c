@@ -1,4 +1,6 @@
-/* JSON as it is read, and words that are near. */
+/* JSON as it is read, numbers as they are written, and words that are near. */
+#include <float.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,6 +11,7 @@
 
 #include "base/json.h"
 #include "base/nearest.h"
+#include "base/text.h"
 
 #include <cmocka.h> /* after ours: it has a macro fail() */
 
@@ -114,12 +117,51 @@ static void suggests_only_what_is_near(void **state)
     assert_null(nearest_word("aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa", known, 5));
 }
 
+/* Digit by digit, as the promise is worded. */
+static void expect_shortest(double value)
+{
+    char got[32], wanted[32];
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(wanted, sizeof wanted, "%.*g", digits, value);
+        if (strtod(wanted, NULL) == value)
+            break;
+    }
+    assert_string_equal(number_text(value, got), wanted);
+}
+
+static void numbers_are_as_short_as_they_can_be(void **state)
+{
+    (void)state;
+    enum { RANDOM = 200000 };
+    const double chosen[] = {
+        0,        -0.0,      0.1,          0.3,    1.0 / 3,          100000, 1e15,    1e16,
+        DBL_MAX,  DBL_MIN,   DBL_TRUE_MIN, 5e-324, 9007199254740992, 1e23,   8.41e21, 2.2250738585072011e-308,
+        INFINITY, -INFINITY, NAN};
+    for (size_t i = 0; i < sizeof chosen / sizeof *chosen; i++)
+        expect_shortest(chosen[i]);
+    for (int e = -1074; e < 1024; e++) {
+        expect_shortest(ldexp(1, e));
+        expect_shortest(nextafter(ldexp(1, e), 0));
+        expect_shortest(nextafter(ldexp(1, e), HUGE_VAL));
+    }
+    uint64_t bits = 1;
+    for (int i = 0; i < RANDOM; i++) {
+        double any;
+        bits = bits * 6364136223846793005u + 1442695040888963407u;
+        memcpy(&any, &bits, sizeof any);
+        expect_shortest(any);
+        expect_shortest((double)(float)(bits >> 40) * 1e-3);
+        expect_shortest((double)(bits >> 44) / 1000);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(json_as_the_standard_has_it),
         cmocka_unit_test(a_million_members),
         cmocka_unit_test(numbers_that_fit),
+        cmocka_unit_test(numbers_are_as_short_as_they_can_be),
         cmocka_unit_test(suggests_only_what_is_near),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
