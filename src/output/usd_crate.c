@@ -1,5 +1,6 @@
 #include "output/usd_crate.h"
 
+#include <assert.h>
 #include <string.h>
 
 #include "base/text.h"
@@ -42,6 +43,7 @@ static uint32_t token(struct crate *c, const char *text)
     for (uint32_t i = 0; i < c->n_tokens; i++)
         if (strcmp(c->token[i], text) == 0)
             return i;
+    assert(c->n_tokens < MAX_TOKENS);
     c->token[c->n_tokens] = text;
     return c->n_tokens++;
 }
@@ -109,11 +111,13 @@ static uint64_t sample_value(struct crate *c, double time, uint64_t sample)
 static void spec(struct crate *c, uint32_t path, enum spec_type type)
 {
     const uint32_t row[3] = {path, c->n_set, type};
+    assert(c->n_specs < MAX_SPECS);
     memcpy(c->spec[c->n_specs++], row, sizeof row);
 }
 
 static void field(struct crate *c, const char *name, uint64_t value_of)
 {
+    assert(c->n_fields < MAX_FIELDS);
     c->field_token[c->n_fields] = token(c, name);
     c->field_value[c->n_fields] = value_of;
     c->set[c->n_set++] = c->n_fields++;
@@ -151,6 +155,7 @@ static void add_integers(struct crate *c, const uint32_t *word, uint32_t n, size
     uint32_t packed[1 + MOST / 16 + 1 + MOST], before = 0;
     const size_t codes = (n * 2 + 7) / 8;
     unsigned char *at = (unsigned char *)packed;
+    assert(n <= MOST);
     memset(packed, 0, 4);
     memset(at + 4, 0xff, codes);
     for (uint32_t i = 0; i < n; i++) {
