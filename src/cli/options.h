@@ -110,7 +110,8 @@ void common_free(struct common *c);
 #define OPTION_RESUME(c)                                                                                     \
     {                                                                                                        \
         "resume", CHOICE_TEXT(RESUME_CHOICE), OPTION_CHOICE, &(c)->resume,                                   \
-            "never: start over; require: fail without a checkpoint; other-device: go on, though not bit "    \
+            "never: start over, which removes the folder's manifests and checkpoints; require: fail "        \
+            "without a checkpoint; other-device: go on, though not bit "                                     \
             "for bit"                                                                                        \
     }
 #define OPTION_FROM(c)                                                                                       \
