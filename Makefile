@@ -103,9 +103,9 @@ $(BUILD)/gen/gpu/kernels.o: $(SHARE)/gen/gpu/kernels.c $(SHARE)/gen/gpu/kernels.
 	@echo "cc $<"
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-# ---- scenes and the report's page: POV-Ray text, CSS and JavaScript, embedded as lines
+# ---- scenes and the report's page: POV-Ray text, HTML, CSS and JavaScript, embedded as lines
 
-SCENE = $(sort $(wildcard render/*.inc render/*.css render/*.js))
+SCENE = $(sort $(wildcard render/*.inc render/*.css render/*.js render/*.html))
 $(SHARE)/gen/render/scene_parts.c: $(SCENE) render/embed.sh
 	$(Q)mkdir -p $(@D) && sh render/embed.sh $(SCENE) > $@.tmp && mv $@.tmp $@
 $(BUILD)/gen/render/scene_parts.o: $(SHARE)/gen/render/scene_parts.c render/scene_parts.h render/page_parts.h

@@ -1,6 +1,6 @@
 #!/bin/sh
 # embed.sh FILE...: the files as C, each an array of lines ending in NULL: a/sandstone.inc becomes scene_sandstone,
-# a/style.css and a/script.js become page_style and page_script.
+# a/report.html, a/style.css and a/script.js become page_report, page_style and page_script.
 # Lines, not one text: C compilers need not take literals of more than 4095 bytes.
 set -eu
 echo '/* Made by render/embed.sh. */'

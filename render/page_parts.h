@@ -1,9 +1,10 @@
-/* style.css and script.js beside this, embedded: lines, the last NULL. */
+/* report.html, style.css and script.js beside this, embedded: lines, the last NULL. */
 #ifndef HOODOO_PAGE_PARTS_H
 #define HOODOO_PAGE_PARTS_H
 
 #include <stddef.h>
 
+extern const char *const page_report[];
 extern const char *const page_style[];
 extern const char *const page_script[];
 

@@ -70,8 +70,8 @@ MUST_USE status report_gather(const char *root, struct report *out);
  * children.h has it. */
 MUST_USE status report_pictures(struct report *r);
 
-/* The page, whole. */
-void report_page(const struct report *r, struct text *out);
+/* The page, whole. E_MEMORY. */
+MUST_USE status report_page(const struct report *r, struct text *out);
 
 void report_free(struct report *r);
 

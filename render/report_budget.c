@@ -55,29 +55,27 @@ static void fill(const struct report *r, const struct page_clock *clock, struct 
     }
 }
 
+/* Nothing is said where nothing was taken or added. */
+static struct phrase phrase_volume(double m3)
+{
+    return m3 > 0 ? phrase_number(m3) : phrase("%s", "");
+}
+
 static void add_rows(const struct budget_curves *c, struct text *t)
 {
     double taken = 0, added = 0;
-    char number[2][48];
     for (size_t p = 0; p < TABLE; p++) {
         taken += c->taken[p];
         added += c->added[p];
     }
-    text_add(
-        t, "<div><h3>What took how much</h3><p>Over the frames there are.</p><table><thead><tr><th></th><th "
-           "class=\"n\">taken, m³</th><th class=\"n\">added, m³</th><th class=\"n\">of all "
-           "taken</th></tr></thead><tbody>\n");
+    json_array(t, "processes");
     for (size_t p = 0; p < TABLE; p++)
         if (c->taken[p] > 0 || c->added[p] > 0)
-            text_add(t,
-                     "<tr><td>%s</td><td class=\"n\">%s</td><td class=\"n\">%s</td><td class=\"n\">%.1f "
-                     "%%</td></tr>\n",
-                     table[p].name, c->taken[p] > 0 ? html_number(c->taken[p], number[0]) : "",
-                     c->added[p] > 0 ? html_number(c->added[p], number[1]) : "",
-                     taken > 0 ? 100 * c->taken[p] / taken : 0);
-    text_add(t, "<tr><th>together</th><td class=\"n\">%s</td><td class=\"n\">%s</td><td></td></tr>\n",
-             html_number(taken, number[0]), added > 0 ? html_number(added, number[1]) : "");
-    text_add(t, "</tbody></table></div>\n");
+            PAGE_ROW(t, NULL, "process", table[p].name, "taken", phrase_volume(c->taken[p]).text, "added",
+                     phrase_volume(c->added[p]).text, "share",
+                     phrase("%.1f", taken > 0 ? 100 * c->taken[p] / taken : 0).text);
+    json_end_array(t);
+    PAGE_MEMBERS(t, "all_taken", phrase_number(taken).text, "all_added", phrase_volume(added).text);
 }
 
 void page_budget(const struct report *r, const struct page_clock *clock, struct text *t)
@@ -86,6 +84,7 @@ void page_budget(const struct report *r, const struct page_clock *clock, struct 
     struct series series[TABLE];
     size_t n_series = 0;
     char label[32];
+    struct text svg = {0};
     status st = memory_alloc(r->n_frames, sizeof(double), "curves", &c.time);
     for (size_t p = 0; p < TABLE && st == OK; p++)
         st = memory_alloc(r->n_frames, sizeof(double), "curves", &c.rate[p]);
@@ -108,8 +107,11 @@ void page_budget(const struct report *r, const struct page_clock *clock, struct 
                                 .n_series = n_series,
                                 .series = series,
                                 .stacked = true},
-                t);
+                &svg);
+    json_object(t, "budget");
+    page_chart(t, "budget_chart", &svg);
     add_rows(&c, t);
+    json_end_object(t);
 done:
     free(c.time);
     for (size_t p = 0; p < TABLE; p++)

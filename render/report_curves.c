@@ -66,12 +66,18 @@ done:
     return st;
 }
 
+static void add_part(struct text *t, const char *key, const char *name, uint64_t n, uint64_t start)
+{
+    PAGE_ROW(t, key, "part", name, "n", phrase_number((double)n).text, "share",
+             phrase("%.2f", start ? 100 * (double)n / (double)start : 0).text);
+}
+
 static void add_ledger(const struct report *r, const struct columns *c, struct text *t)
 {
     const struct ledger *l = NULL;
+    struct text svg = {0};
     bool exact = true;
     int last = 0;
-    char number[48];
     const char *what = r->job->model == MODEL_GOBLINS ? "voxels" : "particles";
     for (size_t i = 0; i < r->n_frames; i++)
         if (!r->frame[i].damaged) {
@@ -83,6 +89,7 @@ static void add_ledger(const struct report *r, const struct columns *c, struct t
                                     {"deposit", DEPOSIT, c->value[N_DEPOSIT]},
                                     {"fallen", FALLEN, c->value[N_FALLEN]},
                                     {"left the domain", LEFT, c->value[N_LEFT]}};
+    const uint64_t n[] = {l->rock, l->deposit, l->fallen, l->left};
     chart_lines(&(struct chart){.title = "Where the rock went",
                                 .x_label = c->clock.label,
                                 .y_label = what,
@@ -91,29 +98,18 @@ static void add_ledger(const struct report *r, const struct columns *c, struct t
                                 .n_series = 4,
                                 .series = series,
                                 .stacked = true},
-                t);
-    const struct {
-        const char *name;
-        uint64_t n;
-    } rows[] = {{"rock", l->rock},
-                {"deposit", l->deposit},
-                {"fallen", l->fallen},
-                {"left the domain", l->left},
-                {"start", l->start}};
-    text_add(t,
-             "<div><h3>Ledger</h3><p>Where each of the %s of the start is. %s</p><table><thead><tr><th>In "
-             "frame %d</th><th class=\"n\">%s</th><th "
-             "class=\"n\">share</th></tr></thead><tbody>\n",
-             what,
-             exact ? "In every frame the four add up to the start, exactly."
-                   : "<strong>In some frame the four do not add up to the start.</strong>",
-             last, what);
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        text_add(t, "<tr><%s>%s</%s><td class=\"n\">%s</td><td class=\"n\">%.2f %%</td></tr>\n",
-                 i == 4 ? "th" : "td", rows[i].name, i == 4 ? "th" : "td",
-                 html_number((double)rows[i].n, number),
-                 l->start ? 100 * (double)rows[i].n / (double)l->start : 0);
-    text_add(t, "</tbody></table></div>\n");
+                &svg);
+    json_object(t, "ledger");
+    page_chart(t, "ledger_chart", &svg);
+    json_text(t, "what", what);
+    json_bool(t, "exact", exact);
+    json_integer(t, "frame", last);
+    json_array(t, "parts");
+    for (size_t i = 0; i < sizeof n / sizeof *n; i++)
+        add_part(t, NULL, series[i].name, n[i], l->start);
+    json_end_array(t);
+    add_part(t, "start", "start", l->start, l->start);
+    json_end_object(t);
 }
 
 /* ---- the last frame */
@@ -158,18 +154,9 @@ static void add_stress(const struct report *r, struct text *t)
 static void add_words(const struct report *r, struct text *t)
 {
     const struct report_stress *s = &r->stress;
-    char count[48], low[48], high[48];
-    text_add(t,
-             "<div><h3>How to read this</h3><p>The stresses of frame %d are those of %s %s. Its chart "
-             "reaches from %s to "
-             "%s MPa; the outermost bars hold the half percent beyond on each side.</p>",
-             s->frame, html_number((double)s->n, count), s->what, html_number(s->low, low),
-             html_number(s->high, high));
-    if (r->job->model == MODEL_ARENITE)
-        text_add(t, "<p>Rock under more compression than its layer's interlocking stress erodes at the "
-                    "strong rate, the "
-                    "rest at the weak one.</p>");
-    text_add(t, "</div>\n");
+    PAGE_ROW(t, "stress", "frame", phrase("%d", s->frame).text, "n", phrase_number((double)s->n).text, "what",
+             s->what, "low", phrase_number(s->low).text, "high", phrase_number(s->high).text, "interlocks",
+             r->job->model == MODEL_ARENITE ? "yes" : "");
 }
 
 /* Linear to sRGB, as #rrggbb. */
@@ -225,7 +212,7 @@ static void add_rock(const struct report *r, const struct columns *c, struct tex
         most = fmax(most, c->value[STRESS][i]);
     if (most <= 0 && r->stress.n == 0 && !r->layer)
         return;
-    text_add(t, "<section><h2>Stress and layers</h2>\n<div class=\"two\">\n");
+    struct text most_chart = {0}, stress_chart = {0}, layers_chart = {0};
     if (most > 0) {
         const struct series stress = {"greatest compression, MPa", FALLEN, c->value[STRESS]};
         chart_lines(&(struct chart){.title = "Greatest stress",
@@ -236,15 +223,19 @@ static void add_rock(const struct report *r, const struct columns *c, struct tex
                                     .n_series = 1,
                                     .series = &stress,
                                     .from_zero = true},
-                    t);
+                    &most_chart);
     }
     if (r->stress.n)
-        add_stress(r, t);
+        add_stress(r, &stress_chart);
     if (r->layer)
-        add_layers(r, t);
+        add_layers(r, &layers_chart);
+    json_object(t, "rock");
+    page_chart(t, "most_chart", &most_chart);
+    page_chart(t, "stress_chart", &stress_chart);
+    page_chart(t, "layers_chart", &layers_chart);
     if (r->stress.n)
         add_words(r, t);
-    text_add(t, "</div></section>\n");
+    json_end_object(t);
 }
 
 void page_curves(const struct report *r, struct text *t)
@@ -266,16 +257,20 @@ void page_curves(const struct report *r, struct text *t)
                           .n_series = 1,
                           .series = &volume,
                           .from_zero = true};
-    text_add(t, "<section><h2>Erosion</h2>\n<p>Frame %d is %s.</p><div class=\"two\">\n", r->frames.first,
-             c.clock.shot ? "second 0" : "year 0");
-    chart_lines(&chart, t);
+    struct text svg = {0};
+    json_object(t, "erosion");
+    json_integer(t, "frame", r->frames.first);
+    json_text(t, "zero", c.clock.shot ? "second 0" : "year 0");
+    chart_lines(&chart, &svg);
+    page_chart(t, "volume_chart", &svg);
     chart.title = "How fast it goes";
     chart.y_label = rate_label;
     chart.series = &rate;
-    chart_lines(&chart, t);
+    chart_lines(&chart, &svg);
+    page_chart(t, "rate_chart", &svg);
     page_budget(r, &c.clock, t);
     add_ledger(r, &c, t);
-    text_add(t, "</div></section>\n");
+    json_end_object(t);
     add_rock(r, &c, t);
 done:
     for (int i = 0; i < N_COLUMNS; i++)

@@ -1,6 +1,6 @@
 #include "render/report_wedges.h"
 
-#include <stdio.h>
+#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,7 +15,7 @@ enum { SERIES_MAX = 8, STILL_BYTES = 64 << 20 };
 
 struct wedge {
     struct job *job;
-    size_t n_frames; /* that are done */
+    size_t n_frames, n_damaged; /* that are done, and whose manifests cannot be read */
     struct manifest last;
     double *share; /* % of the rock left, by the job's frames; the last one holds on */
 };
@@ -61,7 +61,8 @@ static status gather_wedge(struct sweep *s, struct wedge *w)
     for (size_t i = 0; i < n; i++) {
         struct manifest m = {0};
         st = manifest_read(root.text, w->job->name, frames[i], &m);
-        if (st == E_INPUT) { /* damaged: it is not counted */
+        if (st == E_INPUT) {
+            w->n_damaged++;
             st = OK;
             continue;
         }
@@ -125,31 +126,23 @@ done:
     return st;
 }
 
-static void add_table(const struct sweep *s, struct text *t)
+static void add_wedge(const struct sweep *s, const struct wedge *w, struct text *t)
 {
-    text_add(t, "<section><h2>Wedges</h2>\n<table><thead><tr><th>wedge</th><th>values</th><th>frames</th>"
-                "<th>rock left, %%</th><th>deposits</th><th>fallen</th><th>carried "
-                "away</th><th></th></tr></thead>\n<tbody>\n");
-    for (size_t i = 0; i < s->n; i++) {
-        const struct wedge *w = &s->wedge[i];
-        const struct ledger *l = &w->last.ledger;
-        struct path path, whole;
-        char number[FRAME_TEXT];
-        text_add(t, "<tr><td>%s</td><td>", wedge_text((int)w->job->wedge.index, number));
-        html_text(t, w->job->wedge.label);
-        text_add(t, "</td><td>%zu of %zu</td>", w->n_frames, range_count(w->job->frames));
-        if (w->n_frames)
-            text_add(t, "<td>%.1f</td><td>%llu</td><td>%llu</td><td>%llu</td><td>", w->share[s->n_x - 1],
-                     (unsigned long long)l->deposit, (unsigned long long)l->fallen,
-                     (unsigned long long)l->left);
-        else
-            text_add(t, "<td colspan=\"4\">not begun</td><td>");
-        if (path_join(&path, number, "report/index.html") == OK &&
-            path_join(&whole, s->root, path.text) == OK && access(whole.text, R_OK) == 0)
-            page_link(t, path.text, "its report");
-        text_add(t, "</td></tr>\n");
-    }
-    text_add(t, "</tbody></table></section>\n");
+    const struct ledger *l = &w->last.ledger;
+    struct path path, whole;
+    char number[FRAME_TEXT];
+    const bool report =
+        path_join(&path, wedge_text((int)w->job->wedge.index, number), "report/index.html") == OK &&
+        path_join(&whole, s->root, path.text) == OK && access(whole.text, R_OK) == 0;
+    json_object(t, NULL);
+    PAGE_MEMBERS(t, "wedge", number, "values", w->job->wedge.label, "n_done", phrase("%zu", w->n_frames).text,
+                 "n_frames", phrase("%zu", range_count(w->job->frames)).text, "n_damaged",
+                 w->n_damaged ? phrase("%zu", w->n_damaged).text : "", "report", report ? path.text : "");
+    if (w->n_frames)
+        PAGE_ROW(t, "begun", "left", phrase("%.1f", w->share[s->n_x - 1]).text, "deposit",
+                 phrase("%" PRIu64, l->deposit).text, "fallen", phrase("%" PRIu64, l->fallen).text, "away",
+                 phrase("%" PRIu64, l->left).text);
+    json_end_object(t);
 }
 
 static void add_chart(const struct sweep *s, struct text *t)
@@ -168,7 +161,7 @@ static void add_chart(const struct sweep *s, struct text *t)
     }
     if (n == 0 || s->n_x < 2)
         return;
-    text_add(t, "<section><h2>Rock left</h2>\n<div class=\"two\"><div>");
+    struct text svg = {0};
     chart_lines(&(struct chart){.title = "What is left of the rock, by frame",
                                 .x_label = "frame",
                                 .y_label = "rock left, %",
@@ -177,18 +170,16 @@ static void add_chart(const struct sweep *s, struct text *t)
                                 .n_series = n,
                                 .series = series,
                                 .from_zero = true},
-                t);
-    text_add(t, "</div></div>\n");
+                &svg);
+    page_chart(t, "shares_chart", &svg);
     if (s->n > SERIES_MAX)
-        text_add(t, "<p>The first %d wedges that have begun; the table has all.</p>\n", SERIES_MAX);
-    text_add(t, "</section>\n");
+        json_integer(t, "most_shares", SERIES_MAX);
 }
 
 static status add_stills(const struct sweep *s, struct text *t)
 {
     status st = OK;
-    size_t shown = 0;
-    text_add(t, "<section><h2>Last frames</h2>\n<div class=\"two\">\n");
+    json_array(t, "stills");
     for (size_t i = 0; i < s->n; i++) {
         const struct wedge *w = &s->wedge[i];
         char number[FRAME_TEXT];
@@ -196,40 +187,43 @@ static status add_stills(const struct sweep *s, struct text *t)
         TRY(copy_still(s, w, &there));
         if (!there)
             continue;
-        shown++;
-        text_add(t, "<figure><img src=\"%s.png\" alt=\"wedge %d, frame %d\"><figcaption>",
-                 wedge_text((int)w->job->wedge.index, number), (int)w->job->wedge.index, w->last.frame);
-        html_text(t, w->job->wedge.label);
-        text_add(t, "</figcaption></figure>\n");
+        PAGE_ROW(t, NULL, "still", wedge_text((int)w->job->wedge.index, number), "index",
+                 phrase("%d", (int)w->job->wedge.index).text, "frame", phrase("%d", w->last.frame).text,
+                 "values", w->job->wedge.label);
     }
-    text_add(t, "</div>\n");
-    if (!shown)
-        text_add(
-            t,
-            "<p>No stills yet: <code>hoodoo preview</code> makes them, with --wedge for one of them.</p>\n");
-    text_add(t, "</section>\n");
+    json_end_array(t);
 done:
     return st;
 }
 
-status report_wedges(const char *root, struct text *page)
+status report_wedges(const char *root, struct text *page, bool *sound)
 {
     status st = OK;
     struct sweep s = {.root = root};
     struct path path;
+    struct text t = {0};
     char range[48];
     TRY(gather(&s));
     TRY(path_join(&path, root, "report"));
     TRY(folder_make(path.text));
-    page_begin(s.base->name, page);
-    html_text(page, s.base->name);
-    text_add(page, "</h1>\n<p class=\"sub\">%zu wedges, frames %s</p>\n</header>\n<main>\n", s.n,
-             range_text(s.wedge[0].job->frames, range));
-    add_table(&s, page);
-    add_chart(&s, page);
-    TRY(add_stills(&s, page));
-    page_end(page);
+    *sound = false;
+    for (size_t i = 0; i < s.n; i++)
+        *sound |= s.wedge[i].n_frames > 0;
+    json_object(&t, NULL);
+    json_object(&t, "sweep");
+    json_integer(&t, "n_wedges", (int64_t)s.n);
+    json_text(&t, "frames", range_text(s.wedge[0].job->frames, range));
+    json_bool(&t, "nothing_sound", !*sound);
+    json_array(&t, "wedges");
+    for (size_t i = 0; i < s.n; i++)
+        add_wedge(&s, &s.wedge[i], &t);
+    json_end_array(&t);
+    add_chart(&s, &t);
+    TRY(add_stills(&s, &t));
+    json_end_object(&t);
+    TRY(page_fill(s.base->name, &t, page));
 done:
+    text_free(&t);
     free_sweep(&s);
     return st;
 }

@@ -8,13 +8,57 @@
 #include "render/report.h"
 #include "render/report_wedges.h"
 
+static status put_page(const char *root, const struct text *page)
+{
+    struct path path;
+    status st = OK;
+    TRY(path_join(&path, root, "report/index.html"));
+    TRY(atomic_file_write(path.text, page->data, page->size));
+    printf("%s\n", path.text);
+done:
+    return st;
+}
+
+static status of_wedges(const char *root, struct text *page)
+{
+    status st = OK;
+    bool sound = false;
+    TRY(report_wedges(root, page, &sound));
+    TRY(put_page(root, page));
+    if (!sound)
+        st = fail(E_INPUT, "%s: no wedge has a sound frame yet; the page says what each has", root);
+done:
+    return st;
+}
+
+static status of_run(const char *root, bool pictures, struct text *page)
+{
+    status st = OK;
+    struct report r = {0};
+    struct path path;
+    TRY(report_gather(root, &r));
+    TRY(path_join(&path, r.root, "report"));
+    TRY(folder_make(path.text));
+    atomic_file_sweep(path.text);
+    if (pictures)
+        TRY(report_pictures(&r));
+    TRY(report_page(&r, page));
+    TRY(put_page(root, page));
+    if (r.n_sound == 0)
+        st = fail(
+            E_INPUT,
+            "%s: none of its %zu frames is sound (%zu damaged, %zu missing); the page says what is wrong",
+            root, range_count(r.frames), r.n_damaged, r.n_missing);
+done:
+    report_free(&r);
+    return st;
+}
+
 status cli_report(int argc, char **argv)
 {
     status st = OK;
     struct words operands = {0};
-    struct report r = {0};
     struct text page = {0};
-    struct path path;
     bool help = false, no_pictures = false;
     const struct option options[] = {
         {"no-pictures", NULL, OPTION_FLAG, &no_pictures,
@@ -25,28 +69,12 @@ status cli_report(int argc, char **argv)
     if (help)
         goto done;
     signals_install();
-    if (report_has_wedges(operands.word[0])) {
-        TRY(report_wedges(operands.word[0], &page));
-        TRY(text_status(&page));
-        TRY(path_join(&path, operands.word[0], "report/index.html"));
-        TRY(atomic_file_write(path.text, page.data, page.size));
-        printf("%s\n", path.text);
-        goto done;
-    }
-    TRY(report_gather(operands.word[0], &r));
-    TRY(path_join(&path, r.root, "report"));
-    TRY(folder_make(path.text));
-    atomic_file_sweep(path.text);
-    if (!no_pictures)
-        TRY(report_pictures(&r));
-    report_page(&r, &page);
-    TRY(text_status(&page));
-    TRY(path_join(&path, r.root, "report/index.html"));
-    TRY(atomic_file_write(path.text, page.data, page.size));
-    printf("%s\n", path.text);
+    if (report_has_wedges(operands.word[0]))
+        TRY(of_wedges(operands.word[0], &page));
+    else
+        TRY(of_run(operands.word[0], !no_pictures, &page));
 done:
     text_free(&page);
-    report_free(&r);
     words_free(&operands);
     return st;
 }

@@ -1,4 +1,5 @@
 """hoodoo report of a farm's folder: its wedges side by side, nothing a user wrote read as HTML, unfinished ones named."""
+import glob
 import os
 import re
 import shutil
@@ -43,6 +44,15 @@ check(not re.search(r"https?://(?!www\.w3\.org)", html), "no address of the netw
 shutil.rmtree("o/w0002")
 code, _ = hoodoo("report", "o")
 check(code == 0 and "not begun" in page(), "a wedge that has not begun is named")
+with open(sorted(glob.glob("o/w0001/frames/*.json"))[-1], "w") as file:
+    file.write("{")
+code, _ = hoodoo("report", "o")
+check(code == 0 and "3 of 4, 1 damaged</td>" in page(), "damaged frames are counted")
+for name in glob.glob("o/w000?/frames/*.json"):
+    with open(name, "w") as file:
+        file.write("{")
+code, said = hoodoo("report", "o")
+check(code == 3 and "No wedge has a sound frame." in page() and "no sound frame" in page(), "no sound frame anywhere: said, and exit 3 " + said)
 os.remove("o/farm/job.yaml")
 code, said = hoodoo("report", "o")
 check(code == 3, "a folder of neither is refused: " + said.strip()[-80:])
