@@ -1,7 +1,6 @@
 #include "base/memory.h"
 
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,36 +43,4 @@ status memory_strdup(const char *text, char **out)
     if (st == OK)
         memcpy(*out, text, n);
     return st;
-}
-
-static size_t read_number(const char *path, const char *key)
-{
-    FILE *f = fopen(path, "r");
-    char line[256];
-    size_t value = SIZE_MAX;
-    while (f && fgets(line, sizeof line, f)) {
-        size_t skip = key ? strlen(key) : 0;
-        unsigned long long number;
-        if ((!key || strncmp(line, key, skip) == 0) && sscanf(line + skip, "%llu", &number) == 1) {
-            value = (size_t)number;
-            break;
-        }
-    }
-    if (f)
-        fclose(f);
-    return value;
-}
-
-size_t memory_available(void)
-{
-    size_t kib = read_number("/proc/meminfo", "MemAvailable:");
-    size_t available = kib > SIZE_MAX / 1024 ? SIZE_MAX : kib * 1024;
-    size_t limit = read_number("/sys/fs/cgroup/memory.max", NULL);
-    size_t used = read_number("/sys/fs/cgroup/memory.current", NULL);
-    if (limit != SIZE_MAX && used != SIZE_MAX) {
-        size_t left = limit > used ? limit - used : 0;
-        if (left < available)
-            available = left;
-    }
-    return available;
 }
