@@ -103,77 +103,88 @@ done:
 }
 
 /* Is the file there, no older than what it is made of? */
-static bool current(const char *root, const char *made, const char *from)
+static bool current(const struct path *made, const struct path *from)
 {
-    char path[FARM_PATH + 600];
-    snprintf(path, sizeof path, "%s/%s", root, made);
-    double a = modified(path);
-    snprintf(path, sizeof path, "%s/%s", root, from);
-    return a > 0 && a >= modified(path);
+    const double at = modified(made->text);
+    return at > 0 && at >= modified(from->text);
+}
+
+/* Are the files there that the task makes of a frame? */
+static status frame_done(const struct farm *f, const struct farm_task *t, int frame, bool *done)
+{
+    status st = OK;
+    const struct farm_kind_info *kind = &farm_kinds[t->kind];
+    const struct job *job = farm_job(f, t);
+    const size_t n = kind->parts ? kind->parts(job) : 1;
+    struct path root, made, from;
+    TRY(path_wedge(&root, f->root, t->wedge));
+    TRY(folder_path(from.text, root.text, job->name, kind->from, frame, NULL));
+    for (size_t i = 0; i < n && *done; i++) {
+        const char *part = kind->part ? kind->part(job, i) : t->show;
+        TRY(folder_path(made.text, root.text, job->name, kind->makes, frame, part));
+        *done = current(&made, &from);
+    }
+done:
+    return st;
+}
+
+static status views_done(const struct farm *f, const struct farm_task *t, bool *done)
+{
+    status st = OK;
+    const struct job *job = farm_job(f, t);
+    const int frame = t->frames.last;
+    struct path root, made, from;
+    TRY(path_wedge(&root, f->root, t->wedge));
+    TRY(folder_path(from.text, root.text, job->name, farm_kinds[t->kind].from, frame, NULL));
+    for (int view = t->views.first; view <= t->views.last && *done; view++) {
+        TRY(folder_view(&made, job->name, t->show, frame, view));
+        TRY(path_join(&made, root.text, made.text));
+        *done = current(&made, &from);
+    }
+done:
+    return st;
+}
+
+/* What is made of the last frame of each wedge. */
+static status across_done(const struct farm *f, const struct farm_task *t, bool *done)
+{
+    status st = OK;
+    const struct farm_kind_info *kind = &farm_kinds[t->kind];
+    struct path root, made, from;
+    TRY(folder_path(made.text, f->root, f->base->name, kind->makes, 0, NULL));
+    for (size_t i = 0; i < f->n_wedges && *done; i++) {
+        const struct job *job = f->wedge[i].job;
+        TRY(path_wedge(&root, f->root, (int)job->wedge.index));
+        TRY(folder_path(from.text, root.text, job->name, kind->from, job->frames.last, NULL));
+        *done = current(&made, &from);
+    }
+done:
+    return st;
 }
 
 status farm_task_done(const struct farm *f, const struct farm_task *t, bool *done)
 {
-    char root[FARM_PATH + 16], made[256], from[256];
+    status st = OK;
+    const struct farm_kind_info *kind = &farm_kinds[t->kind];
     const struct job *job = farm_job(f, t);
-    const char *name = job->name;
-    int last = job->frames.last;
-    farm_root(f, t->wedge, root);
+    struct path root;
     *done = true;
-    for (int frame = t->frames.first; frame <= t->frames.last && *done; frame += t->frames.step)
-        switch (t->kind) {
-        case FARM_SIM:
-            return sim_done(root, job, t->frames, done);
-        case FARM_MESH:
-            snprintf(made, sizeof made, "mesh/%s.%04d.obj", name, frame);
-            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);
-            *done = !graph_has_volumes(job, frame) || current(root, made, from);
-            break;
-        case FARM_AOV:
-            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);
-            for (size_t i = 0; i < job->farm.n_cameras && *done; i++) {
-                snprintf(made, sizeof made, "aov/%s.%s.%04d.exr", name, job->farm.cameras[i], frame);
-                *done = !graph_has_volumes(job, frame) || current(root, made, from);
-            }
-            break;
-        case FARM_STILL:
-            snprintf(made, sizeof made, "preview/%s.%04d.png", name, frame);
-            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);
-            *done = !graph_has_still(job, frame) || current(root, made, from);
-            break;
-        case FARM_SHOW:
-            snprintf(made, sizeof made, "preview/%s.%.15s.%04d.png", name, t->show, frame);
-            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, frame);
-            *done = !graph_has_still(job, frame) || current(root, made, from);
-            break;
-        case FARM_SHEET:
-            snprintf(made, sizeof made, "%s.contact.png", name);
-            snprintf(from, sizeof from, "preview/%s.%04d.png", name, frame);
-            *done = !graph_has_still(job, frame) || current(root, made, from);
-            break;
-        case FARM_VIEW:
-            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, last);
-            for (int view = t->views.first; view <= t->views.last && *done; view++) {
-                snprintf(made, sizeof made, "turntable/%s.%04d.%03d.png", name, last, view);
-                *done = current(root, made, from);
-            }
-            break;
-        case FARM_TURNTABLE:
-            snprintf(made, sizeof made, "%s.turntable.mp4", name);
-            snprintf(from, sizeof from, "volumes/%s.%04d.vdb", name, last);
-            *done = current(root, made, from);
-            break;
-        case FARM_WEDGES:
-        case FARM_KINDS:
-            snprintf(made, sizeof made, "%s.wedges.png", f->base->name);
-            *done = true;
-            for (size_t i = 0; i < f->n_wedges && *done; i++) {
-                const struct job *w = f->wedge[i].job;
-                snprintf(from, sizeof from, "w%04d/preview/%s.%04d.png", (int)w->wedge.index, w->name,
-                         w->frames.last);
-                *done = current(root, made, from);
-            }
-            break;
-        }
-    return OK;
+    switch (kind->cut) {
+    case CUT_BLOCKS:
+        TRY(path_wedge(&root, f->root, t->wedge));
+        return sim_done(root.text, job, t->frames, done);
+    case CUT_VIEWS:
+        return views_done(f, t, done);
+    case CUT_ALL_WEDGES:
+        return across_done(f, t, done);
+    case CUT_CHUNKS:
+    case CUT_LIST:
+    case CUT_ONCE:
+    case CUT_LAST:
+        for (int frame = t->frames.first; frame <= t->frames.last && *done; frame += t->frames.step)
+            if (!kind->takes || kind->takes(job, frame))
+                TRY(frame_done(f, t, frame, done));
+    }
+done:
+    return st;
 }

@@ -38,6 +38,16 @@ static bool has_points(const struct job *job, int frame)
     return job_writes(job, JOB_VOLUMES, frame) && job_writes(job, JOB_POINTS, frame);
 }
 
+static size_t parts_of_pictures(const struct job *job)
+{
+    return job->farm.n_cameras;
+}
+
+static const char *camera_of_part(const struct job *job, size_t i)
+{
+    return job->farm.cameras[i];
+}
+
 static size_t items_of_pictures(const struct job *job, const struct farm_task *task)
 {
     return range_count(task->frames) * job->farm.n_cameras;

@@ -3,6 +3,7 @@
 #define HOODOO_FARM_KINDS_H
 
 #include "job/job.h"
+#include "output/folder.h"
 
 enum farm_kind {
 #define KIND(word, ...) FARM_##word,
@@ -35,8 +36,14 @@ struct farm_kind_info {
     /* How many of each the job asks for: 0 for none, 1, or one for each value of a list. NULL: one. */
     size_t (*wanted)(const struct job *job);
     const char *(*value)(const struct job *job, size_t i); /* of that list; NULL: there is none */
-    /* Chunks: is this frame among them? */
+    /* Is this frame among those it makes or shows? NULL: all are. */
     bool (*takes)(const struct job *job, int frame);
+
+    /* What it makes of a frame, and of which file. It is done when all are there, no older than those. The file has a
+     * part in its name (folder_name()) for the value that it shows, or for each part of the frame's. */
+    enum folder_file makes, from;
+    size_t (*parts)(const struct job *job); /* NULL: one */
+    const char *(*part)(const struct job *job, size_t i);
 
     /* What an item takes: seconds of one core, also for each particle of the rock, and bytes on disk, also for each
      * particle of its surface. Measured on jobs/demo.yaml's frames; they only tell a minute from an hour. */

@@ -2,9 +2,11 @@
  * names that mean harm. */
 #include "check.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/memory.h"
@@ -291,6 +293,95 @@ static void kinds_say_what_is_needed(void **state)
     }
 }
 
+/* ---- what is done, as files tell */
+
+static void put_file(const char *root, const char *name, int64_t seconds)
+{
+    char path[600], *slash;
+    snprintf(path, sizeof path, "%s/%s", root, name);
+    for (slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        mkdir(path, 0777);
+        *slash = '/';
+    }
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fclose(file);
+    const struct timespec times[2] = {{seconds, 0}, {seconds, 0}};
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+}
+
+/* By kind, a file that its task makes and the one that is made of, in a job of frames 0007 and 0008. */
+static void tasks_are_done_when_their_files_are_there_and_new(void **state)
+{
+    (void)state;
+    static const struct {
+        enum farm_kind kind;
+        const char *made, *from;
+    } cases[] = {
+        {FARM_MESH, "mesh/sample.0008.obj", "volumes/sample.0008.vdb"},
+        {FARM_AOV, "aov/sample.shot.0007.exr", "volumes/sample.0007.vdb"},
+        {FARM_STILL, "preview/sample.0007.png", "volumes/sample.0007.vdb"},
+        {FARM_SHOW, "preview/sample.von_mises.0008.png", "volumes/sample.0008.vdb"},
+        {FARM_SHEET, "sample.contact.png", "preview/sample.0007.png"},
+        {FARM_VIEW, "turntable/sample.0008.002.png", "volumes/sample.0008.vdb"},
+        {FARM_TURNTABLE, "sample.turntable.mp4", "volumes/sample.0008.vdb"},
+    };
+    static const char *const all[] = {"mesh/sample.0007.obj",
+                                      "mesh/sample.0008.obj",
+                                      "aov/sample.shot.0007.exr",
+                                      "aov/sample.shot.0008.exr",
+                                      "preview/sample.0007.png",
+                                      "preview/sample.0008.png",
+                                      "preview/sample.stress.0007.png",
+                                      "preview/sample.stress.0008.png",
+                                      "preview/sample.von_mises.0007.png",
+                                      "preview/sample.von_mises.0008.png",
+                                      "turntable/sample.0008.000.png",
+                                      "turntable/sample.0008.001.png",
+                                      "turntable/sample.0008.002.png"};
+    static char *shot[] = {(char *)(uintptr_t) "shot"};
+    static char *values[] = {(char *)(uintptr_t) "stress", (char *)(uintptr_t) "von_mises"};
+    struct job job = {.name = (char *)(uintptr_t) "sample", .frames = {7, 8, 1}};
+    job.output.vdb.every = job.output.aov.every = job.farm.still_every = job.farm.meshes = 1;
+    job.farm.block_frames = job.farm.chunk_frames = 10;
+    job.farm.cameras = shot;
+    job.farm.n_cameras = 1;
+    job.farm.show = values;
+    job.farm.n_show = 2;
+    job.farm.turntable = 3;
+    struct farm_wedge wedge = {.job = &job};
+    struct farm f = {.base = &job, .wedge = &wedge, .n_wedges = 1};
+    char root[] = "farm-done-XXXXXX";
+    assert_non_null(mkdtemp(root));
+    snprintf(f.root, sizeof f.root, "%s", root);
+    assert_ok(graph_make(&wedge, 1, &f.graph));
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        put_file(root, "volumes/sample.0007.vdb", 1000);
+        put_file(root, "volumes/sample.0008.vdb", 1000);
+        for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+            put_file(root, all[i], 2000);
+        put_file(root, "sample.contact.png", 3000);
+        put_file(root, "sample.turntable.mp4", 3000);
+        for (int what = 0; what < 3; what++) {
+            char path[300];
+            snprintf(path, sizeof path, "%s/%s", root, cases[c].made);
+            if (what == 1)
+                put_file(root, cases[c].from, 5000); /* made anew since */
+            if (what == 2)
+                assert_int_equal(unlink(path), 0);
+            for (size_t i = 0; i < f.graph.n; i++) {
+                bool done, about = f.graph.task[i].kind == cases[c].kind;
+                if (!about || (f.graph.task[i].show && !strstr(cases[c].made, f.graph.task[i].show)))
+                    continue;
+                assert_ok(farm_task_done(&f, &f.graph.task[i], &done));
+                assert_int_equal(done, what == 0);
+            }
+        }
+    }
+    graph_free(&f.graph);
+}
+
 static void longer_jobs_take_longer(void **state)
 {
     (void)state;
@@ -412,6 +503,7 @@ int main(void)
         cmocka_unit_test(every_value_is_shown),
         cmocka_unit_test(tasks_stand_behind_what_they_wait_for),
         cmocka_unit_test(kinds_say_what_is_needed),
+        cmocka_unit_test(tasks_are_done_when_their_files_are_there_and_new),
         cmocka_unit_test(longer_jobs_take_longer),
         cmocka_unit_test(long_frames_are_told_earlier),
         cmocka_unit_test(a_shell_takes_quoted_words_as_they_are),
