@@ -69,7 +69,7 @@ status farm_load(const char *path, const char *const *given, size_t n_given, con
         else
             TRY(job_load(path, sets, n_sets, &w->job));
         TRY(prepare(f, from, w->job));
-        TRY(model_of(w->job)->estimate(w->job, &w->estimate));
+        TRY(model_estimate(w->job, &w->estimate));
     }
 done:
     free(sets);

@@ -1,10 +1,5 @@
 #include "blocks/blocks.h"
 
-static size_t voxel_count(const int voxels[3])
-{
-    return (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2];
-}
-
 uint64_t blocks_bytes(const int voxels[3])
 {
     return (uint64_t)voxel_count(voxels) * 12;

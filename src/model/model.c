@@ -1,10 +1,214 @@
-#include "model/model.h"
+/* What is the same for all models. */
+#include "model/type.h"
 
-extern const struct model_type arenite, goblins, arches;
+#include <stdlib.h>
+#include <string.h>
 
-const struct model_type *model_of(const struct job *job)
+#include "base/log.h"
+#include "base/memory.h"
+#include "model/sections.h"
+#include "particles/particles.h"
+#include "scene/scene.h"
+
+extern const struct model_type arenite_type, goblins_type, arches_type;
+
+static const struct model_type *type_of(const struct job *job)
 {
     /* In the order of the key `model`. */
-    static const struct model_type *const types[] = {&arenite, &goblins, &arches};
+    static const struct model_type *const types[] = {&arenite_type, &goblins_type, &arches_type};
     return types[job->model];
+}
+
+const char *model_name(const struct job *job)
+{
+    return type_of(job)->name;
+}
+
+/* ---- what a job takes */
+
+status model_estimate(const struct job *job, struct model_estimate *out)
+{
+    status st = OK;
+    const struct model_type *type = type_of(job);
+    struct model_needs needs = {.voxels = out->voxels};
+    uint64_t rock = 0;
+    *out = (struct model_estimate){0};
+    TRY(scene_voxels(job, out->voxels));
+    TRY(type->estimate(job, &needs));
+    const size_t n = needs.size.n_particles;
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        rock += n * rock_field_size((enum rock_field)f);
+    const uint64_t field = field_bytes(out->voxels),
+                   pictures = aov_picture_bytes(job) * job->output.aov.n_cameras;
+    out->n_particles = n;
+    out->device_bytes = needs.device_bytes + gpu_work_bytes(type->work_items(job, out->voxels)) +
+                        particles_bytes(n, out->voxels) + field + aov_bytes(aov_pixels(job));
+    /* Two frames wait at most; files are made in memory. */
+    out->host_bytes = needs.host_bytes + 3 * (rock + field + needs.frame_bytes + pictures);
+    out->disk = disk_frame(job, &needs.size, &needs.disk);
+    out->disk.other += needs.disk_other;
+    out->checkpoint_bytes = needs.checkpoint_bytes;
+    out->steps = needs.steps;
+done:
+    free(needs.size.point);
+    return st;
+}
+
+/* ---- its state */
+
+static status restore_counts(struct model *m, const struct checkpoint *c)
+{
+    status st = OK;
+    const struct checkpoint_section *s;
+    TRY(section_check_domain(c, m->job));
+    TRY(section_find(c, "ledger", 8, sizeof m->ledger / 8, &s));
+    memcpy(&m->ledger, s->data, sizeof m->ledger);
+    if (m->type->n_processes == 0)
+        return OK;
+    TRY(section_find(c, "start volume", 8, 1, &s));
+    memcpy(&m->start_volume, s->data, sizeof m->start_volume);
+    TRY(section_find(c, "change", 8, BUDGET_ROWS, &s));
+    memcpy(m->change, s->data, sizeof m->change);
+done:
+    return st;
+}
+
+status sections_add_counts(struct checkpoint *c, const struct model *m)
+{
+    status st = OK;
+    void *data;
+    TRY(section_add(c, "ledger", 8, sizeof m->ledger / 8, &data));
+    memcpy(data, &m->ledger, sizeof m->ledger);
+    if (m->type->n_processes == 0)
+        return OK;
+    TRY(section_add(c, "start volume", 8, 1, &data));
+    memcpy(data, &m->start_volume, sizeof m->start_volume);
+    TRY(section_add(c, "change", 8, BUDGET_ROWS, &data));
+    memcpy(data, m->change, sizeof m->change);
+done:
+    return st;
+}
+
+static status create_shared(struct model *m)
+{
+    status st = OK;
+    TRY(scene_voxels(m->job, m->voxels));
+    TRY(gpu_work_create(m->gpu, m->type->work_items(m->job, m->voxels), &m->work));
+    if (m->type->n_processes)
+        TRY(budget_create(m->gpu, &m->budget));
+    TRY(field_create(m->gpu, m->voxels, m->h, &m->field));
+    if (aov_pixels(m->whole))
+        TRY(aov_create(m->gpu, m->whole, aov_pixels(m->whole), &m->aov));
+done:
+    return st;
+}
+
+status model_create(struct gpu *gpu, const struct job *job, const struct checkpoint *from, struct model **out)
+{
+    status st = OK;
+    struct model *m = NULL;
+    const struct model_type *type = type_of(job);
+    TRY(memory_alloc(1, type->size, "the model", &m));
+    m->type = type;
+    m->gpu = gpu;
+    m->whole = job;
+    m->h = job->domain.spacing_m;
+    m->frame = from ? from->frame : job->frames.first;
+    m->years = from ? from->years : 0;
+    m->job = job_at(job, m->frame);
+    gpu_stage(gpu, "start");
+    TRY(create_shared(m));
+    TRY(type->create(m));
+    if (from)
+        TRY(restore_counts(m, from));
+    TRY(from ? type->restore(m, from) : type->begin(m));
+    *out = m;
+    m = NULL;
+done:
+    model_destroy(&m);
+    return st;
+}
+
+void model_destroy(struct model **handle)
+{
+    struct model *m = *handle;
+    if (!m)
+        return;
+    m->type->destroy(m);
+    aov_destroy(m->gpu, &m->aov);
+    field_destroy(m->gpu, &m->field);
+    budget_destroy(m->gpu, &m->budget);
+    gpu_work_destroy(m->gpu, &m->work);
+    free(m);
+    *handle = NULL;
+}
+
+status model_save(struct model *m, struct checkpoint *out)
+{
+    status st = OK;
+    *out = (struct checkpoint){.frame = m->frame, .years = m->years};
+    TRY(section_add_domain(out, m->job));
+    TRY(m->type->save(m, out));
+done:
+    if (st != OK)
+        checkpoint_free(out);
+    return st;
+}
+
+/* ---- a frame */
+
+int model_frame(const struct model *m)
+{
+    return m->frame;
+}
+
+status model_step(struct model *m)
+{
+    status st = OK;
+    const bool budgets = m->type->n_processes > 0;
+    m->frame++;
+    m->job = job_at(m->whole, m->frame);
+    m->years += m->job->clock.years_per_frame;
+    if (budgets)
+        budget_clear(m->gpu, &m->budget);
+    TRY(m->type->step(m));
+    if (budgets)
+        TRY(budget_read(m->gpu, &m->budget, m->change));
+done:
+    return st;
+}
+
+status model_output(struct model *m, struct frame *out)
+{
+    *out = (struct frame){
+        .number = m->frame, .years = m->years, .ledger = m->ledger, .start_volume_m3 = m->start_volume};
+    for (size_t i = 0; i < m->type->n_processes; i++) {
+        const uint32_t row = m->type->processes[i];
+        out->change[out->n_changes++] =
+            (struct frame_change){budget_names[row], budget_m3(m->change[row], m->h)};
+    }
+    status st = m->type->output(m, out);
+    if (st != OK)
+        frame_free(out);
+    return st;
+}
+
+double model_sum(const float *left, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += (double)left[i];
+    return sum;
+}
+
+void model_weigh(struct model *m, uint32_t process, bool after, struct gpu_buffer *left, size_t n)
+{
+    budget_sum(m->gpu, &m->budget, process, after, left, n);
+}
+
+void model_warn_unheld(const struct model *m, const char *what)
+{
+    if (m->ledger.fallen)
+        log_warn("frame %d: %llu of %llu %s have no face path to the ground and were taken out", m->frame,
+                 (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start, what);
 }

@@ -1,5 +1,8 @@
-/* A model: one of the published systems, as run, plan and the farm see it. arenite.c is the one to read
- * first. */
+/* A model: one of the published systems, as run, plan and the farm see it. The key `model` says which one a job has.
+ *
+ * Calling sequence   model_estimate(), without a device; model_create(), then model_output() and model_save() for the
+ *                    frame its state is of, and model_step() to the next one.
+ */
 #ifndef HOODOO_MODEL_H
 #define HOODOO_MODEL_H
 
@@ -22,29 +25,28 @@ struct model_estimate {
     double steps; /* of erosion and equilibrium, over all frames */
 };
 
-struct model_type {
-    const char *name;
-    MUST_USE status (*estimate)(const struct job *job, struct model_estimate *out);
+/* Of the job's: "arenite". */
+const char *model_name(const struct job *job);
 
-    /* The job's first frame; or, with `from`, the state that checkpoint holds. */
-    MUST_USE status (*create)(struct gpu *gpu, const struct job *job, const struct checkpoint *from,
-                              struct model **out);
-    void (*destroy)(struct model **model);
+/* E_USAGE, E_INPUT: the scene is wrong, or a file of it. */
+MUST_USE status model_estimate(const struct job *job, struct model_estimate *out);
 
-    /* Simulates the next frame. E_NUMERIC when numbers blow up. */
-    MUST_USE status (*step)(struct model *model);
+/* The job's first frame; or, with `from`, the state that checkpoint holds: E_CHECKPOINT if it is not one of this
+ * model and domain. model_destroy(). */
+MUST_USE status model_create(struct gpu *gpu, const struct job *job, const struct checkpoint *from,
+                             struct model **out);
+void model_destroy(struct model **model);
 
-    /* The frame the state is of. */
-    int (*frame)(const struct model *model);
+/* Simulates the next frame. E_NUMERIC when numbers blow up. */
+MUST_USE status model_step(struct model *model);
 
-    /* What there is to write of this frame, in host memory: frame_free(). */
-    MUST_USE status (*output)(struct model *model, struct frame *out);
+/* The frame the state is of. */
+int model_frame(const struct model *model);
 
-    /* The state, as sections that *out owns: checkpoint_free(). Provenance is the caller's to fill in. */
-    MUST_USE status (*save)(struct model *model, struct checkpoint *out);
-};
+/* What there is to write of this frame, in host memory: frame_free(). */
+MUST_USE status model_output(struct model *model, struct frame *out);
 
-/* The job's. */
-const struct model_type *model_of(const struct job *job);
+/* The state, as sections that *out owns: checkpoint_free(). Provenance is the caller's to fill in. */
+MUST_USE status model_save(struct model *model, struct checkpoint *out);
 
 #endif

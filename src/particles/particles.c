@@ -1,10 +1,5 @@
 #include "particles/particles.h"
 
-static size_t voxel_count(const int voxels[3])
-{
-    return (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2];
-}
-
 uint64_t particles_bytes(size_t n, const int voxels[3])
 {
     uint64_t item = 4 * 4 + 16; /* surface, flags, place, spares */

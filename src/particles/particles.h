@@ -25,6 +25,11 @@ struct particles {
     bool moving; /* particles are not in their voxels' middles: particles_fill() spreads them */
 };
 
+static inline size_t voxel_count(const int voxels[3])
+{
+    return (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2];
+}
+
 /* Bytes on the device for n particles in that many voxels. */
 uint64_t particles_bytes(size_t n, const int voxels[3]);
 

@@ -21,7 +21,6 @@
 struct run {
     const struct job *job;
     const struct run_options *options;
-    const struct model_type *type;
     uint64_t job_hash;
     struct frame_range frames;
     struct gpu *gpu;
@@ -279,7 +278,7 @@ static status save(struct run *r)
 {
     status st = OK;
     struct checkpoint c;
-    TRY(r->type->save(r->model, &c));
+    TRY(model_save(r->model, &c));
     provenance(r, &c);
     TRY(writer_checkpoint(r->writer, &c));
 done:
@@ -344,7 +343,7 @@ done:
 static status check_memory(const struct run *r)
 {
     struct model_estimate e;
-    status st = r->type->estimate(r->job, &e);
+    status st = model_estimate(r->job, &e);
     const struct gpu_info *info = gpu_info(r->gpu);
     uint64_t device_free = gpu_memory_free(r->gpu), host_free = memory_available();
     uint64_t device_need = e.device_bytes + (info->is_cpu ? e.host_bytes : 0);
@@ -400,8 +399,8 @@ static status begin(struct run *r)
     } else if (found)
         log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
                  range_count(r->frames));
-    TRY(r->type->create(r->gpu, r->job, found ? &c : NULL, &r->model));
-    r->began = r->type->frame(r->model);
+    TRY(model_create(r->gpu, r->job, found ? &c : NULL, &r->model));
+    r->began = model_frame(r->model);
     TRY(write_papers(r)); /* not before: a scene that is refused does not claim the folder */
     TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
 done:
@@ -413,10 +412,10 @@ static status finish_frame(struct run *r)
 {
     status st = OK;
     struct frame frame;
-    int number = r->type->frame(r->model);
+    int number = model_frame(r->model);
     if (number < r->frames.first || !range_holds(r->frames, number) || r->done[number - r->frames.first])
         return OK;
-    TRY(r->type->output(r->model, &frame));
+    TRY(model_output(r->model, &frame));
     double share = frame.start_volume_m3 > 0 ? frame.volume_m3 / frame.start_volume_m3 : 0;
     int iterations = frame.stress_iterations;
     TRY(writer_frame(r->writer, &frame));
@@ -433,10 +432,9 @@ static status simulate(struct run *r)
     /* Frames after it are done, and so are the checkpoints they need. */
     bool repair = last < r->frames.last;
     /* A checkpoint's own frame may be the first one missing. */
-    bool fresh =
-        r->type->frame(r->model) == r->job->frames.first || r->type->frame(r->model) == r->first_missing;
+    bool fresh = model_frame(r->model) == r->job->frames.first || model_frame(r->model) == r->first_missing;
     for (;;) {
-        int number = r->type->frame(r->model);
+        int number = model_frame(r->model);
         TRY(lock_check(r->lock));
         /* The last frame says that all is done: what the next block begins from is there before it. */
         if (fresh && number >= last && !repair)
@@ -461,7 +459,7 @@ static status simulate(struct run *r)
                      number);
             goto done;
         }
-        TRY(r->type->step(r->model));
+        TRY(model_step(r->model));
         fresh = true;
     }
     TRY(writer_finish(&r->writer));
@@ -487,7 +485,7 @@ status run_job(struct job *job, const struct run_options *options)
 {
     status st = OK;
     const double started = timing_now();
-    struct run r = {.job = job, .options = options, .type = model_of(job), .frames = options->frames};
+    struct run r = {.job = job, .options = options, .frames = options->frames};
     TRY(branch_prepare(job, options->root));
     if (r.frames.step == 0)
         r.frames = job->frames;
@@ -521,7 +519,7 @@ status run_job(struct job *job, const struct run_options *options)
     TRY(simulate(&r));
 done:
     if (r.model)
-        timing_write(options->root, r.gpu, r.began, r.type->frame(r.model), started);
+        timing_write(options->root, r.gpu, r.began, model_frame(r.model), started);
     if (st != OK && r.writer) {
         /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
         char message[2048];
@@ -530,8 +528,7 @@ done:
             log_warn("%s", status_message());
         fail(st, "%s", message);
     }
-    if (r.model)
-        r.type->destroy(&r.model);
+    model_destroy(&r.model);
     gpu_destroy(&r.gpu);
     lock_release(&r.lock);
     free(r.done);

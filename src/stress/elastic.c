@@ -2,6 +2,18 @@
 
 #include <math.h>
 
+struct elastic_options elastic_options(const struct job *job)
+{
+    return (struct elastic_options){
+        .lambda = 1e9 * job->rock.lame_GPa,
+        .mu = 1e9 * job->rock.shear_GPa,
+        .density = job->rock.density_kg_m3,
+        .gravity = job->rock.gravity_m_s2,
+        .tolerance = job->stress.tolerance,
+        .max_iterations = (int)job->stress.max_iterations,
+    };
+}
+
 size_t elastic_nodes(const struct elastic *e)
 {
     return (size_t)(e->cells[0] + 1) * (size_t)(e->cells[1] + 1) * (size_t)(e->cells[2] + 1);

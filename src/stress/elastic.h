@@ -16,6 +16,7 @@
 
 #include "gpu/gpu.h"
 #include "gpu/primitives.h"
+#include "job/job.h"
 #include "particles/particles.h"
 
 struct elastic_options {
@@ -39,6 +40,9 @@ struct elastic {
     int iterations;    /* of the last solve */
     double error;      /* its estimate when it stopped */
 };
+
+/* The job's rock, and how exactly its stress is wanted. */
+struct elastic_options elastic_options(const struct job *job);
 
 size_t elastic_nodes(const struct elastic *e);
 size_t elastic_cells(const struct elastic *e);

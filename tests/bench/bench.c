@@ -204,10 +204,9 @@ static double demo(const struct job *job, const char *root, int stages, double *
     struct model *model = NULL;
     struct writer *writer = NULL;
     struct frame frame;
-    const struct model_type *type = model_of(job);
     check(gpu_create(&(struct gpu_options){.device = "auto"}, &gpu));
-    check(type->create(gpu, job, NULL, &model));
-    check(type->output(model, &frame)); /* compiles its kernels */
+    check(model_create(gpu, job, NULL, &model));
+    check(model_output(model, &frame)); /* compiles its kernels */
     frame_free(&frame);
     check(gpu_wait(gpu));
     gpu_times_reset(gpu);
@@ -217,8 +216,8 @@ static double demo(const struct job *job, const char *root, int stages, double *
     }
     double start = now(), cpu_start = clock_at(CLOCK_PROCESS_CPUTIME_ID);
     for (int f = 0; f < FRAMES; f++) {
-        check(type->step(model));
-        check(type->output(model, &frame));
+        check(model_step(model));
+        check(model_output(model, &frame));
         if (writer)
             check(writer_frame(writer, &frame));
         else
@@ -241,7 +240,7 @@ static double demo(const struct job *job, const char *root, int stages, double *
         printf("    %-14s %5.1f %%   %7.1f ms a frame\n", "beside kernels", 100 * (1 - sum / seconds),
                1e3 * (seconds - sum) / FRAMES);
     }
-    type->destroy(&model);
+    model_destroy(&model);
     gpu_destroy(&gpu);
     return seconds;
 }

@@ -33,19 +33,19 @@ static void add(struct trace *t, const void *bytes, size_t n)
     t->n += n;
 }
 
-static void add_state(struct trace *t, const struct model_type *type, struct model *m)
+static void add_state(struct trace *t, struct model *m)
 {
     struct checkpoint c;
-    assert_ok(type->save(m, &c));
+    assert_ok(model_save(m, &c));
     for (size_t i = 0; i < c.n_sections; i++)
         add(t, c.section[i].data, c.section[i].n * c.section[i].item);
     checkpoint_free(&c);
 }
 
-static void add_frame(struct trace *t, const struct model_type *type, struct model *m)
+static void add_frame(struct trace *t, struct model *m)
 {
     struct frame f;
-    assert_ok(type->output(m, &f));
+    assert_ok(model_output(m, &f));
     assert_true(f.rock.n > 1000);
     assert_int_equal(f.n_images, 1);
     for (int i = 0; i < ROCK_FIELDS; i++)
@@ -70,16 +70,15 @@ static void run_job(const struct gpu_options *options, const struct job *job, st
 {
     struct gpu *gpu = NULL;
     struct model *m = NULL;
-    const struct model_type *type = model_of(job);
     assert_ok(gpu_create(options, &gpu));
-    assert_ok(type->create(gpu, job, NULL, &m));
-    add_frame(t, type, m);
+    assert_ok(model_create(gpu, job, NULL, &m));
+    add_frame(t, m);
     for (int i = 0; i < STEPS; i++) {
-        assert_ok(type->step(m));
-        add_state(t, type, m);
-        add_frame(t, type, m);
+        assert_ok(model_step(m));
+        add_state(t, m);
+        add_frame(t, m);
     }
-    type->destroy(&m);
+    model_destroy(&m);
     gpu_destroy(&gpu);
 }
 
@@ -107,16 +106,15 @@ static void changes(const struct gpu_options *options, const struct job *job)
     struct trace t = {0};
     struct gpu *gpu = NULL;
     struct model *m = NULL;
-    const struct model_type *type = model_of(job);
     assert_ok(gpu_create(options, &gpu));
-    assert_ok(type->create(gpu, job, NULL, &m));
-    add_state(&t, type, m);
+    assert_ok(model_create(gpu, job, NULL, &m));
+    add_state(&t, m);
     size_t before = t.n;
-    assert_ok(type->step(m));
-    add_state(&t, type, m);
+    assert_ok(model_step(m));
+    add_state(&t, m);
     assert_true(t.n - before != before || memcmp(t.bytes, t.bytes + before, before) != 0);
-    assert_int_equal(type->frame(m), job->frames.first + 1);
-    type->destroy(&m);
+    assert_int_equal(model_frame(m), job->frames.first + 1);
+    model_destroy(&m);
     gpu_destroy(&gpu);
     free(t.bytes);
 }

@@ -17,7 +17,7 @@ static struct roundness weathered(double h, double quantum)
     struct sim s = sim_begin(text);
     /* The same years, whatever the loss. */
     for (int f = 0; f < 100; f++)
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     struct frame frame = sim_output(&s);
     struct surface surface = surface_of(&frame);
     struct roundness r = surface_roundness(&surface);

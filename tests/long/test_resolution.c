@@ -34,7 +34,7 @@ static struct course erode(const char *spacing)
         frame_free(&frame);
         if (done)
             break;
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     }
     sim_end(&s);
     assert_true(out.half.n_grids > 0);

@@ -13,7 +13,6 @@
 struct sim {
     struct gpu *gpu;
     struct job *job;
-    const struct model_type *type;
     struct model *model;
 };
 
@@ -23,8 +22,7 @@ static inline struct sim sim_open(const char *path, const char *const *sets, siz
     struct sim s = {0};
     assert_ok(job_load(path, sets, n_sets, &s.job));
     assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
-    s.type = model_of(s.job);
-    assert_ok(s.type->create(s.gpu, s.job, NULL, &s.model));
+    assert_ok(model_create(s.gpu, s.job, NULL, &s.model));
     return s;
 }
 
@@ -45,7 +43,7 @@ static inline struct sim sim_begin(const char *text)
 
 static inline void sim_end(struct sim *s)
 {
-    s->type->destroy(&s->model);
+    model_destroy(&s->model);
     gpu_destroy(&s->gpu);
     job_destroy(&s->job);
 }
@@ -53,7 +51,7 @@ static inline void sim_end(struct sim *s)
 static inline struct frame sim_output(struct sim *s)
 {
     struct frame frame;
-    assert_ok(s->type->output(s->model, &frame));
+    assert_ok(model_output(s->model, &frame));
     return frame;
 }
 

@@ -29,7 +29,7 @@ static struct shape erode(const char *name, const char *const *sets, size_t n_se
             return shape;
         }
         frame_free(&frame);
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     }
 }
 
@@ -148,7 +148,7 @@ static struct pillars pillars(const char *what, const char *weather)
     struct sim s = sim_begin(text);
     free(text);
     for (int f = 1001; f < 1033; f++)
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     struct frame frame = sim_output(&s);
     struct shape shape = shape_inside(&frame.grids, FIELD_MARGIN);
     out.left = frame.volume_m3 / frame.start_volume_m3;
@@ -231,7 +231,7 @@ static struct gullies gullies(const char *what, const char *weather)
     shape_free(&shape);
     frame_free(&frame);
     for (int f = 1001; f < 1025; f++)
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     frame = sim_output(&s);
     shape = shape_inside(&frame.grids, FIELD_MARGIN);
     tops(&shape, after);

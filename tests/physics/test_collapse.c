@@ -50,7 +50,7 @@ static void shot_falls(void **state)
     double lowest = 1e30, down = 0, px = 0, most = 0;
     (void)state;
     for (int f = 0; f < 12; f++) {
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
         frame = sim_output(&s);
         adds_up(&frame);
         assert_true(frame.years == 0);
@@ -101,17 +101,17 @@ static void resumes_in_the_fall(void **state)
     struct checkpoint saved = {0}, again = {0};
     (void)state;
     for (int f = 0; f < 14; f++) {
-        assert_ok(a.type->step(a.model));
+        assert_ok(model_step(a.model));
         if (f != 8)
             continue;
-        assert_ok(a.type->save(a.model, &saved));
-        b.type->destroy(&b.model);
-        assert_ok(b.type->create(b.gpu, b.job, &saved, &b.model));
+        assert_ok(model_save(a.model, &saved));
+        model_destroy(&b.model);
+        assert_ok(model_create(b.gpu, b.job, &saved, &b.model));
         struct frame was = sim_output(&a), is = sim_output(&b);
         same_rock(&was, &is);
         frame_free(&was);
         frame_free(&is);
-        assert_ok(b.type->save(b.model, &again));
+        assert_ok(model_save(b.model, &again));
         assert_int_equal(saved.n_sections, again.n_sections);
         for (size_t i = 0; i < saved.n_sections; i++) {
             assert_int_equal(saved.section[i].n, again.section[i].n);
@@ -120,7 +120,7 @@ static void resumes_in_the_fall(void **state)
         }
     }
     for (int f = 9; f < 14; f++)
-        assert_ok(b.type->step(b.model));
+        assert_ok(model_step(b.model));
     struct frame was = sim_output(&a), is = sim_output(&b);
     same_rock(&was, &is);
     print_message(
@@ -143,7 +143,7 @@ static void threads_do_not_matter(void **state)
         setenv("LP_NUM_THREADS", threads[t], 1);
         struct sim s = sim_begin(SHOT);
         for (int f = 0; f < 6; f++)
-            assert_ok(s.type->step(s.model));
+            assert_ok(model_step(s.model));
         struct frame frame = sim_output(&s);
         if (t == 0) {
             first = frame;
@@ -243,7 +243,7 @@ static void blocks_become_rubble(void **state)
     /* It lies, and weathers as rock does. */
     for (int f = 0; f < 4; f++) {
         size_t moved = 0, weathered = 0;
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
         frame = sim_output(&s);
         adds_up(&frame);
         n_rubble = 0;

@@ -300,7 +300,7 @@ static void weaker_deposits_spread_wider_and_thinner(void **state)
         struct sim s = crumbling(b ? 0.15 : 1);
         uint64_t most = 0;
         for (int f = 0; f < FRAMES; f++) {
-            assert_ok(s.type->step(s.model));
+            assert_ok(model_step(s.model));
             struct frame frame = sim_output(&s);
             const struct ledger *l = &frame.ledger;
             assert_int_equal(l->start, l->rock + l->deposit + l->fallen + l->left);
@@ -333,22 +333,22 @@ static void a_resumed_run_has_the_same_deposits(void **state)
     struct model *resumed;
     (void)state;
     for (int f = 0; f < 5; f++)
-        assert_ok(s.type->step(s.model));
-    assert_ok(s.type->save(s.model, &half));
+        assert_ok(model_step(s.model));
+    assert_ok(model_save(s.model, &half));
     for (int f = 0; f < 4; f++)
-        assert_ok(s.type->step(s.model));
-    assert_ok(s.type->save(s.model, &whole));
-    assert_ok(s.type->create(s.gpu, s.job, &half, &resumed));
+        assert_ok(model_step(s.model));
+    assert_ok(model_save(s.model, &whole));
+    assert_ok(model_create(s.gpu, s.job, &half, &resumed));
     for (int f = 0; f < 4; f++)
-        assert_ok(s.type->step(resumed));
-    assert_ok(s.type->save(resumed, &again));
+        assert_ok(model_step(resumed));
+    assert_ok(model_save(resumed, &again));
     assert_int_equal(whole.n_sections, again.n_sections);
     for (size_t i = 0; i < whole.n_sections; i++) {
         assert_int_equal(whole.section[i].n, again.section[i].n);
         assert_memory_equal(whole.section[i].data, again.section[i].data,
                             whole.section[i].n * whole.section[i].item);
     }
-    s.type->destroy(&resumed);
+    model_destroy(&resumed);
     checkpoint_free(&half);
     checkpoint_free(&whole);
     checkpoint_free(&again);

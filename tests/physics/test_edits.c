@@ -34,7 +34,7 @@ static struct run erode(const char *edits)
     struct sim s = sim_begin(text);
     for (int i = 0; i < FRAMES; i++) {
         if (i)
-            assert_ok(s.type->step(s.model));
+            assert_ok(model_step(s.model));
         out.frame[i] = sim_output(&s);
         check_ledger(&out.frame[i]);
     }

@@ -62,7 +62,7 @@ static struct history erode(double interlock_MPa)
         frame_free(&frame);
         if (number >= s.job->frames.last)
             break;
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     }
     sim_end(&s);
     print_message(

@@ -30,7 +30,7 @@ static struct frame weather_to(struct sim *s, double share)
         if (frame.volume_m3 <= share * frame.start_volume_m3)
             return frame;
         frame_free(&frame);
-        assert_ok(s->type->step(s->model));
+        assert_ok(model_step(s->model));
     }
 }
 
@@ -140,7 +140,7 @@ static void flat_faces_retreat_at_their_rate(void **state)
     for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
         struct sim s = cube_of(walls[i].bubble, walls[i].goblins, walls[i].h, 0.1);
         for (int f = 0; f < 50; f++)
-            assert_ok(s.type->step(s.model));
+            assert_ok(model_step(s.model));
         struct frame frame = sim_output(&s);
         struct surface surface = surface_of(&frame);
         double lost = 2 - surface_reach(&surface, surface.center, (const double[]){1, 0, 0});
@@ -181,7 +181,7 @@ static void a_cap_stands_on_a_neck(void **state)
     struct sim s = cap_of(0.1, "");
     double neck = 9, cap = 0;
     for (int f = 0; f < 30; f++)
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     struct frame frame = sim_output(&s);
     struct surface surface = surface_of(&frame);
     for (double z = 0.5; z < 5; z += 0.1) {
@@ -199,7 +199,7 @@ static void a_cap_stands_on_a_neck(void **state)
     /* Until the neck breaks: then the cap is in the ledger. */
     for (int f = 0; f < 60 && frame.ledger.fallen < 1000; f++) {
         frame_free(&frame);
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
         frame = sim_output(&s);
     }
     print_message("# the neck breaks by frame %d: %llu voxels fell\n", frame.number,
@@ -240,7 +240,7 @@ static void a_thin_wall_becomes_a_band_and_breaks(void **state)
         if (parts == 2 && !broken)
             broken = frame.number;
         frame_free(&frame);
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     }
     print_message("# a band by frame %d, two goblins by frame %d\n", band, broken);
     sim_end(&s);
@@ -265,8 +265,8 @@ static void finer_voxels_make_the_same_goblin(void **state)
     size_t both = 0, any = 0, rock = 0;
     double volume[2] = {0};
     for (int f = 0; f < 22; f++) {
-        assert_ok(coarse.type->step(coarse.model));
-        assert_ok(fine.type->step(fine.model));
+        assert_ok(model_step(coarse.model));
+        assert_ok(model_step(fine.model));
     }
     float *a = shares(&coarse, 150000), *b = shares(&fine, 1200000);
     for (int z = 0; z < 2 * n[2]; z++)
@@ -295,14 +295,14 @@ static void a_continued_run_has_the_same_bits(void **state)
     struct sim s = cap_of(0.1, "");
     struct checkpoint middle, ends[2];
     for (int f = 0; f < 5; f++)
-        assert_ok(s.type->step(s.model));
-    assert_ok(s.type->save(s.model, &middle));
+        assert_ok(model_step(s.model));
+    assert_ok(model_save(s.model, &middle));
     for (int again = 0; again < 2; again++) {
         for (int f = 0; f < 5; f++)
-            assert_ok(s.type->step(s.model));
-        assert_ok(s.type->save(s.model, &ends[again]));
-        s.type->destroy(&s.model);
-        assert_ok(s.type->create(s.gpu, s.job, &middle, &s.model));
+            assert_ok(model_step(s.model));
+        assert_ok(model_save(s.model, &ends[again]));
+        model_destroy(&s.model);
+        assert_ok(model_create(s.gpu, s.job, &middle, &s.model));
     }
     assert_int_equal(ends[0].n_sections, ends[1].n_sections);
     for (size_t i = 0; i < ends[0].n_sections; i++) {

@@ -12,13 +12,13 @@
 static void plant(struct sim *s, float below_x, float cover)
 {
     struct checkpoint c;
-    assert_ok(s->type->save(s->model, &c));
+    assert_ok(model_save(s->model, &c));
     const struct checkpoint_section *P = checkpoint_find(&c, "P", 4),
                                     *to = checkpoint_find(&c, "vegetation", 4);
     for (size_t i = 0; i < to->n; i++)
         ((float *)to->data)[i] = ((float *)P->data)[4 * i] < below_x ? cover : 0;
-    s->type->destroy(&s->model);
-    assert_ok(s->type->create(s->gpu, s->job, &c, &s->model));
+    model_destroy(&s->model);
+    assert_ok(model_create(s->gpu, s->job, &c, &s->model));
     checkpoint_free(&c);
 }
 
@@ -42,8 +42,8 @@ static void lost(const char *vegetation, double *covered, double *bare)
     struct sim s = sim_begin(text);
     double sum[2] = {0}, n[2] = {0};
     plant(&s, 16, 0.5f);
-    assert_ok(s.type->step(s.model));
-    assert_ok(s.type->step(s.model));
+    assert_ok(model_step(s.model));
+    assert_ok(model_step(s.model));
     struct frame frame = sim_output(&s);
     for (size_t i = 0; i < frame.rock.n; i++) {
         const float *P = &frame.rock.P[4 * i];
@@ -295,15 +295,15 @@ static void frames_with_plants_resume_with_the_same_bits(void **state)
     (void)state;
     plant(&s, 10, 0.6f);
     for (int f = 0; f < 6; f++) {
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
         if (f == 2)
-            assert_ok(s.type->save(s.model, &half));
+            assert_ok(model_save(s.model, &half));
     }
-    assert_ok(s.type->save(s.model, &whole));
-    assert_ok(s.type->create(s.gpu, s.job, &half, &resumed));
+    assert_ok(model_save(s.model, &whole));
+    assert_ok(model_create(s.gpu, s.job, &half, &resumed));
     for (int f = 0; f < 3; f++)
-        assert_ok(s.type->step(resumed));
-    assert_ok(s.type->save(resumed, &again));
+        assert_ok(model_step(resumed));
+    assert_ok(model_save(resumed, &again));
     double cover = 0, deposits = 0;
     const struct checkpoint_section *vegetation = checkpoint_find(&again, "vegetation", 4),
                                     *phase = checkpoint_find(&again, "phase", 4);
@@ -319,7 +319,7 @@ static void frames_with_plants_resume_with_the_same_bits(void **state)
         assert_memory_equal(whole.section[i].data, again.section[i].data,
                             whole.section[i].n * whole.section[i].item);
     }
-    s.type->destroy(&resumed);
+    model_destroy(&resumed);
     checkpoint_free(&half);
     checkpoint_free(&whole);
     checkpoint_free(&again);

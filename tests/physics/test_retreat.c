@@ -49,7 +49,7 @@ static double retreat(const struct wall *w)
     struct sim s = sim_begin(text);
     struct frame first = sim_output(&s);
     for (int f = 0; f < w->frames; f++)
-        assert_ok(s.type->step(s.model));
+        assert_ok(model_step(s.model));
     struct frame last = sim_output(&s);
     size_t n_ids = 0;
     for (size_t i = 0; i < first.rock.n; i++)

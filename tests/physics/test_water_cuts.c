@@ -142,7 +142,7 @@ static void erode_slope(const struct slope *s, struct cut cut[2])
     size_t n_ids = first.rock.n;
     for (int half = 0; half < 2; half++) {
         for (int f = 0; f < s->frames / 2; f++)
-            assert_ok(sim.type->step(sim.model));
+            assert_ok(model_step(sim.model));
         struct frame last = sim_output(&sim);
         float *left = viability_by_id(&last.rock, n_ids);
         double lost[SIZE] = {0}, square = 0;

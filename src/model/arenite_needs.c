@@ -1,0 +1,69 @@
+/* What a job of arenite's takes, before anything is allocated. */
+#include "model/arenite.h"
+#include "model/edits.h"
+#include "plants/plants.h"
+#include "scene/scene.h"
+
+bool arenite_routes(const struct job *job)
+{
+    return water_ever_flows(job) || deposit_wanted(job);
+}
+
+bool arenite_ever(const struct job *job, bool (*wanted)(const struct job *))
+{
+    bool any = wanted(job);
+    for (size_t i = 0; i < job->n_edits && !any; i++)
+        any = job->edits[i].set.job && wanted(job->edits[i].set.job);
+    return any;
+}
+
+size_t arenite_work_items(const struct job *job, const int voxels[3])
+{
+    const size_t nodes = mpm_nodes(voxels), n = voxel_count(voxels);
+    (void)job;
+    return (nodes > n ? nodes : n) + 2;
+}
+
+static uint64_t device_bytes(const struct job *job, const int voxels[3], size_t n)
+{
+    uint64_t bytes = elastic_bytes(voxels) + erosion_bytes(n) + blocks_bytes(voxels) +
+                     wind_bytes(job, voxels) + collapse_bytes(job, n, voxels);
+    if (arenite_ever(job, arenite_routes))
+        bytes += water_bytes(voxels);
+    if (arenite_ever(job, deposit_wanted))
+        bytes += deposit_bytes(voxels);
+    if (job->stress.solver == STRESS_MPM)
+        bytes += mpm_bytes(n, voxels, job->domain.spacing_m, 0);
+    return bytes;
+}
+
+static double steps(const struct job *job)
+{
+    double sum = 0;
+    for (int f = job->frames.first + 1; f <= job->frames.last; f++)
+        sum += erosion_steps(job_at(job, f), f, wind_intensity(job_at(job, f), f));
+    return sum;
+}
+
+status arenite_estimate(const struct job *job, struct model_needs *needs)
+{
+    status st = OK;
+    TRY(scene_estimate(job, &needs->size));
+    TRY(wind_check(job, needs->voxels));
+    const size_t n = needs->size.n_particles;
+    const int volumes =
+        water_ever_flows(job) + (plants_wanted(job) || edits_plant(job)) + arenite_ever(job, deposit_wanted);
+    needs->device_bytes = device_bytes(job, needs->voxels, n);
+    /* Water, plants and deposits have volumes of their own. */
+    needs->disk = (struct disk_particle){.inside = 15.5,
+                                         .bare = 45,
+                                         .volumes_inside = 2.2,
+                                         .volumes_bare = 88 * (1 + 0.1 * volumes),
+                                         .channel = 1.9};
+    needs->checkpoint_bytes = 15 * (uint64_t)n +
+                              (uint64_t)(0.3 * (double)wind_checkpoint_bytes(job, needs->voxels)) +
+                              collapse_checkpoint_bytes(job, n);
+    needs->steps = steps(job);
+done:
+    return st;
+}
