@@ -79,9 +79,17 @@ $(BUILD)/%_shim.o: %_shim.cpp | $(BUILD)/.deps
 	@echo "c++ $<"
 	$(Q)mkdir -p $(@D) && $(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
-# The version is in one object, so that a commit does not rebuild the rest.
-$(BUILD)/src/base/version.o: CPPFLAGS += -DHOODOO_VERSION='"$(VERSION)"' -DHOODOO_COMMIT='"$(COMMIT)"'
-$(BUILD)/src/base/version.o: $(wildcard .git/HEAD .git/logs/HEAD)
+# What is simulated and what is in a frame's files comes from these objects. Their hash tells builds apart that may give
+# other numbers: objects and not sources, since compiler and flags count and comments do not. Debug information, which
+# names folders, is left out. The commands, the control of a run, the farm and the previews are no part of it.
+COMPUTES = $(sort $(filter-out $(addprefix $(BUILD)/,src/base/version.o src/cli/% src/run/% farm/% render/% gen/render/%),$(LIB_OBJ)))
+$(BUILD)/gen/build: $(COMPUTES) Makefile
+	$(Q)ld -r -S -o $@.o $(COMPUTES) && { echo $(VERSION); cat $@.o; } | sha256sum | cut -c 1-16 > $@ && rm $@.o
+
+# Version, commit and build are in one object, so that a commit does not rebuild the rest.
+$(BUILD)/src/base/version.o: private CPPFLAGS += -DHOODOO_VERSION='"$(VERSION)"' -DHOODOO_COMMIT='"$(COMMIT)"' \
+	-DHOODOO_BUILD='"$(shell cat $(BUILD)/gen/build)"'
+$(BUILD)/src/base/version.o: $(BUILD)/gen/build $(wildcard $(addprefix $(shell git rev-parse --git-dir 2>/dev/null)/,HEAD logs/HEAD))
 
 # ---- shaders: GLSL -> three SPIR-V variants, checked, embedded as words
 

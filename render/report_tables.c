@@ -102,18 +102,35 @@ static void add_inputs(const struct json *inputs, struct text *t)
     json_end_object(t);
 }
 
+/* Who made the frames before, if the run was continued by another build or on another device. */
+static void add_makers(const struct json *continued, struct text *t)
+{
+    if (!continued || continued->kind != JSON_ARRAY)
+        return;
+    for (const struct json *v = continued->first; v; v = v->next)
+        PAGE_ROW(t, NULL, "fact", phrase("up to frame %.0f", page_number(v, "frame")).text, "value",
+                 phrase("hoodoo %s (%s, build %s) on %s", text_of(v, "version"), text_of(v, "commit"),
+                        text_of(v, "build"), text_of(v, "device"))
+                     .text);
+}
+
 void page_provenance(const struct report *r, struct text *t)
 {
-    static const char *const known[][2] = {{"version", "hoodoo"},         {"commit", "commit"},
-                                           {"kernels", "kernels' hash"},  {"device", "device"},
-                                           {"driver", "driver"},          {"device_uuid", "device UUID"},
-                                           {"device_pci", "PCI address"}, {"job_hash", "hash of the job"},
+    static const char *const known[][2] = {{"version", "hoodoo"},
+                                           {"commit", "commit"},
+                                           {"build", "build"},
+                                           {"device", "device"},
+                                           {"driver", "driver"},
+                                           {"device_uuid", "device UUID"},
+                                           {"device_pci", "PCI address"},
+                                           {"job_hash", "hash of the job"},
                                            {"from", "branched from"}};
     json_object(t, "provenance");
     json_array(t, "facts");
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (*text_of(r->run, known[i][0]))
             PAGE_ROW(t, NULL, "fact", known[i][1], "value", text_of(r->run, known[i][0]));
+    add_makers(json_member(r->run, "continued"), t);
     PAGE_ROW(t, NULL, "fact", "seed", "value", phrase("%lld", (long long)r->job->seed).text);
     json_end_array(t);
     add_inputs(json_member(r->run, "inputs"), t);

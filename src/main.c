@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/build.h"
 #include "base/log.h"
 #include "base/nearest.h"
 #include "base/version.h"
@@ -52,7 +53,7 @@ static status run_verb(int argc, char **argv)
         return OK;
     }
     if (strcmp(argv[1], "--version") == 0) {
-        printf("hoodoo %s (%s)\n", hoodoo_version, hoodoo_commit);
+        printf("hoodoo %s (%s, build %s)\n", hoodoo_version, hoodoo_commit, hoodoo_build);
         return OK;
     }
     for (size_t i = 0; i < N_VERBS; i++)

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.." || exit 1
 flags="-std=c11 -D_GNU_SOURCE -Isrc -Ishaders -I. -Ibuild/gen -Itests -isystem /usr/include/OpenEXR -isystem /usr/include/Imath"
 warnings="-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"
 # shellcheck disable=SC2089 # the quotes are the compiler's
-version='-DHOODOO_VERSION="" -DHOODOO_COMMIT=""'
+version='-DHOODOO_VERSION="" -DHOODOO_COMMIT="" -DHOODOO_BUILD=""'
 said=$(mktemp)
 trap 'rm -f "$said"' EXIT
 

@@ -31,13 +31,18 @@ struct checkpoint_section {
     void *data;  /* n * item bytes */
 };
 
+/* What made a state. */
+struct maker {
+    char version[32], commit[32];  /* of hoodoo */
+    char build[17];                /* hoodoo_build; "" in checkpoints of version 0.1.0, which had none */
+    char device[256], driver[256]; /* as gpu_info() gives them */
+};
+
 struct checkpoint {
     int frame;
     double years;
     uint64_t job_hash;
-    char version[32], commit[32];  /* of hoodoo */
-    char device[256], driver[256]; /* as gpu_info() gives them */
-    char shaders[17];              /* hash of every kernel, in hex */
+    struct maker maker;
     size_t n_sections;
     struct checkpoint_section section[CHECKPOINT_SECTIONS_MAX];
 };

@@ -13,11 +13,11 @@ status checkpoint_describe(const char *path, struct text *out)
     json_integer(out, "frame", c.frame);
     json_number(out, "years", c.years);
     json_text(out, "job_hash", hash_text(c.job_hash, hash));
-    json_text(out, "version", c.version);
-    json_text(out, "commit", c.commit);
-    json_text(out, "device", c.device);
-    json_text(out, "driver", c.driver);
-    json_text(out, "shaders", c.shaders);
+    json_text(out, "version", c.maker.version);
+    json_text(out, "commit", c.maker.commit);
+    json_text(out, "build", c.maker.build);
+    json_text(out, "device", c.maker.device);
+    json_text(out, "driver", c.maker.driver);
     json_array(out, "sections");
     for (size_t i = 0; i < c.n_sections; i++) {
         const struct checkpoint_section *s = &c.section[i];

@@ -30,11 +30,11 @@ status index_write(const struct checkpoint *c, const struct layout *layout, stru
     json_integer(out, "frame", c->frame);
     json_number(out, "years", c->years);
     json_text(out, "job_hash", hash_text(c->job_hash, hash));
-    json_text(out, "version", c->version);
-    json_text(out, "commit", c->commit);
-    json_text(out, "device", c->device);
-    json_text(out, "driver", c->driver);
-    json_text(out, "shaders", c->shaders);
+    json_text(out, "version", c->maker.version);
+    json_text(out, "commit", c->maker.commit);
+    json_text(out, "build", c->maker.build);
+    json_text(out, "device", c->maker.device);
+    json_text(out, "driver", c->maker.driver);
     json_array(out, "sections");
     for (size_t i = 0; i < c->n_sections; i++) {
         const struct checkpoint_section *s = &c->section[i];
@@ -95,6 +95,7 @@ static status read_provenance(const struct json *object, struct checkpoint *c)
 {
     status st = OK;
     int64_t frame;
+    struct maker *maker = &c->maker;
     const struct json *years = json_member(object, "years");
     if (!json_to_integer(json_member(object, "frame"), -FRAME_LIMIT, FRAME_LIMIT, &frame))
         return fail(E_CHECKPOINT, "'frame' is missing or no frame number");
@@ -103,11 +104,12 @@ static status read_provenance(const struct json *object, struct checkpoint *c)
     c->frame = (int)frame;
     c->years = years->number;
     TRY(get_hash(object, "job_hash", &c->job_hash));
-    TRY(get_text(object, "version", c->version, sizeof c->version));
-    TRY(get_text(object, "commit", c->commit, sizeof c->commit));
-    TRY(get_text(object, "device", c->device, sizeof c->device));
-    TRY(get_text(object, "driver", c->driver, sizeof c->driver));
-    TRY(get_text(object, "shaders", c->shaders, sizeof c->shaders));
+    TRY(get_text(object, "version", maker->version, sizeof maker->version));
+    if (json_member(object, "build"))
+        TRY(get_text(object, "build", maker->build, sizeof maker->build));
+    TRY(get_text(object, "commit", maker->commit, sizeof maker->commit));
+    TRY(get_text(object, "device", maker->device, sizeof maker->device));
+    TRY(get_text(object, "driver", maker->driver, sizeof maker->driver));
 done:
     return st;
 }

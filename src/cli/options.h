@@ -66,8 +66,9 @@ MUST_USE status options_parse(const struct usage *usage, const struct option *op
 /* ---- what verbs share (DESIGN 2). {0} is right for every member. */
 
 #define RESUME_CHOICE                                                                                        \
-    (RESUME_AUTO, "auto")(RESUME_NEVER, "never")(RESUME_REQUIRE, "require")(RESUME_OTHER_DEVICE,             \
-                                                                            "other-device")
+    (RESUME_AUTO, "auto")(RESUME_NEVER, "never")(RESUME_REQUIRE, "require")(                                 \
+        RESUME_OTHER_DEVICE, "other-device")(RESUME_OTHER_BUILD, "other-build")(RESUME_OTHER_BOTH,           \
+                                                                                "other-device-and-build")
 enum { CHOICE_CONSTANTS(RESUME_CHOICE) };
 
 struct common {
@@ -111,8 +112,8 @@ void common_free(struct common *c);
     {                                                                                                        \
         "resume", CHOICE_TEXT(RESUME_CHOICE), OPTION_CHOICE, &(c)->resume,                                   \
             "never: start over, which removes the folder's manifests and checkpoints; require: fail "        \
-            "without a checkpoint; other-device: go on, though not bit "                                     \
-            "for bit"                                                                                        \
+            "without a checkpoint; other-...: go on from what another device or build of hoodoo made, "      \
+            "though not bit for bit"                                                                         \
     }
 #define OPTION_FROM(c)                                                                                       \
     {                                                                                                        \

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/version.h"
@@ -308,13 +307,4 @@ uint64_t gpu_memory_free(const struct gpu *gpu)
             most = left;
     }
     return most;
-}
-
-uint64_t gpu_kernels_hash(void)
-{
-    uint64_t hash[KERNELS][VARIANTS];
-    for (int i = 0; i < KERNELS; i++)
-        for (int v = 0; v < VARIANTS; v++)
-            hash[i][v] = hash_bytes(kernel_source[i].spirv[v], kernel_source[i].size[v]);
-    return hash_bytes(hash, sizeof hash);
 }

@@ -61,9 +61,6 @@ const struct gpu_info *gpu_info(const struct gpu *gpu);
 /* Bytes that can still be allocated, as far as device and host tell. */
 uint64_t gpu_memory_free(const struct gpu *gpu);
 
-/* XXH3 of every embedded kernel. */
-uint64_t gpu_kernels_hash(void);
-
 /* n items of `item` bytes (4: float or uint; 16: vec4), zeroed. E_MEMORY names the buffer and its size. */
 MUST_USE status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t item,
                                   struct gpu_buffer **out);

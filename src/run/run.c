@@ -6,15 +6,14 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
-#include "base/hash.h"
 #include "base/lock.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/version.h"
 #include "frame/stage.h"
 #include "model/model.h"
 #include "output/folder.h"
 #include "run/branch.h"
+#include "run/provenance.h"
 #include "run/timing.h"
 #include "run/writer.h"
 
@@ -27,13 +26,15 @@ struct run {
     struct model *model;
     struct writer *writer;
     struct lock *lock;
+    struct provenance provenance;
     char lock_path[4096];
     bool lacks_checkpoint; /* the last frame's, or a later one */
     bool *done;            /* [last - first + 1], by frame number */
     int first_missing;     /* last + 1: none */
     int last_missing;
     size_t n_done;
-    int began; /* the frame the model was made or restored at */
+    bool any_there; /* frames, asked for or not */
+    int began;      /* the frame the model was made or restored at */
 };
 
 /* ---- what is there */
@@ -86,6 +87,7 @@ static status survey(struct run *r)
     r->n_done = 0;
     TRY(memory_alloc(n, sizeof *r->done, "the frames", &r->done));
     TRY(folder_frames(r->options->root, r->job->name, &there, &n_there));
+    r->any_there = n_there > 0;
     for (size_t i = 0; i < n_there; i++)
         if (range_holds(r->frames, there[i]))
             TRY(frame_done(r, there[i], &r->done[there[i] - r->frames.first]));
@@ -205,49 +207,18 @@ done:
 
 /* ---- checkpoints */
 
-static void provenance(const struct run *r, struct checkpoint *c)
+/* Can this checkpoint be continued here, bit for bit, or is that not asked for? */
+static status check_provenance(struct run *r, const struct checkpoint *c, const char *path)
 {
-    const struct gpu_info *info = gpu_info(r->gpu);
-    c->job_hash = r->job_hash;
-    snprintf(c->version, sizeof c->version, "%s", hoodoo_version);
-    snprintf(c->commit, sizeof c->commit, "%s", hoodoo_commit);
-    snprintf(c->device, sizeof c->device, "%s", info->name);
-    snprintf(c->driver, sizeof c->driver, "%s", info->driver);
-    hash_text(gpu_kernels_hash(), c->shaders);
-}
-
-/* Can this checkpoint be continued here, bit for bit? */
-static status check_provenance(const struct run *r, const struct checkpoint *c, const char *path)
-{
-    struct checkpoint here = {0};
-    provenance(r, &here);
-    if (c->job_hash != here.job_hash && strcmp(path, r->job->from) != 0)
+    if (c->job_hash != r->job_hash && strcmp(path, r->job->from) != 0)
         return fail(E_CHECKPOINT, "%s is of another job; use another --out, or --resume never to start over",
                     path);
-    bool same_code = strcmp(c->shaders, here.shaders) == 0 && strcmp(c->version, here.version) == 0;
-    bool same_device = strcmp(c->device, here.device) == 0 && strcmp(c->driver, here.driver) == 0;
-    if (same_code && same_device)
-        return OK;
-    if (r->options->resume == RUN_OTHER_DEVICE) {
-        log_warn("%s was made by hoodoo %s (%s) on %s, %s; continuing with %s on %s: not bit for bit", path,
-                 c->version, c->commit, c->device, c->driver, here.version, here.device);
-        return OK;
-    }
-    if (!same_code)
-        return fail(E_CHECKPOINT,
-                    "%s was made by hoodoo %s (%s), whose numbers differ from this one's; continue with that "
-                    "one, or add --resume other-device",
-                    path, c->version, c->commit);
-    return fail(
-        E_CHECKPOINT,
-        "%s was made on %s (%s), and this is %s (%s); add --resume other-device to go on anyway, not bit "
-        "for bit",
-        path, c->device, c->driver, here.device, here.driver);
+    return provenance_continue(&r->provenance, &c->maker, c->frame, path);
 }
 
 /* The newest sound checkpoint up to the first missing frame, or *found = false. Damaged ones are reported and
  * passed over. */
-static status find_checkpoint(const struct run *r, struct checkpoint *c, bool *found)
+static status find_checkpoint(struct run *r, struct checkpoint *c, bool *found)
 {
     status st = OK;
     int *frames = NULL;
@@ -279,66 +250,14 @@ static status save(struct run *r)
     status st = OK;
     struct checkpoint c;
     TRY(model_save(r->model, &c));
-    provenance(r, &c);
+    c.job_hash = r->job_hash;
+    c.maker = r->provenance.here;
     TRY(writer_checkpoint(r->writer, &c));
 done:
     return st;
 }
 
-/* ---- the folder's own papers */
-
-static status write_papers(const struct run *r)
-{
-    status st = OK;
-    char path[4096], hash[17];
-    struct text t = {0};
-    struct job_input *input = NULL;
-    size_t n_inputs;
-    const struct gpu_info *info = gpu_info(r->gpu);
-    TRY(job_resolved(r->job, &t));
-    snprintf(path, sizeof path, "%.4000s/job.yaml", r->options->root);
-    TRY(atomic_file_write(path, t.data, t.size));
-    text_free(&t);
-    TRY(job_inputs(r->job, &input, &n_inputs));
-    json_object(&t, NULL);
-    json_text(&t, "name", r->job->name);
-    json_text(&t, "version", hoodoo_version);
-    json_text(&t, "commit", hoodoo_commit);
-    json_text(&t, "kernels", hash_text(gpu_kernels_hash(), hash));
-    json_text(&t, "device", info->name);
-    json_text(&t, "driver", info->driver);
-    json_text(&t, "device_uuid", info->uuid);
-    json_text(&t, "device_pci", info->pci);
-    json_integer(&t, "seed", r->job->seed);
-    json_text(&t, "job_hash", hash_text(r->job_hash, hash));
-    if (*r->job->from) {
-        json_object(&t, "from");
-        json_text(&t, "checkpoint", r->job->from);
-        json_integer(&t, "frame", r->job->frames.first);
-        json_end_object(&t);
-    }
-    if (r->job->wedge.index) {
-        json_integer(&t, "wedge", r->job->wedge.index);
-        json_text(&t, "wedge_values", r->job->wedge.label);
-    }
-    json_array(&t, "inputs");
-    for (size_t i = 0; i < n_inputs; i++) {
-        json_object(&t, NULL);
-        json_text(&t, "path", input[i].path);
-        json_integer(&t, "size", (int64_t)input[i].size);
-        json_text(&t, "xxh3", hash_text(input[i].hash, hash));
-        json_end_object(&t);
-    }
-    json_end_array(&t);
-    json_end_object(&t);
-    TRY(text_status(&t));
-    snprintf(path, sizeof path, "%.4000s/run.json", r->options->root);
-    TRY(atomic_file_write(path, t.data, t.size));
-done:
-    free(input);
-    text_free(&t);
-    return st;
-}
+/* ---- the loop */
 
 static status check_memory(const struct run *r)
 {
@@ -370,14 +289,15 @@ static status check_memory(const struct run *r)
     return OK;
 }
 
-/* ---- the loop */
-
 static status begin(struct run *r)
 {
     status st = OK;
     struct checkpoint c = {0};
     bool found;
+    TRY(provenance_begin(r->gpu, r->options->root, r->options->resume, &r->provenance));
     TRY(find_checkpoint(r, &c, &found));
+    if (!found && r->any_there)
+        TRY(provenance_restart(&r->provenance, r->job->frames.first, r->options->root));
     if (!found && r->options->resume == RUN_REQUIRE) {
         st =
             fail(E_CHECKPOINT, "%s holds no usable checkpoint up to frame %d, and --resume require was given",
@@ -401,7 +321,8 @@ static status begin(struct run *r)
                  range_count(r->frames));
     TRY(model_create(r->gpu, r->job, found ? &c : NULL, &r->model));
     r->began = model_frame(r->model);
-    TRY(write_papers(r)); /* not before: a scene that is refused does not claim the folder */
+    /* Not before: a scene that is refused does not claim the folder. */
+    TRY(provenance_write(&r->provenance, r->gpu, r->job, r->job_hash, r->options->root));
     TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
 done:
     checkpoint_free(&c);
@@ -531,6 +452,7 @@ done:
     model_destroy(&r.model);
     gpu_destroy(&r.gpu);
     lock_release(&r.lock);
+    provenance_free(&r.provenance);
     free(r.done);
     return st;
 }

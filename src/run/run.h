@@ -9,8 +9,9 @@
  * Branches    A job with `from` begins with that checkpoint (branch.h): its first frame becomes the checkpoint's.
  * Marks       Frames in checkpoint.mark have their checkpoints made, if need be by simulating up to them again, and
  *             kept.
- * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint to another hoodoo or device; or
- *             the first frame asked for is not the job's first and there is no checkpoint before it.
+ * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint, or frames that have none, to another
+ *             build of hoodoo or another device (provenance.h); or the first frame asked for is not the job's
+ *             first and there is no checkpoint before it.
  * Repair      As above, but files are read, not only looked at, damaged checkpoints are removed, and a range of
  *             frames without a checkpoint before it is reached from the job's first frame.
  * Alone       root/lock (base/lock.h) keeps a second writer out: E_OUTPUT. A run with nothing to do needs no
@@ -27,7 +28,7 @@
 #include "gpu/gpu.h"
 #include "job/job.h"
 
-enum run_resume { RUN_AUTO, RUN_NEVER, RUN_REQUIRE, RUN_OTHER_DEVICE };
+enum run_resume { RUN_AUTO, RUN_NEVER, RUN_REQUIRE, RUN_OTHER_DEVICE, RUN_OTHER_BUILD, RUN_OTHER_BOTH };
 
 struct run_options {
     const char *root;          /* the output folder */

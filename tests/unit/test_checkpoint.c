@@ -48,11 +48,11 @@ static void make(struct checkpoint *c, int frame, size_t n)
 {
     uint32_t x = 12345;
     *c = (struct checkpoint){.frame = frame, .years = 1e4 / 3, .job_hash = 0xfedcba9876543210u};
-    strcpy(c->version, "0.1.0");
-    strcpy(c->commit, "abc");
-    strcpy(c->device, "a \"device\" with \\ and \t and \xc3\xa9");
-    strcpy(c->driver, "driver 1.2");
-    strcpy(c->shaders, "00112233445566aa");
+    strcpy(c->maker.version, "0.1.0");
+    strcpy(c->maker.commit, "abc");
+    strcpy(c->maker.device, "a \"device\" with \\ and \t and \xc3\xa9");
+    strcpy(c->maker.driver, "driver 1.2");
+    strcpy(c->maker.build, "00112233445566aa");
     add(c, "viability", 4, n);
     for (size_t i = 0; i < n; i++)
         ((float *)c->section[0].data)[i] = (float)i / 7.0f;
@@ -69,11 +69,11 @@ static void assert_same(const struct checkpoint *a, const struct checkpoint *b)
     assert_int_equal(a->frame, b->frame);
     assert_true(a->years == b->years);
     assert_true(a->job_hash == b->job_hash);
-    assert_string_equal(a->version, b->version);
-    assert_string_equal(a->commit, b->commit);
-    assert_string_equal(a->device, b->device);
-    assert_string_equal(a->driver, b->driver);
-    assert_string_equal(a->shaders, b->shaders);
+    assert_string_equal(a->maker.version, b->maker.version);
+    assert_string_equal(a->maker.commit, b->maker.commit);
+    assert_string_equal(a->maker.device, b->maker.device);
+    assert_string_equal(a->maker.driver, b->maker.driver);
+    assert_string_equal(a->maker.build, b->maker.build);
     assert_int_equal(a->n_sections, b->n_sections);
     for (size_t i = 0; i < a->n_sections; i++) {
         assert_string_equal(a->section[i].name, b->section[i].name);

@@ -78,6 +78,10 @@ static void understands_what_users_write(void **state)
     assert_true(g.scale == 1e-3);
     assert_int_equal(g.common.progress, PROGRESS_OPENJD);
     assert_int_equal(g.common.resume, RESUME_OTHER_DEVICE);
+    assert_int_equal(parse("--resume other-build x", &g), OK);
+    assert_int_equal(g.common.resume, RESUME_OTHER_BUILD);
+    assert_int_equal(parse("--resume other-device-and-build x", &g), OK);
+    assert_int_equal(g.common.resume, RESUME_OTHER_BOTH);
 
     assert_int_equal(parse("-- --json -x", &g), OK);
     assert_false(g.common.json);

@@ -1,0 +1,264 @@
+#include "run/provenance.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/atomic_file.h"
+#include "base/build.h"
+#include "base/hash.h"
+#include "base/json.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "base/path.h"
+#include "base/version.h"
+
+enum { RUN_JSON_MAX = 16 << 20 };
+
+static bool same_build(const struct maker *a, const struct maker *b)
+{
+    return *a->build && strcmp(a->build, b->build) == 0;
+}
+
+static bool same_device(const struct maker *a, const struct maker *b)
+{
+    return strcmp(a->device, b->device) == 0 && strcmp(a->driver, b->driver) == 0;
+}
+
+/* ---- run.json as it is found */
+
+static bool copy(const struct json *object, const char *key, char *out, size_t size)
+{
+    const char *text = json_to_text(json_member(object, key));
+    if (!text || strlen(text) >= size)
+        return false;
+    memcpy(out, text, strlen(text) + 1);
+    return true;
+}
+
+/* False if the object names no maker. Version 0.1.0 had no build. */
+static bool read_maker(const struct json *object, struct maker *out)
+{
+    *out = (struct maker){0};
+    if (json_member(object, "build") && !copy(object, "build", out->build, sizeof out->build))
+        return false;
+    return copy(object, "version", out->version, sizeof out->version) &&
+           copy(object, "commit", out->commit, sizeof out->commit) &&
+           copy(object, "device", out->device, sizeof out->device) &&
+           copy(object, "driver", out->driver, sizeof out->driver);
+}
+
+static status add(struct provenance *p, int frame, const struct maker *maker)
+{
+    status st = OK;
+    TRY(memory_grow(&p->continued, &p->capacity, p->n + 1, sizeof *p->continued, "the makers of a run"));
+    p->continued[p->n++] = (struct continued){frame, *maker};
+done:
+    return st;
+}
+
+static status read_run(const char *root, struct provenance *p)
+{
+    status st = OK;
+    struct path path;
+    char *bytes = NULL;
+    size_t size;
+    struct json *json = NULL;
+    struct maker maker;
+    int frame;
+    TRY(path_join(&path, root, "run.json"));
+    TRY(file_read(path.text, RUN_JSON_MAX, &bytes, &size));
+    TRY(json_read(path.text, bytes, size, &json));
+    p->known = read_maker(json, &p->maker);
+    const struct json *list = json_member(json, "continued");
+    for (const struct json *v = list && list->kind == JSON_ARRAY ? list->first : NULL; v; v = v->next)
+        if (read_maker(v, &maker) && json_to_int(json_member(v, "frame"), &frame))
+            TRY(add(p, frame, &maker));
+done:
+    json_free(&json);
+    free(bytes);
+    return st == E_INPUT ? OK : st; /* a folder's first run has none */
+}
+
+status provenance_begin(const struct gpu *gpu, const char *root, enum run_resume resume,
+                        struct provenance *out)
+{
+    const struct gpu_info *info = gpu_info(gpu);
+    *out = (struct provenance){.allowed = resume};
+    struct maker *here = &out->here;
+    snprintf(here->version, sizeof here->version, "%s", hoodoo_version);
+    snprintf(here->commit, sizeof here->commit, "%s", hoodoo_commit);
+    snprintf(here->build, sizeof here->build, "%s", hoodoo_build);
+    snprintf(here->device, sizeof here->device, "%s", info->name);
+    snprintf(here->driver, sizeof here->driver, "%s", info->driver);
+    return resume == RUN_NEVER ? OK : read_run(root, out);
+}
+
+void provenance_free(struct provenance *p)
+{
+    free(p->continued);
+    *p = (struct provenance){0};
+}
+
+/* ---- may it go on? */
+
+static bool same(const struct maker *a, const struct maker *b)
+{
+    return same_build(a, b) && same_device(a, b);
+}
+
+static status refuse(const struct maker *maker, const struct maker *here, const char *what)
+{
+    const char *word = same_device(maker, here)  ? "other-build"
+                       : same_build(maker, here) ? "other-device"
+                                                 : "other-device-and-build";
+    if (same_build(maker, here))
+        return fail(
+            E_CHECKPOINT,
+            "%s was made on %s (%s), and this is %s (%s); add --resume %s to go on anyway, not bit for "
+            "bit",
+            what, maker->device, maker->driver, here->device, here->driver, word);
+    return fail(E_CHECKPOINT,
+                "%s was made by hoodoo %s (%s, build %s), and this is %s (%s, build %s), whose numbers may "
+                "differ; continue with that one, or add --resume %s to go on anyway, not bit for bit",
+                what, maker->version, maker->commit, *maker->build ? maker->build : "unknown", here->version,
+                here->commit, here->build, word);
+}
+
+/* A run that was stopped before its first checkpoint goes on from the same state again: one entry will do. */
+static status enter(struct provenance *p, const struct maker *maker, int frame)
+{
+    for (size_t i = 0; i < p->n; i++)
+        if (p->continued[i].frame == frame && same(&p->continued[i].maker, maker))
+            return OK;
+    return add(p, frame, maker);
+}
+
+/* May the process go on with what `maker` made, the same or another? */
+static status check(const struct provenance *p, const struct maker *maker, const char *what)
+{
+    const struct maker *here = &p->here;
+    bool build = p->allowed == RUN_OTHER_BUILD || p->allowed == RUN_OTHER_BOTH;
+    bool device = p->allowed == RUN_OTHER_DEVICE || p->allowed == RUN_OTHER_BOTH;
+    if ((!same_build(maker, here) && !build) || (!same_device(maker, here) && !device))
+        return refuse(maker, here, what);
+    if (!same(maker, here))
+        log_warn(
+            "%s was made by hoodoo %s (%s, build %s) on %s, %s; continuing with %s (%s, build %s) on %s, %s: "
+            "not bit for bit",
+            what, maker->version, maker->commit, *maker->build ? maker->build : "unknown", maker->device,
+            maker->driver, here->version, here->commit, here->build, here->device, here->driver);
+    return OK;
+}
+
+status provenance_continue(struct provenance *p, const struct maker *maker, int frame, const char *what)
+{
+    status st = OK;
+    TRY(check(p, maker, what));
+    if (!same(maker, &p->here))
+        TRY(enter(p, maker, frame));
+done:
+    return st;
+}
+
+status provenance_restart(struct provenance *p, int first, const char *root)
+{
+    status st = OK;
+    if (!p->known)
+        return OK;
+    for (size_t i = 0; i < p->n; i++)
+        TRY(check(p, &p->continued[i].maker, root));
+    TRY(provenance_continue(p, &p->maker, first, root));
+done:
+    return st;
+}
+
+/* ---- run.json as it is left */
+
+static void put_maker(struct text *t, const struct maker *maker)
+{
+    json_text(t, "version", maker->version);
+    json_text(t, "commit", maker->commit);
+    json_text(t, "build", maker->build);
+    json_text(t, "device", maker->device);
+    json_text(t, "driver", maker->driver);
+}
+
+static void put_continued(struct text *t, const struct provenance *p)
+{
+    if (p->n == 0)
+        return;
+    json_array(t, "continued");
+    for (size_t i = 0; i < p->n; i++) {
+        json_object(t, NULL);
+        json_integer(t, "frame", p->continued[i].frame);
+        put_maker(t, &p->continued[i].maker);
+        json_end_object(t);
+    }
+    json_end_array(t);
+}
+
+static void put_job(struct text *t, const struct job *job, uint64_t job_hash)
+{
+    char hash[17];
+    json_integer(t, "seed", job->seed);
+    json_text(t, "job_hash", hash_text(job_hash, hash));
+    if (*job->from) {
+        json_object(t, "from");
+        json_text(t, "checkpoint", job->from);
+        json_integer(t, "frame", job->frames.first);
+        json_end_object(t);
+    }
+    if (job->wedge.index) {
+        json_integer(t, "wedge", job->wedge.index);
+        json_text(t, "wedge_values", job->wedge.label);
+    }
+}
+
+static status put_inputs(struct text *t, const struct job *job)
+{
+    status st = OK;
+    struct job_input *input = NULL;
+    size_t n;
+    char hash[17];
+    TRY(job_inputs(job, &input, &n));
+    json_array(t, "inputs");
+    for (size_t i = 0; i < n; i++) {
+        json_object(t, NULL);
+        json_text(t, "path", input[i].path);
+        json_integer(t, "size", (int64_t)input[i].size);
+        json_text(t, "xxh3", hash_text(input[i].hash, hash));
+        json_end_object(t);
+    }
+    json_end_array(t);
+done:
+    free(input);
+    return st;
+}
+
+status provenance_write(const struct provenance *p, const struct gpu *gpu, const struct job *job,
+                        uint64_t job_hash, const char *root)
+{
+    status st = OK;
+    struct path path;
+    struct text t = {0};
+    TRY(job_resolved(job, &t));
+    TRY(path_join(&path, root, "job.yaml"));
+    TRY(atomic_file_write(path.text, t.data, t.size));
+    text_free(&t);
+    json_object(&t, NULL);
+    json_text(&t, "name", job->name);
+    put_maker(&t, &p->here);
+    json_text(&t, "device_uuid", gpu_info(gpu)->uuid);
+    json_text(&t, "device_pci", gpu_info(gpu)->pci);
+    put_continued(&t, p);
+    put_job(&t, job, job_hash);
+    TRY(put_inputs(&t, job));
+    json_end_object(&t);
+    TRY(text_status(&t));
+    TRY(path_join(&path, root, "run.json"));
+    TRY(atomic_file_write(path.text, t.data, t.size));
+done:
+    text_free(&t);
+    return st;
+}
