@@ -38,37 +38,79 @@ static bool lists(const struct manifest *m, const char *folder, const char *exte
     return false;
 }
 
-static status find_frames(struct stage *s, uint64_t job_hash, size_t *n_done)
+/* *sound: the frame is done, and of this job. */
+static status read_frame(const struct stage *s, uint64_t job_hash, int number, struct stage_frame *out,
+                         bool *sound)
 {
     status st = OK;
-    int *frames = NULL;
-    size_t n;
+    const char *bad = "";
     struct manifest m = {0};
-    *n_done = 0;
-    TRY(folder_frames(s->root, s->job->name, &frames, &n));
-    TRY(memory_alloc(n, sizeof *s->volumes, "frame numbers", &s->volumes));
-    TRY(memory_alloc(n, sizeof *s->points, "frame numbers", &s->points));
-    TRY(memory_alloc(n, sizeof *s->rocks, "frame numbers", &s->rocks));
-    for (size_t i = 0; i < n; i++) {
-        const char *bad = "";
-        if (manifest_read(s->root, s->job->name, frames[i], &m) != OK)
-            continue;
-        TRY(manifest_check(s->root, &m, false, &bad));
-        if (!*bad && m.job_hash == job_hash && range_holds(s->job->frames, frames[i])) {
-            (*n_done)++;
-            if (lists(&m, "volumes/", ".vdb"))
-                s->volumes[s->sequence.n_volumes++] = frames[i];
-            if (lists(&m, "points/", ".usdc"))
-                s->points[s->sequence.n_points++] = frames[i];
-            if (lists(&m, "rocks/", ".usdc"))
-                s->rocks[s->sequence.n_rocks++] = frames[i];
-        }
-        manifest_free(&m);
-    }
+    *sound = false;
+    if (manifest_read(s->root, s->job->name, number, &m) != OK)
+        return OK;
+    TRY(manifest_check(s->root, &m, false, &bad));
+    *sound = !*bad && m.job_hash == job_hash && range_holds(s->job->frames, number);
+    *out = (struct stage_frame){.number = number,
+                                .volumes = lists(&m, "volumes/", ".vdb"),
+                                .points = lists(&m, "points/", ".usdc"),
+                                .rocks = lists(&m, "rocks/", ".usdc")};
 done:
     manifest_free(&m);
-    free(frames);
     return st;
+}
+
+/* Into `known`, ascending: manifests of frames that it has are not read again. */
+static status find_frames(const struct stage *s, uint64_t job_hash, struct stage_frames *known)
+{
+    status st = OK;
+    int *number = NULL;
+    size_t n, n_found = 0, k = 0;
+    struct stage_frame *found = NULL;
+    TRY(folder_frames(s->root, s->job->name, &number, &n));
+    TRY(memory_alloc(n, sizeof *found, "frames", &found));
+    for (size_t i = 0; i < n; i++) {
+        bool sound = true;
+        while (k < known->n && known->frame[k].number < number[i])
+            k++;
+        if (k < known->n && known->frame[k].number == number[i])
+            found[n_found] = known->frame[k];
+        else
+            TRY(read_frame(s, job_hash, number[i], &found[n_found], &sound));
+        n_found += sound;
+    }
+    stage_frames_free(known);
+    *known = (struct stage_frames){.frame = found, .n = n_found};
+    found = NULL;
+done:
+    free(number);
+    free(found);
+    return st;
+}
+
+static status list_frames(struct stage *s, const struct stage_frames *known)
+{
+    status st = OK;
+    struct usd_sequence *q = &s->sequence;
+    TRY(memory_alloc(known->n, sizeof *s->volumes, "frame numbers", &s->volumes));
+    TRY(memory_alloc(known->n, sizeof *s->points, "frame numbers", &s->points));
+    TRY(memory_alloc(known->n, sizeof *s->rocks, "frame numbers", &s->rocks));
+    for (size_t i = 0; i < known->n; i++) {
+        const struct stage_frame *f = &known->frame[i];
+        if (f->volumes)
+            s->volumes[q->n_volumes++] = f->number;
+        if (f->points)
+            s->points[q->n_points++] = f->number;
+        if (f->rocks)
+            s->rocks[q->n_rocks++] = f->number;
+    }
+done:
+    return st;
+}
+
+void stage_frames_free(struct stage_frames *frames)
+{
+    free(frames->frame);
+    *frames = (struct stage_frames){0};
 }
 
 /* ---- fields: as the last volumes have them */
@@ -268,10 +310,10 @@ done:
     return st;
 }
 
-status stage_write(const struct job *job, uint64_t job_hash, const char *root)
+status stage_write(const struct job *job, uint64_t job_hash, const char *root, struct stage_frames *known)
 {
     status st = OK;
-    size_t n_done;
+    struct stage_frames all = {0};
     char path[4096];
     struct text t = {0};
     struct stage s = {.job = job,
@@ -281,9 +323,12 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root)
                                    .last = job->frames.last,
                                    .fps = job->fps,
                                    .up = job->output.up}};
-    TRY(find_frames(&s, job_hash, &n_done));
-    if (n_done == 0)
+    if (!known)
+        known = &all;
+    TRY(find_frames(&s, job_hash, known));
+    if (known->n == 0)
         goto done;
+    TRY(list_frames(&s, known));
     TRY(find_fields(&s));
     TRY(find_cameras(&s));
     s.sequence.field = s.field;
@@ -300,6 +345,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root)
     usd_stage(&s.sequence, &t);
     TRY(put(path, &t));
 done:
+    stage_frames_free(&all);
     free(s.volumes);
     free(s.points);
     free(s.rocks);

@@ -8,8 +8,22 @@
 
 #include "job/job.h"
 
+/* Frames that were sound when they were read. */
+struct stage_frame {
+    int number;
+    bool volumes, points, rocks; /* which files it lists */
+};
+struct stage_frames {
+    struct stage_frame *frame; /* ascending */
+    size_t n;
+};
+void stage_frames_free(struct stage_frames *frames);
+
 /* From the manifests in `root` (frames of another job are left out) and the job's cameras; nothing while no
- * frame is done. E_OUTPUT: it cannot be written. */
-MUST_USE status stage_write(const struct job *job, uint64_t job_hash, const char *root);
+ * frame is done. `known`, or NULL for none: frames whose manifests need not be read again; those found are added to
+ * it, and those that are gone leave it. A run keeps it, or else each of its checkpoints reads all manifests.
+ * E_OUTPUT: it cannot be written. */
+MUST_USE status stage_write(const struct job *job, uint64_t job_hash, const char *root,
+                            struct stage_frames *known);
 
 #endif

@@ -396,7 +396,7 @@ static status write_stage(const struct run *r)
     struct job *theirs = NULL;
     snprintf(path, sizeof path, "%.4000s/job.yaml", r->options->root);
     TRY(job_load(path, NULL, 0, &theirs));
-    TRY(stage_write(theirs, r->job_hash, r->options->root));
+    TRY(stage_write(theirs, r->job_hash, r->options->root, NULL));
 done:
     job_destroy(&theirs);
     return st;

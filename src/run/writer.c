@@ -207,6 +207,7 @@ struct writer {
     bool ending;
     status st;
     char message[2048];
+    struct stage_frames frames; /* in the stage; the thread's own */
 };
 
 static void item_free(struct item *item)
@@ -247,7 +248,7 @@ static void *work(void *argument)
                                      : frame_write(w->job, w->job_hash, w->root, &item->frame);
         /* What is there so far can be opened. */
         if (st == OK && item->is_checkpoint)
-            st = stage_write(w->job, w->job_hash, w->root);
+            st = stage_write(w->job, w->job_hash, w->root, &w->frames);
         pthread_mutex_lock(&w->lock);
         if (st != OK && w->st == OK) {
             w->st = st;
@@ -335,9 +336,11 @@ status writer_finish(struct writer **handle)
     pthread_cond_broadcast(&w->changed);
     pthread_mutex_unlock(&w->lock);
     pthread_join(w->thread, NULL);
-    status st = w->st == OK ? stage_write(w->job, w->job_hash, w->root) : fail(w->st, "%s", w->message);
+    /* At the end all are looked at once more, as a folder that is found complete is. */
+    status st = w->st == OK ? stage_write(w->job, w->job_hash, w->root, NULL) : fail(w->st, "%s", w->message);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->changed);
+    stage_frames_free(&w->frames);
     free(w);
     *handle = NULL;
     return st;
