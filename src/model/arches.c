@@ -15,6 +15,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "frame/host.h"
 #include "frame/rocks.h"
 #include "model/sections.h"
 #include "model/terrain.h"
@@ -285,8 +286,10 @@ static status estimate(const struct job *job, struct model_needs *needs)
     /* The surface alone, on a lattice. */
     needs->size.n_surface = needs->size.n_particles;
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
-    needs->frame_bytes = field_bytes(n); /* the shares of materials */
-    needs->host_bytes = (uint64_t)(4 * stacks);
+    needs->frame_bytes = 4 * host_grid_bytes(n); /* the shares of materials */
+    /* The stacks, and what frames are made from. */
+    needs->host_bytes =
+        (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) + host_grid_bytes(n);
     needs->checkpoint_bytes = (uint64_t)(0.6 * stacks);
     if (job->arches.stacks == STACKS_ALL)
         needs->disk_other = needs->checkpoint_bytes;

@@ -1,4 +1,5 @@
 /* What a job of arenite's takes, before anything is allocated. */
+#include "frame/host.h"
 #include "model/arenite.h"
 #include "model/edits.h"
 #include "plants/plants.h"
@@ -55,6 +56,7 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
         water_ever_flows(job) + (plants_wanted(job) || edits_plant(job)) + arenite_ever(job, deposit_wanted);
     needs->device_bytes = device_bytes(job, needs->voxels, n);
     /* Water, plants and deposits have volumes of their own. */
+    needs->frame_bytes = (uint64_t)volumes * host_grid_bytes(needs->voxels);
     needs->disk = (struct disk_particle){.inside = 15.5,
                                          .bare = 45,
                                          .volumes_inside = 2.2,

@@ -16,6 +16,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "blocks/blocks.h"
+#include "frame/host.h"
 #include "model/sections.h"
 #include "model/type.h"
 #include "particles/particles.h"
@@ -279,7 +280,8 @@ static status estimate(const struct job *job, struct model_needs *needs)
     needs->device_bytes = voxels_bytes(job, needs->voxels, needs->size.n_particles / 3, &words) +
                           blocks_bytes(needs->voxels) +
                           (job->goblins.stress ? elastic_bytes(needs->voxels) : 0);
-    needs->host_bytes = state;
+    /* What frames are made from: the voxels, and as particles. */
+    needs->host_bytes = state + host_rock_bytes(needs->size.n_particles);
     needs->disk = job->goblins.stress ? stressed : bare;
     needs->checkpoint_bytes = (uint64_t)(0.1 * (double)state);
     needs->steps = cycles(job);

@@ -6,6 +6,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "frame/host.h"
 #include "model/sections.h"
 #include "particles/particles.h"
 #include "scene/scene.h"
@@ -31,22 +32,18 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     status st = OK;
     const struct model_type *type = type_of(job);
     struct model_needs needs = {.voxels = out->voxels};
-    uint64_t rock = 0;
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
     TRY(type->estimate(job, &needs));
     const size_t n = needs.size.n_particles;
-    for (int f = 0; f < ROCK_FIELDS; f++)
-        rock += n * rock_field_size((enum rock_field)f);
-    const uint64_t field = field_bytes(out->voxels),
-                   pictures = aov_picture_bytes(job) * job->output.aov.n_cameras;
     out->n_particles = n;
     out->device_bytes = needs.device_bytes + gpu_work_bytes(type->work_items(job, out->voxels)) +
-                        particles_bytes(n, out->voxels) + field + aov_bytes(aov_pixels(job));
-    /* Two frames wait at most; files are made in memory. */
-    out->host_bytes = needs.host_bytes + 3 * (rock + field + needs.frame_bytes + pictures);
+                        particles_bytes(n, out->voxels) + field_bytes(out->voxels) +
+                        aov_bytes(aov_pixels(job));
     out->disk = disk_frame(job, &needs.size, &needs.disk);
     out->disk.other += needs.disk_other;
+    out->host_bytes =
+        needs.host_bytes + host_frames_bytes(job, out->voxels, &needs.size, needs.frame_bytes, &out->disk);
     out->checkpoint_bytes = needs.checkpoint_bytes;
     out->steps = needs.steps;
 done:

@@ -187,7 +187,8 @@ done:
 
 /* ---- the thread */
 
-enum { QUEUE = 2, WRITER_NICE = 19 };
+/* One at work, so that beside it there is only the one being made: frames are what a run holds most of. */
+enum { QUEUE = 1, WRITER_NICE = 19 };
 
 struct item {
     bool is_checkpoint;

@@ -1,8 +1,8 @@
-/* Writes frames and checkpoints behind the simulation: one thread, a queue of two.
+/* Writes frames and checkpoints behind the simulation: one thread, which holds one item.
  *
  * Order     Files appear in the order given: a frame's files, its manifest last, then the checkpoint taken
  *           after it.
- * Memory    writer_frame() waits while two items are queued, so that a slow disk slows the run and nothing
+ * Memory    writer_frame() waits while an item is written, so that a slow disk slows the run and nothing
  *           else.
  * Errors    The first error stops the writer; it is returned by the next call, and by writer_finish().
  */

@@ -1,0 +1,59 @@
+#include "frame/host.h"
+
+#include "field/aov.h"
+#include "field/field.h"
+
+uint64_t host_rock_bytes(size_t n)
+{
+    uint64_t bytes = 0;
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        bytes += n * rock_field_size((enum rock_field)f);
+    return bytes;
+}
+
+static uint64_t samples(const int voxels[3])
+{
+    uint64_t n = 1;
+    for (int a = 0; a < 3; a++)
+        n *= (uint64_t)voxels[a] + 2 * FIELD_MARGIN;
+    return n;
+}
+
+uint64_t host_grid_bytes(const int voxels[3])
+{
+    return samples(voxels) * sizeof(float);
+}
+
+static uint64_t most(uint64_t a, uint64_t b)
+{
+    return a > b ? a : b;
+}
+
+/* What comes and goes while a frame is made: first the vectors that its grids are taken from, then those that the
+ * channels of a picture are. */
+static uint64_t making(const struct job *job, const int voxels[3])
+{
+    enum { VECTOR = 16, IDS = 12, SOURCES = 5 };
+    const uint64_t moving = job->clock.seconds_per_frame > 0;
+    return most(samples(voxels) * VECTOR, aov_pixels(job) * ((SOURCES + moving) * VECTOR + IDS));
+}
+
+/* The same while it is written, file by file. Points: an order of eight bytes, and what is not alike in a whole leaf
+ * of the file's tree: six numbers and a position inside, a normal and more on the surface. Volumes: two grids are
+ * full, and of all five the leaves that the surface runs through, each six times as large as what is in it.
+ * Pictures: their packed rows, and the file these are put together in. */
+static uint64_t writing(const struct job *job, const struct scene_size *size, const struct disk_frame *files)
+{
+    const uint64_t n = size->n_particles, bare = size->n_surface, cameras = job->output.aov.n_cameras;
+    const uint64_t points = files->points ? n * (8 + 32) + bare * 32 + files->points : 0;
+    const uint64_t volumes = n * 2 * 4 + bare * 5 * 6 * 4 + files->volumes;
+    return most(points, most(volumes, most(2 * files->usd, cameras ? 2 * files->pictures / cameras : 0)));
+}
+
+uint64_t host_frames_bytes(const struct job *job, const int voxels[3], const struct scene_size *size,
+                           uint64_t own, const struct disk_frame *files)
+{
+    const uint64_t one = host_rock_bytes(size->n_particles) + 5 * host_grid_bytes(voxels) + own +
+                         aov_picture_bytes(job) * job->output.aov.n_cameras;
+    return 2 * one + making(job, voxels) + writing(job, size, files);
+}

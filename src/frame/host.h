@@ -1,0 +1,18 @@
+/* What frames take in host memory: one is written while the next one is made. */
+#ifndef HOODOO_FRAME_HOST_H
+#define HOODOO_FRAME_HOST_H
+
+#include "frame/disk.h"
+
+/* A rock of n particles, with every field. */
+uint64_t host_rock_bytes(size_t n);
+
+/* A grid of a frame whose domain has these voxels. */
+uint64_t host_grid_bytes(const int voxels[3]);
+
+/* All that the frames of a job take at most; `own` is what only its model's frames have, of one. Within a tenth of
+ * what was measured. */
+uint64_t host_frames_bytes(const struct job *job, const int voxels[3], const struct scene_size *size,
+                           uint64_t own, const struct disk_frame *files);
+
+#endif
