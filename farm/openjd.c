@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "farm/command.h"
+#include "run/room.h"
 
 /* Seconds between the notice and the end of a task: of a simulation, a frame and its checkpoint. OpenJD allows 600. */
 enum { NOTIFY_SIM_S = 300, NOTIFY_S = 30, NOTIFY_MOST_S = 600, MIB = 1 << 20 };
@@ -180,7 +181,7 @@ static void put_host(const struct step *s, struct text *t)
         json_array(t, "amounts");
         put_amount(t, "amount.worker.gpu", 1);
         put_amount(t, "amount.worker.gpu.memory", (int64_t)(e->device_bytes / MIB) + 1);
-        put_amount(t, "amount.worker.memory", (int64_t)(e->host_bytes / MIB) + 1);
+        put_amount(t, "amount.worker.memory", (int64_t)((e->host_bytes + room_process(NULL)) / MIB) + 1);
         json_end_array(t);
     }
     json_array(t, "attributes");

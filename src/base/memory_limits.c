@@ -245,3 +245,10 @@ size_t memory_available(void)
 {
     return memory_available_below("");
 }
+
+size_t memory_resident(void)
+{
+    struct look l = {.root = ""};
+    size_t kib;
+    return read_number(&l, "/proc/self/status", (struct place){"", "VmRSS:"}, &kib) ? kib * 1024 : 0;
+}

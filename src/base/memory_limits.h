@@ -10,4 +10,7 @@
  * if nothing says a limit. For tests; "" is this machine. */
 size_t memory_available_below(const char *root);
 
+/* What this process holds of it now, its libraries included, in bytes; 0 if nothing says so. */
+size_t memory_resident(void);
+
 #endif

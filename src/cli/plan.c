@@ -8,6 +8,7 @@
 #include "cli/words.h"
 #include "farm/describe.h"
 #include "gpu/primitives.h"
+#include "run/room.h"
 
 /* Device time of one particle in one step, in units of one word read and written, measured on lavapipe with
  * jobs/demo.yaml: what a plan's time rests on. Off by a factor of two is to be expected. */
@@ -63,6 +64,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     bool measured = false;
     char frames[48];
     size_t n_frames = range_count(job->frames);
+    const uint64_t process = room_process(gpu);
     TRY(word_seconds(gpu, &word));
     time_frames(f, word, &measured);
     TRY(farm_graph(f));
@@ -85,6 +87,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     json_integer(t, "device_bytes", (int64_t)e.device_bytes);
     json_integer(t, "device_free_bytes", (int64_t)gpu_memory_free(gpu));
     json_integer(t, "host_bytes", (int64_t)e.host_bytes);
+    json_integer(t, "process_bytes", (int64_t)process);
     json_integer(t, "host_free_bytes", (int64_t)memory_available());
     struct disk_frame kinds;
     const uint64_t frame_bytes = disk_frames_bytes(job, &e.disk, job->frames, &kinds);
@@ -99,9 +102,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     json_integer(t, "disk_bytes", (int64_t)(frame_bytes + e.checkpoint_bytes * n_checkpoints));
     json_number(t, "estimated_seconds", round(f->wedge[0].frame_seconds * (double)n_frames));
     json_text(t, "estimated_from", measured ? "the frames there are" : "the device's speed");
-    bool fits = e.device_bytes + (info->is_cpu ? e.host_bytes : 0) <= gpu_memory_free(gpu) &&
-                e.host_bytes <= memory_available();
-    json_bool(t, "fits_in_memory", fits);
+    json_bool(t, "fits_in_memory", room_enough(room_free(gpu), room_needed(gpu, &e)));
     farm_describe(f, words, t);
     json_end_object(t);
     TRY(text_status(t));

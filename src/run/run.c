@@ -14,6 +14,7 @@
 #include "output/folder.h"
 #include "run/branch.h"
 #include "run/provenance.h"
+#include "run/room.h"
 #include "run/timing.h"
 #include "run/writer.h"
 
@@ -261,32 +262,13 @@ done:
 
 static status check_memory(const struct run *r)
 {
-    struct model_estimate e;
-    status st = model_estimate(r->job, &e);
     const struct gpu_info *info = gpu_info(r->gpu);
-    uint64_t device_free = gpu_memory_free(r->gpu), host_free = memory_available();
-    uint64_t device_need = e.device_bytes + (info->is_cpu ? e.host_bytes : 0);
-    if (st != OK)
-        return st;
-    /* What fits shrinks with the cube of the spacing. */
-    if (device_need > device_free || e.host_bytes > host_free) {
-        double ratio = (double)device_need / (double)device_free;
-        if ((double)e.host_bytes / (double)host_free > ratio)
-            ratio = (double)e.host_bytes / (double)host_free;
-        double fits = r->job->domain.spacing_m;
-        for (double share = ratio; share > 1; share /= 1.331)
-            fits *= 1.1;
-        return fail(E_MEMORY,
-                    "this job's %zu particles in %d x %d x %d voxels need %.1f GB on %s and %.1f GB beside "
-                    "it; %.1f and %.1f GB "
-                    "are free. domain.spacing_m: %.3g would fit",
-                    e.n_particles, e.voxels[0], e.voxels[1], e.voxels[2], (double)e.device_bytes / 1e9,
-                    info->name, (double)e.host_bytes / 1e9, (double)device_free / 1e9,
-                    (double)host_free / 1e9, fits);
-    }
-    log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
-             info->name, info->driver);
-    return OK;
+    struct model_estimate e;
+    status st = room_check(r->gpu, r->job, &e);
+    if (st == OK)
+        log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
+                 info->name, info->driver);
+    return st;
 }
 
 static status begin(struct run *r)

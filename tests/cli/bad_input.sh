@@ -133,7 +133,7 @@ END_PYTHON
 }
 check "more memory than there is: both numbers, and what would fit" refused_lean 5 "particles in 1778 x 890 x 1334 voxels need " \
     run "$job" --out large --set domain.spacing_m=0.009
-check "it says what would fit" grep -qE 'need [0-9]+\.[0-9] GB on .*are free\. domain\.spacing_m: 0\.[0-9]+ would fit$' err
+check "it says what would fit" grep -qE 'need [0-9]+\.[0-9] GB .*are free; domain\.spacing_m: 0\.[0-9]+ would fit$' err
 check "no frame was begun" no_frames large
 check "more voxels than can be counted" refused_lean 2 "domain.spacing_m above" run "$job" --out large --set domain.spacing_m=0.005
 fits=$("$HOODOO" run "$job" --out large --set domain.spacing_m=0.009 2>&1 | sed -n 's/.*domain\.spacing_m: \([0-9.]*\) would fit$/\1/p')

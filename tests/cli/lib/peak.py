@@ -1,0 +1,41 @@
+"""What a plan says a run takes of memory, and what it took. On a CPU's device all of it is the machine's own, so that the planned
+parts together are the process's largest resident size."""
+import json
+import os
+import shutil
+import subprocess
+
+HOODOO = os.environ["HOODOO"]
+NEAR = 0.15  # a plan is that near
+failed = False
+
+
+def check(good, what):
+    global failed
+    failed |= not good
+    print(("ok " if good else "not ok ") + what, flush=True)
+
+
+def run(words):
+    """Exit code, stderr and the largest resident size in bytes, of one process."""
+    read, write = os.pipe()
+    actions = [(os.POSIX_SPAWN_DUP2, write, 2), (os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
+    child = os.posix_spawn(HOODOO, [HOODOO, *words], os.environ, file_actions=actions)
+    os.close(write)
+    with open(read) as pipe:
+        said = pipe.read()
+    _, code, use = os.wait4(child, 0)
+    return os.waitstatus_to_exitcode(code), said, use.ru_maxrss * 1024
+
+
+def compare(name, job, first, sets):
+    """Four frames: the largest memory is held when one is written while the next is made."""
+    words = [w for s in sets for w in ("--set", s)]
+    plan = json.loads(subprocess.run([HOODOO, "plan", job, "--json", *words], stdout=subprocess.PIPE, check=True).stdout)
+    parts = [plan[part + "_bytes"] for part in ("device", "host", "process")]
+    code, said, peak = run(["run", job, "--out", "run", "--progress", "none", "--frames", f"{first}-{first + 3}", *words])
+    shutil.rmtree("run", ignore_errors=True)
+    ratio = sum(parts) / peak
+    check(code == 0 and abs(ratio - 1) <= NEAR,
+          "{}: {:.0f} MB planned (device {:.0f}, host {:.0f}, process {:.0f}), {:.0f} MB at most: {:.3f}".format(
+              name, sum(parts) / 1e6, *(p / 1e6 for p in parts), peak / 1e6, ratio) + (f": {said.strip()}" if code else ""))

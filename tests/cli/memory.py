@@ -1,0 +1,107 @@
+"""`hoodoo plan` says what a run takes of memory, within 15 %, and a run that will not find it says so before its first frame:
+whatever the control group, and at once where nothing is left."""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+import peak
+from peak import HOODOO, check, compare
+
+JOBS = os.path.join(os.environ["HOODOO_TOP"], "jobs")
+compare("a cube of goblins", f"{JOBS}/goblin_cube.yaml", 1001, ["domain.spacing_m=0.2"])
+compare("an arch", f"{JOBS}/demo.yaml", 1001, ["domain.spacing_m=1.5"])
+
+TINY = """hoodoo: 1
+name: tiny
+frames: 1-2
+clock: {years_per_frame: 500}
+domain: {size_m: [8, 8, 8], spacing_m: 1}
+scene: {box: {min_m: [2, 2, 0], max_m: [6, 6, 6]}}
+"""
+with open("tiny.yaml", "w") as file:
+    file.write(TINY)
+with open("large.yaml", "w") as file:
+    file.write(TINY.replace("[8, 8, 8], spacing_m: 1", "[60, 60, 60], spacing_m: 0.3").replace("[6, 6, 6]", "[58, 58, 50]"))
+
+
+def refused(what, shell, text):
+    """`shell` runs hoodoo, which must say `text` in one line and exit with 5, soon."""
+    start = time.monotonic()
+    try:
+        done = subprocess.run(["sh", "-c", shell, "sh", HOODOO], capture_output=True, text=True, timeout=120)
+    except subprocess.TimeoutExpired:
+        check(False, f"{what}: it hangs")
+        return
+    lines = done.stderr.splitlines()
+    good = done.returncode == 5 and len(lines) == 1 and re.search(text, lines[0])
+    check(good, f"{what} ({time.monotonic() - start:.1f} s)" + ("" if good else f": exit {done.returncode}: {done.stderr.strip()}"))
+
+
+# Nothing is left: a folder of ours over the machine's groups says so.
+FULL = """mount -t tmpfs tmpfs /sys/fs/cgroup && echo 8589934592 >/sys/fs/cgroup/memory.max &&
+echo 8589934592 >/sys/fs/cgroup/memory.current && exec "$1" run tiny.yaml --out nothing --progress none"""
+can_mount = os.geteuid() == 0 and subprocess.run(["unshare", "-m", "mount", "-t", "tmpfs", "tmpfs", "/sys/fs/cgroup"],
+                                                 capture_output=True).returncode == 0
+if can_mount:
+    refused("nothing is left", f"exec unshare -m sh -c '{FULL}' sh \"$1\"", r"0 MB are free; no domain\.spacing_m would fit$")
+    check(not os.path.exists("nothing/frames") or not os.listdir("nothing/frames"), "no frame was begun")
+else:
+    print("ok nothing is left # skipped: no tmpfs can be mounted here")
+
+
+def make_group(limit):
+    """A control group below ours with a limit, or None: its folder and how its limit's file is called."""
+    try:
+        groups = dict(line.rstrip("\n").split(":", 2)[1:] for line in open("/proc/self/cgroup"))
+        for controllers, group in groups.items():
+            if "memory" in controllers.split(","):
+                folder, name = "/sys/fs/cgroup/memory" + group.rstrip("/"), "memory.limit_in_bytes"
+                break
+        else:
+            folder, name = "/sys/fs/cgroup" + groups[""].rstrip("/"), "memory.max"
+        folder += f"/hoodoo_test_{os.getpid()}"
+        os.mkdir(folder)
+        try:
+            with open(f"{folder}/{name}", "w") as file:
+                file.write(str(limit))
+        except OSError:
+            os.rmdir(folder)
+            raise
+        return folder
+    except OSError:
+        return None
+
+
+LIMIT = 600_000_000
+group = make_group(LIMIT)
+if group:
+    try:
+        enter = f"echo $$ >{group}/cgroup.procs && "
+        plan = json.loads(subprocess.run(["sh", "-c", enter + 'exec "$1" plan large.yaml --json', "sh", HOODOO],
+                                         stdout=subprocess.PIPE, check=True).stdout)
+        check(0 < plan["host_free_bytes"] <= LIMIT and not plan["fits_in_memory"], f"a plan knows its control group's limit: {plan['host_free_bytes'] / 1e6:.0f} MB")
+        refused("a run does not begin what its control group will end", enter + 'exec "$1" run large.yaml --out limited --progress none',
+                r"domain\.spacing_m: [0-9.]+ would fit$")
+        # What a file of the group's leaves in the page cache is not used up.
+        with open("ballast", "wb") as file:
+            file.write(b"\0" * 1_000_000)
+        ballast = enter + 'dd if=/dev/zero of=ballast bs=1M count=300 conv=fsync 2>/dev/null; exec "$1" plan tiny.yaml --json'
+        plan = json.loads(subprocess.run(["sh", "-c", ballast, "sh", HOODOO], stdout=subprocess.PIPE, check=True).stdout)
+        check(plan["fits_in_memory"] and plan["host_free_bytes"] > LIMIT / 2, f"page cache counts as free: {plan['host_free_bytes'] / 1e6:.0f} MB")
+    finally:
+        for _ in range(100):
+            try:
+                os.rmdir(group)
+                break
+            except OSError:
+                time.sleep(0.1)
+else:
+    print("ok a control group's limit # skipped: no group can be made here")
+shutil.rmtree("limited", ignore_errors=True)
+sys.exit(peak.failed)
