@@ -59,13 +59,15 @@ status command_fill(const char *hoodoo, enum farm_kind kind, const struct comman
 status farm_command(const struct farm *f, const struct farm_task *t, const char *device, int jobs,
                     struct farm_command *c)
 {
-    char job[FARM_PATH + 32], wedge[16], frames[48], view[48], views[16], side[16];
-    snprintf(job, sizeof job, "%s/farm/job.yaml", f->root);
+    status st = OK;
+    struct path job;
+    char wedge[16], frames[48], view[48], views[16], side[16];
+    TRY(path_join(&job, f->root.text, "farm/job.yaml"));
     snprintf(wedge, sizeof wedge, "%d", t->wedge);
     snprintf(views, sizeof views, "%d", (int)farm_job(f, t)->farm.turntable);
     snprintf(side, sizeof side, "%d", jobs);
-    const struct command_values values = {.job = job,
-                                          .out = f->root,
+    const struct command_values values = {.job = job.text,
+                                          .out = f->root.text,
                                           .wedge = t->wedge ? wedge : NULL,
                                           .frames = range_text(t->frames, frames),
                                           .views = views,
@@ -74,7 +76,9 @@ status farm_command(const struct farm *f, const struct farm_task *t, const char 
                                           .device = device,
                                           .jobs = jobs ? side : NULL,
                                           .progress = "plain"};
-    return command_fill(f->hoodoo, t->kind, &values, c);
+    TRY(command_fill(f->hoodoo.text, t->kind, &values, c));
+done:
+    return st;
 }
 
 void farm_quote(struct text *out, const char *word)

@@ -34,7 +34,7 @@ struct command_values {
 struct farm_command {
     const char *argv[20]; /* ends with NULL; points into `text` or at values */
     size_t n;
-    char text[3 * FARM_PATH + 1024];
+    char text[3 * PATH_BYTES + 1024];
 };
 
 /* hoodoo and the words of a kind's command, with these values. E_USAGE: they are too long. */

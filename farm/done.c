@@ -24,7 +24,7 @@ static int ascending(const void *a, const void *b)
 double farm_frame_seconds(const char *root, const char *name)
 {
     enum { RECENT = 50, LEAST = 3 };
-    char path[4096];
+    struct path path;
     int *frames = NULL;
     size_t n = 0, k = 0;
     double *at = NULL, each = 0;
@@ -32,8 +32,8 @@ double farm_frame_seconds(const char *root, const char *name)
         memory_alloc(n, sizeof *at, "the frames' times", &at) != OK)
         goto done;
     for (size_t i = 0; i < n; i++)
-        if (folder_path(path, root, name, FILE_MANIFEST, frames[i], NULL) == OK)
-            at[k++] = modified(path);
+        if (folder_path(&path, root, name, FILE_MANIFEST, frames[i], NULL) == OK)
+            at[k++] = modified(path.text);
     qsort(at, k, sizeof *at, ascending);
     size_t first = k > RECENT ? k - RECENT : 0;
     for (size_t i = first; i + 1 < k; i++)
@@ -57,21 +57,26 @@ int farm_notice_seconds(const struct farm_wedge *wedge, size_t n_wedges, int lea
     return (int)fmin(fmax(ceil(2 * longest + SAVE_S), least), most);
 }
 
+size_t farm_frames_of(const struct farm *f, const struct job *wedge)
+{
+    struct path root;
+    int *frames = NULL;
+    size_t n = 0, done = 0;
+    if (farm_root(f, (int)wedge->wedge.index, &root) == OK &&
+        folder_frames(root.text, wedge->name, &frames, &n) == OK)
+        for (size_t k = 0; k < n; k++)
+            done += range_holds(wedge->frames, frames[k]);
+    free(frames);
+    return done;
+}
+
 size_t farm_frames(const struct farm *f, size_t *total)
 {
-    char root[FARM_PATH + 16];
     size_t done = 0;
     *total = 0;
     for (size_t i = 0; i < f->n_wedges; i++) {
-        const struct job *job = f->wedge[i].job;
-        int *frames = NULL;
-        size_t n = 0;
-        farm_root(f, (int)job->wedge.index, root);
-        *total += range_count(job->frames);
-        if (folder_frames(root, job->name, &frames, &n) == OK)
-            for (size_t k = 0; k < n; k++)
-                done += range_holds(job->frames, frames[k]);
-        free(frames);
+        *total += range_count(f->wedge[i].job->frames);
+        done += farm_frames_of(f, f->wedge[i].job);
     }
     return done;
 }
@@ -117,11 +122,11 @@ static status frame_done(const struct farm *f, const struct farm_task *t, int fr
     const struct job *job = farm_job(f, t);
     const size_t n = kind->parts ? kind->parts(job) : 1;
     struct path root, made, from;
-    TRY(path_wedge(&root, f->root, t->wedge));
-    TRY(folder_path(from.text, root.text, job->name, kind->from, frame, NULL));
+    TRY(farm_root(f, t->wedge, &root));
+    TRY(folder_path(&from, root.text, job->name, kind->from, frame, NULL));
     for (size_t i = 0; i < n && *done; i++) {
         const char *part = kind->part ? kind->part(job, i) : t->show;
-        TRY(folder_path(made.text, root.text, job->name, kind->makes, frame, part));
+        TRY(folder_path(&made, root.text, job->name, kind->makes, frame, part));
         *done = current(&made, &from);
     }
 done:
@@ -134,8 +139,8 @@ static status views_done(const struct farm *f, const struct farm_task *t, bool *
     const struct job *job = farm_job(f, t);
     const int frame = t->frames.last;
     struct path root, made, from;
-    TRY(path_wedge(&root, f->root, t->wedge));
-    TRY(folder_path(from.text, root.text, job->name, farm_kinds[t->kind].from, frame, NULL));
+    TRY(farm_root(f, t->wedge, &root));
+    TRY(folder_path(&from, root.text, job->name, farm_kinds[t->kind].from, frame, NULL));
     for (int view = t->views.first; view <= t->views.last && *done; view++) {
         TRY(folder_view(&made, job->name, t->show, frame, view));
         TRY(path_join(&made, root.text, made.text));
@@ -151,11 +156,11 @@ static status across_done(const struct farm *f, const struct farm_task *t, bool 
     status st = OK;
     const struct farm_kind_info *kind = &farm_kinds[t->kind];
     struct path root, made, from;
-    TRY(folder_path(made.text, f->root, f->base->name, kind->makes, 0, NULL));
+    TRY(folder_path(&made, f->root.text, f->base->name, kind->makes, 0, NULL));
     for (size_t i = 0; i < f->n_wedges && *done; i++) {
         const struct job *job = f->wedge[i].job;
-        TRY(path_wedge(&root, f->root, (int)job->wedge.index));
-        TRY(folder_path(from.text, root.text, job->name, kind->from, job->frames.last, NULL));
+        TRY(farm_root(f, (int)job->wedge.index, &root));
+        TRY(folder_path(&from, root.text, job->name, kind->from, job->frames.last, NULL));
         *done = current(&made, &from);
     }
 done:
@@ -171,7 +176,7 @@ status farm_task_done(const struct farm *f, const struct farm_task *t, bool *don
     *done = true;
     switch (kind->cut) {
     case CUT_BLOCKS:
-        TRY(path_wedge(&root, f->root, t->wedge));
+        TRY(farm_root(f, t->wedge, &root));
         return sim_done(root.text, job, t->frames, done);
     case CUT_VIEWS:
         return views_done(f, t, done);

@@ -8,35 +8,38 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "output/folder.h"
 #include "run/branch.h"
 
 static status set_paths(struct farm *f, const char *out)
 {
-    ssize_t n = readlink("/proc/self/exe", f->hoodoo, sizeof f->hoodoo - 1);
-    if (n < 0)
-        return fail(E_OUTPUT, "/proc/self/exe: %s", strerror(errno));
-    f->hoodoo[n] = '\0';
-    char here[FARM_PATH], relative[FARM_PATH];
-    int length = out ? snprintf(relative, sizeof relative, "%s", out)
-                     : snprintf(relative, sizeof relative, "out/%s", f->base->name);
-    if (length < 0 || (size_t)length >= sizeof relative || !getcwd(here, sizeof here))
-        return fail(E_USAGE, "--out: the path is longer than %d bytes", FARM_PATH);
-    length = *relative == '/' ? snprintf(f->root, sizeof f->root, "%s", relative)
-                              : snprintf(f->root, sizeof f->root, "%s/%s", here, relative);
-    if (length < 0 || (size_t)length >= sizeof f->root)
-        return fail(E_USAGE, "--out: the path is longer than %d bytes", FARM_PATH);
-    return OK;
+    status st = OK;
+    struct path here, relative;
+    ssize_t n = readlink("/proc/self/exe", f->hoodoo.text, sizeof f->hoodoo.text - 1);
+    if (n < 0 || (size_t)n == sizeof f->hoodoo.text - 1)
+        return fail(E_OUTPUT, "/proc/self/exe: %s", n < 0 ? strerror(errno) : "its path is too long");
+    f->hoodoo.text[n] = '\0';
+    TRY(out ? path_format(&relative, "%s", out) : path_join(&relative, "out", f->base->name));
+    if (!getcwd(here.text, sizeof here.text)) {
+        st = fail(E_OUTPUT, "the current folder: %s", strerror(errno));
+        goto done;
+    }
+    TRY(*relative.text == '/' ? path_format(&f->root, "%s", relative.text)
+                              : path_join(&f->root, here.text, relative.text));
+    TRY(folder_room(f->root.text));
+done:
+    return st;
 }
 
 /* A branch's own frames, and with --from its checkpoint. */
 static status prepare(const struct farm *f, const char *from, struct job *job)
 {
     status st = OK;
-    char root[FARM_PATH + 16];
-    farm_root(f, (int)job->wedge.index, root);
+    struct path root;
+    TRY(farm_root(f, (int)job->wedge.index, &root));
     if (from)
-        TRY(branch_from(job, from, root));
-    TRY(branch_prepare(job, root));
+        TRY(branch_from(job, from, root.text));
+    TRY(branch_prepare(job, root.text));
 done:
     return st;
 }
@@ -92,12 +95,9 @@ void farm_free(struct farm *f)
     *f = (struct farm){0};
 }
 
-void farm_root(const struct farm *f, int wedge, char out[FARM_PATH + 16])
+status farm_root(const struct farm *f, int wedge, struct path *out)
 {
-    if (wedge)
-        snprintf(out, FARM_PATH + 16, "%s/w%04d", f->root, wedge);
-    else
-        snprintf(out, FARM_PATH + 16, "%s", f->root);
+    return path_wedge(out, f->root.text, wedge);
 }
 
 const struct job *farm_job(const struct farm *f, const struct farm_task *t)
@@ -108,9 +108,9 @@ const struct job *farm_job(const struct farm *f, const struct farm_task *t)
     return f->wedge[0].job;
 }
 
-void farm_log_path(const struct farm *f, const struct farm_task *t, char out[FARM_PATH + 128])
+status farm_log_path(const struct farm *f, const struct farm_task *t, struct path *out)
 {
-    snprintf(out, FARM_PATH + 128, "%s/log/farm/%s.log", f->root, t->name);
+    return path_format(out, "%s/log/farm/%s.log", f->root.text, t->name);
 }
 
 /* ---- what every task reads */
@@ -118,21 +118,21 @@ void farm_log_path(const struct farm *f, const struct farm_task *t, char out[FAR
 /* A run would refuse the folder later, task by task, at night. */
 static status check_owner(const struct farm *f, const struct job *job)
 {
-    char root[FARM_PATH + 16], path[FARM_PATH + 32];
+    struct path root, path;
     struct job *theirs = NULL;
     uint64_t ours, hash;
     status st = OK;
-    farm_root(f, (int)job->wedge.index, root);
-    snprintf(path, sizeof path, "%s/job.yaml", root);
-    if (access(path, F_OK) != 0)
+    TRY(farm_root(f, (int)job->wedge.index, &root));
+    TRY(path_join(&path, root.text, "job.yaml"));
+    if (access(path.text, F_OK) != 0)
         return OK;
     TRY(job_hash(job, &ours));
-    if (job_load(path, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, root) != OK ||
+    if (job_load(path.text, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, root.text) != OK ||
         job_hash(theirs, &hash) != OK || hash != ours || strcmp(theirs->name, job->name) != 0)
         st = fail(E_CHECKPOINT,
                   "%s holds another job (%s differs in what is simulated); use another --out, or remove the "
                   "folder",
-                  root, path);
+                  root.text, path.text);
 done:
     job_destroy(&theirs);
     return st;
@@ -141,24 +141,26 @@ done:
 status farm_freeze(struct farm *f)
 {
     status st = OK;
-    char path[FARM_PATH + 32], *real = NULL;
+    struct path path;
+    char *real = NULL;
     struct text t = {0};
     static const char *const folders[] = {"", "/farm", "/log", "/log/farm"};
     for (size_t i = 0; i < f->n_wedges; i++)
         TRY(check_owner(f, f->wedge[i].job));
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
-        snprintf(path, sizeof path, "%s%s", f->root, folders[i]);
-        TRY(folder_make(path));
+        TRY(path_format(&path, "%s%s", f->root.text, folders[i]));
+        TRY(folder_make(path.text));
     }
-    real = realpath(f->root, NULL);
-    if (!real || strlen(real) >= sizeof f->root) {
-        st = fail(E_OUTPUT, "%.200s: %s", f->root, real ? "the path is too long" : strerror(errno));
+    real = realpath(f->root.text, NULL);
+    if (!real) {
+        st = fail(E_OUTPUT, "%s: %s", f->root.text, strerror(errno));
         goto done;
     }
-    strcpy(f->root, real);
+    TRY(path_format(&f->root, "%s", real));
+    TRY(folder_room(f->root.text));
     TRY(job_resolved(f->base, &t));
-    snprintf(path, sizeof path, "%s/farm/job.yaml", f->root);
-    TRY(atomic_file_write(path, t.data, t.size));
+    TRY(path_join(&path, f->root.text, "farm/job.yaml"));
+    TRY(atomic_file_write(path.text, t.data, t.size));
 done:
     free(real);
     text_free(&t);

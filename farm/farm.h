@@ -11,16 +11,15 @@
 #ifndef HOODOO_FARM_FARM_H
 #define HOODOO_FARM_FARM_H
 
+#include "base/path.h"
 #include "farm/graph.h"
-
-enum { FARM_PATH = 3000 };
 
 struct farm {
     struct job *base; /* the job as loaded; the only wedge's is another copy of it */
     struct farm_wedge *wedge;
     size_t n_wedges;
-    char root[FARM_PATH];   /* absolute */
-    char hoodoo[FARM_PATH]; /* this program */
+    struct path root;   /* absolute */
+    struct path hoodoo; /* this program */
     struct farm_graph graph;
 };
 
@@ -32,7 +31,7 @@ MUST_USE status farm_graph(struct farm *f);
 void farm_free(struct farm *f);
 
 /* The folder a wedge's frames go to; the farm's own for 0. */
-void farm_root(const struct farm *f, int wedge, char out[FARM_PATH + 16]);
+MUST_USE status farm_root(const struct farm *f, int wedge, struct path *out);
 
 /* The job of a task; of FARM_WEDGES the first wedge's. */
 const struct job *farm_job(const struct farm *f, const struct farm_task *t);
@@ -48,6 +47,9 @@ double farm_frame_seconds(const char *root, const char *name);
  * the wedges' longest frames and a minute, between `least` and `most`. */
 int farm_notice_seconds(const struct farm_wedge *wedge, size_t n_wedges, int least, int most);
 
+/* How many of a wedge's frames are done, going by their manifests' names. */
+size_t farm_frames_of(const struct farm *f, const struct job *wedge);
+
 /* How many of all wedges' frames are done, going by their manifests' names; *total: how many there are. */
 size_t farm_frames(const struct farm *f, size_t *total);
 
@@ -55,6 +57,6 @@ size_t farm_frames(const struct farm *f, size_t *total);
 MUST_USE status farm_task_done(const struct farm *f, const struct farm_task *t, bool *done);
 
 /* root/log/farm/TASK.log */
-void farm_log_path(const struct farm *f, const struct farm_task *t, char out[FARM_PATH + 128]);
+MUST_USE status farm_log_path(const struct farm *f, const struct farm_task *t, struct path *out);
 
 #endif

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/path.h"
 
 bool graph_has_volumes(const struct job *job, int frame)
 {
@@ -24,9 +25,9 @@ bool graph_has_still(const struct job *job, int frame)
 static void name_task(struct farm_task *t)
 {
     const bool views = farm_kinds[t->kind].cut == CUT_VIEWS;
-    char wedge[16] = "", value[20] = "", range[50] = "", text[48], *under;
+    char wedge[FRAME_TEXT + 1] = "", number[FRAME_TEXT], value[20] = "", range[50] = "", text[48], *under;
     if (t->wedge)
-        snprintf(wedge, sizeof wedge, "w%04d.", t->wedge);
+        snprintf(wedge, sizeof wedge, "%s.", wedge_text(t->wedge, number));
     if (t->show)
         snprintf(value, sizeof value, ".%.15s", t->show);
     while ((under = strchr(value, '_')))

@@ -130,16 +130,20 @@ static status start(struct local *l, size_t task, int k)
     const struct farm_task *t = &l->farm->graph.task[task];
     const struct local_worker *w = &l->options->worker[k];
     struct farm_command *command = NULL;
-    char log[FARM_PATH + 128], threads[32];
+    struct path log;
+    char threads[32];
     TRY(memory_alloc(1, sizeof *command, "a command", &command));
     TRY(farm_command(l->farm, t, *w->device ? w->device : NULL, w->threads, command));
-    farm_log_path(l->farm, t, log);
+    TRY(farm_log_path(l->farm, t, &log));
     snprintf(threads, sizeof threads, "%d", w->threads);
     bool cpu = strcmp(w->device, "cpu") == 0;
     const struct child_variable variables[] = {{"OMP_NUM_THREADS", threads},
                                                {cpu ? "LP_NUM_THREADS" : NULL, threads}};
-    const struct child_options options = {
-        .argv = command->argv, .log = log, .variable = variables, .n_variables = 2, .at_our_end = SIGTERM};
+    const struct child_options options = {.argv = command->argv,
+                                          .log = log.text,
+                                          .variable = variables,
+                                          .n_variables = 2,
+                                          .at_our_end = SIGTERM};
     TRY(child_start(&options, &l->child[k]));
     l->worker[k].task = task;
     l->worker[k].since = clock_seconds();
@@ -160,7 +164,8 @@ static void finish(struct local *l, int k, int how)
     struct task *task = &l->task[w->task];
     const struct farm_task *t = &l->farm->graph.task[w->task];
     double took = clock_seconds() - w->since;
-    char why[600] = "", log[FARM_PATH + 128];
+    struct path log;
+    char why[600] = "";
     int code = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
     l->state.running--;
     l->state.task[k] = NULL;
@@ -176,8 +181,8 @@ static void finish(struct local *l, int k, int how)
         tell(l, LOCAL_SAVED, w->task, k, took, "");
         return;
     }
-    farm_log_path(l->farm, t, log);
-    child_reason(how, log, why, sizeof why);
+    if (farm_log_path(l->farm, t, &log) == OK)
+        child_reason(how, log.text, why, sizeof why);
     task->not_before = clock_seconds() + PAUSE_S * task->tries;
     if (code == STOPPED) {
         task->tries--; /* someone stopped it alone: no failure */
@@ -275,22 +280,24 @@ static bool reap(struct local *l, double seconds)
 
 static status verdict(const struct local *l)
 {
-    char log[FARM_PATH + 128];
+    struct path log;
     if (l->stopping)
         return fail(STOPPED, "stopped with %zu of %zu tasks done; run the same command again to go on",
                     l->state.done, l->state.total);
     if (l->code == 0)
         return OK;
     const struct farm_task *t = &l->farm->graph.task[l->first_failed];
-    farm_log_path(l->farm, t, log);
-    status st = E_OUTPUT;
+    status st = farm_log_path(l->farm, t, &log);
+    if (st != OK)
+        return st;
+    st = E_OUTPUT;
 #define KNOWN(name, value, text) st = l->code == (value) ? name : st;
     STATUS_MAP(KNOWN)
 #undef KNOWN
     return fail(st,
                 "%zu of %zu tasks failed and %zu were left out that wait for them; the first was %s: see %s, "
                 "then run the same command again",
-                l->state.failed, l->state.total, l->state.left_out, t->name, log);
+                l->state.failed, l->state.total, l->state.left_out, t->name, log.text);
 }
 
 status local_run(const struct farm *f, const struct local_options *options)

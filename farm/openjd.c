@@ -89,7 +89,7 @@ static status put_parameters(const struct farm *f, const char *device, struct te
     json_text(t, "objectType", "DIRECTORY");
     json_text(t, "dataFlow", "INOUT");
     json_end_object(t);
-    put_parameter(t, "Hoodoo", "STRING", plain_or(f->hoodoo, "hoodoo"), "The program");
+    put_parameter(t, "Hoodoo", "STRING", plain_or(f->hoodoo.text, "hoodoo"), "The program");
     json_end_object(t);
     put_parameter(t, "Device", "STRING", plain_or(device ? device : "auto", "auto"),
                   "auto, cpu, an index, uuid:HEX or pci:ADDRESS");

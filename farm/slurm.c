@@ -15,14 +15,14 @@
 #include "farm/slurm_jobs.h"
 
 /* How long before its time limit a task is told, in seconds; more is no signal time to Slurm. */
-enum { JOB_PATH = FARM_PATH + 160, NOTICE_S = 180, NOTICE_MOST_S = 65535 };
+enum { NOTICE_S = 180, NOTICE_MOST_S = 65535 };
 
 /* Tasks of one kind from one block: an array, unless it is one. */
 struct batch {
     size_t first, n;
     const struct farm_task *task; /* the first */
     char name[80];                /* "w0001.still.1001-1050": of the block */
-    char script[JOB_PATH];
+    struct path script;
 };
 
 /* ---- the script */
@@ -33,15 +33,15 @@ static status put_cases(const struct farm *f, const struct slurm_options *o, con
 {
     status st = OK;
     struct farm_command *c = NULL;
-    char log[FARM_PATH + 128];
+    struct path log;
     TRY(memory_alloc(1, sizeof *c, "a command", &c));
     text_add(t, "case ${SLURM_ARRAY_TASK_ID:-0} in\n");
     for (size_t i = 0; i < b->n; i++) {
         const struct farm_task *task = &b->task[i];
         TRY(farm_command(f, task, o->device ? o->device : "slurm", 0, c));
-        farm_log_path(f, task, log);
+        TRY(farm_log_path(f, task, &log));
         text_add(t, "%zu)\n    task=%s\n    log=", i, task->name);
-        farm_quote(t, log);
+        farm_quote(t, log.text);
         text_add(t, "\n    set --");
         for (size_t k = 0; k < c->n; k++) {
             text_add(t, " ");
@@ -117,7 +117,7 @@ static status write_script(const struct farm *f, const struct slurm_options *o, 
     TRY(put_cases(f, o, b, &t));
     text_add(&t, "%s", body);
     TRY(text_status(&t));
-    TRY(atomic_file_write(b->script, t.data, t.size));
+    TRY(atomic_file_write(b->script.text, t.data, t.size));
 done:
     text_free(&t);
     return st;
@@ -169,7 +169,7 @@ static void words_of(const struct farm *f, const struct slurm_options *o, const 
     /* What the script itself says goes to the task's log; this is for what Slurm has to say. */
     t = made(w);
     text_add(t, "--output=");
-    put_pattern(t, f->root);
+    put_pattern(t, f->root.text);
     word(w, t->data ? t->data : "");
     word(w, "--open-mode=append");
     word(w, "--requeue");
@@ -195,7 +195,7 @@ static void words_of(const struct farm *f, const struct slurm_options *o, const 
     }
     for (size_t i = 0; i < o->n_extra && w->n < 70; i++)
         word(w, o->extra[i]);
-    word(w, b->script);
+    word(w, b->script.text);
 }
 
 static status words_status(const struct words *w)
@@ -217,7 +217,7 @@ static bool alike(const struct farm_graph *g, const struct farm_task *a, const s
 }
 
 /* `todo` is which tasks are left; the batch is the run of them from `first` on. */
-static void next_batch(const struct farm *f, const bool *todo, size_t first, struct batch *b)
+static status next_batch(const struct farm *f, const bool *todo, size_t first, struct batch *b)
 {
     enum { ARRAY_MAX = 1000 }; /* MaxArraySize is 1001 unless the site says more */
     const struct farm_graph *g = &f->graph;
@@ -235,7 +235,7 @@ static void next_batch(const struct farm *f, const bool *todo, size_t first, str
         char text[48];
         snprintf(range + 1, sizeof b->name - (size_t)(range + 1 - b->name), "%s", range_text(all, text));
     }
-    snprintf(b->script, sizeof b->script, "%s/farm/slurm/%s.sh", f->root, b->name);
+    return path_format(&b->script, "%s/farm/slurm/%s.sh", f->root.text, b->name);
 }
 
 /* ":12:13" of the jobs that the batch waits for; those done already are no jobs. Each once. */
@@ -332,7 +332,8 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
 {
     status st = OK;
     const struct farm_graph *g = &f->graph;
-    char(*job)[SLURM_ID] = NULL, path[FARM_PATH + 32];
+    char(*job)[SLURM_ID] = NULL;
+    struct path path;
     bool *todo = NULL;
     size_t n_done = 0, n_queued = 0, n_batches = 0;
     struct batch *b = NULL;
@@ -340,8 +341,8 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
     TRY(memory_alloc(g->n, sizeof *todo, "the jobs", &todo));
     TRY(memory_alloc(1, sizeof *b, "the jobs", &b));
     if (!o->dry_run) {
-        snprintf(path, sizeof path, "%s/farm/slurm", f->root);
-        TRY(folder_make(path));
+        TRY(path_join(&path, f->root.text, "farm/slurm"));
+        TRY(folder_make(path.text));
         TRY(slurm_active(f, job));
     }
     for (size_t i = 0; i < g->n; i++) {
@@ -358,7 +359,7 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
     for (size_t i = 0; i < g->n; i += todo[i] ? b->n : 1) {
         if (!todo[i])
             continue;
-        next_batch(f, todo, i, b);
+        TRY(next_batch(f, todo, i, b));
         st = submit_batch(f, o, b, job, n_batches++, out);
         if (o->dry_run) {
             TRY(st);

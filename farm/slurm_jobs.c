@@ -12,9 +12,9 @@
 
 enum { FILE_MAX = 64 << 20 };
 
-static void file_path(const struct farm *f, char out[FARM_PATH + 32])
+static status file_path(const struct farm *f, struct path *out)
 {
-    snprintf(out, FARM_PATH + 32, "%s/farm/slurm.json", f->root);
+    return path_join(out, f->root.text, "farm/slurm.json");
 }
 
 static bool is_id(const char *text)
@@ -26,15 +26,16 @@ static bool is_id(const char *text)
 static status read_ids(const struct farm *f, struct slurm_job *out, bool *there)
 {
     status st = OK;
-    char path[FARM_PATH + 32], *bytes = NULL;
+    struct path path;
+    char *bytes = NULL;
     size_t n, at = 0;
     struct json *json = NULL;
-    file_path(f, path);
-    *there = access(path, F_OK) == 0;
+    TRY(file_path(f, &path));
+    *there = access(path.text, F_OK) == 0;
     if (!*there)
         return OK;
-    TRY(file_read(path, FILE_MAX, &bytes, &n));
-    TRY(json_read(path, bytes, n, &json));
+    TRY(file_read(path.text, FILE_MAX, &bytes, &n));
+    TRY(json_read(path.text, bytes, n, &json));
     const struct json *list = json_member(json, "tasks");
     for (const struct json *row = list ? list->first : NULL; row; row = row->next) {
         const char *name = json_to_text(json_member(row, "task")),
@@ -140,7 +141,7 @@ status slurm_active(const struct farm *f, char (*job)[SLURM_ID])
 status slurm_remember(const struct farm *f, char (*job)[SLURM_ID])
 {
     status st = OK;
-    char path[FARM_PATH + 32];
+    struct path path;
     struct slurm_job *before = NULL;
     struct text t = {0};
     bool there;
@@ -160,8 +161,8 @@ status slurm_remember(const struct farm *f, char (*job)[SLURM_ID])
     json_end_array(&t);
     json_end_object(&t);
     TRY(text_status(&t));
-    file_path(f, path);
-    TRY(atomic_file_write(path, t.data, t.size));
+    TRY(file_path(f, &path));
+    TRY(atomic_file_write(path.text, t.data, t.size));
 done:
     free(before);
     text_free(&t);

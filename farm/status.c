@@ -11,25 +11,25 @@
 #include "farm/slurm_jobs.h"
 #include "output/folder.h"
 
-static bool job_path(const char *root, char out[FARM_PATH + 32])
+static status job_path(const char *root, struct path *out)
 {
-    return snprintf(out, FARM_PATH + 32, "%s/farm/job.yaml", root) < FARM_PATH + 32;
+    return path_join(out, root, "farm/job.yaml");
 }
 
 bool farm_is(const char *root)
 {
-    char path[FARM_PATH + 32];
-    return job_path(root, path) && access(path, F_OK) == 0;
+    struct path path;
+    return job_path(root, &path) == OK && access(path.text, F_OK) == 0;
 }
 
 status farm_has_wedges(const char *root, bool *yes)
 {
-    char path[FARM_PATH + 32];
+    struct path path;
     struct job *job = NULL;
     *yes = false;
-    if (!farm_is(root) || !job_path(root, path))
+    if (!farm_is(root) || job_path(root, &path) != OK)
         return OK;
-    status st = job_load(path, NULL, 0, &job);
+    status st = job_load(path.text, NULL, 0, &job);
     if (st == OK)
         *yes = job_wedges(job) > 0;
     job_destroy(&job);
@@ -41,14 +41,7 @@ static void put_wedges(const struct farm *f, struct text *out)
     json_array(out, "wedges");
     for (size_t i = 0; i < f->n_wedges; i++) {
         const struct job *job = f->wedge[i].job;
-        char root[FARM_PATH + 16];
-        int *frames = NULL;
-        size_t n = 0, done = 0;
-        farm_root(f, (int)job->wedge.index, root);
-        if (folder_frames(root, job->name, &frames, &n) == OK)
-            for (size_t k = 0; k < n; k++)
-                done += range_holds(job->frames, frames[k]);
-        free(frames);
+        const size_t done = farm_frames_of(f, job);
         json_object(out, NULL);
         json_integer(out, "wedge", job->wedge.index);
         json_integer(out, "done", (int64_t)done);
@@ -83,13 +76,12 @@ static void put_task(const struct farm_task *t, const struct slurm_job *job, str
 status farm_status(const char *root, struct text *out)
 {
     status st = OK;
-    char path[FARM_PATH + 32];
+    struct path path;
     struct farm f = {0};
     struct slurm_job *jobs = NULL;
     size_t n_done = 0;
-    if (!job_path(root, path))
-        return fail(E_INPUT, "%.100s...: the path is too long", root);
-    TRY(farm_load(path, NULL, 0, NULL, 0, root, &f));
+    TRY(job_path(root, &path));
+    TRY(farm_load(path.text, NULL, 0, NULL, 0, root, &f));
     TRY(farm_graph(&f));
     if (slurm_jobs(&f, &jobs) != OK)
         log_warn("what Slurm thinks is not known: %s", status_message());

@@ -128,7 +128,7 @@ static status read_from_points(const struct preview *p, int frame, struct vdb_me
     struct path path;
     struct rock rock = {0};
     float *value = NULL;
-    TRY(folder_path(path.text, p->root, p->job->name, FILE_POINTS, frame, NULL));
+    TRY(folder_path(&path, p->root, p->job->name, FILE_POINTS, frame, NULL));
     TRY(vdb_points_read(path.text, &rock));
     if (!rock.erodibility) {
         st = fail(E_INPUT, "%s: its points have no %s", path.text, show_name(p->show));
@@ -150,7 +150,7 @@ static status read_mesh(const struct preview *p, int frame, struct vdb_mesh *mes
     status st = OK;
     struct path full;
     const char *const value = show_name(p->show);
-    TRY(folder_path(full.text, p->root, p->job->name, FILE_VOLUMES, frame, NULL));
+    TRY(folder_path(&full, p->root, p->job->name, FILE_VOLUMES, frame, NULL));
     if (p->show == SHOW_ERODIBILITY) {
         TRY(vdb_mesh_read(full.text, 0, NULL, 0, 0, mesh));
         TRY(read_from_points(p, frame, mesh));
@@ -186,7 +186,7 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     TRY(read_mesh(p, frame, &mesh));
     if (job_piles(p->job)) {
         TRY(rocks_tile(p->job, &tile));
-        TRY(folder_path(full.text, p->root, p->job->name, FILE_ROCKS, frame, NULL));
+        TRY(folder_path(&full, p->root, p->job->name, FILE_ROCKS, frame, NULL));
         TRY(vdb_points_read(full.text, &rocks));
         scene.rocks = (struct scene_rocks){&tile, &rocks};
     }

@@ -212,7 +212,7 @@ static status read_points(struct report *r, const struct report_frame *f, bool s
     struct rock rock = {0};
     const bool all = r->job->output.vdb.points == VDB_POINTS_ALL;
     if (lists(f, "points/", ".vdb")) {
-        TRY(folder_path(path.text, r->root, r->name, FILE_POINTS, f->manifest.frame, NULL));
+        TRY(folder_path(&path, r->root, r->name, FILE_POINTS, f->manifest.frame, NULL));
         TRY(vdb_points_read(path.text, &rock));
         if (all && !r->layer)
             TRY(memory_alloc(r->job->n_strata, sizeof *r->layer, "layers", &r->layer));
@@ -221,7 +221,7 @@ static status read_points(struct report *r, const struct report_frame *f, bool s
         if (!start)
             TRY(stress_of_points(r, &rock));
     } else if (!start) {
-        TRY(folder_path(path.text, r->root, r->name, FILE_VOLUMES, f->manifest.frame, NULL));
+        TRY(folder_path(&path, r->root, r->name, FILE_VOLUMES, f->manifest.frame, NULL));
         TRY(stress_of_volumes(r, path.text));
     }
 done:

@@ -114,7 +114,7 @@ static status copy_still(const struct sweep *s, const struct wedge *w, bool *the
     void *bytes = NULL;
     size_t size;
     TRY(path_wedge(&root, s->root, (int)w->job->wedge.index));
-    TRY(folder_path(path.text, root.text, w->job->name, FILE_STILL, w->last.frame, NULL));
+    TRY(folder_path(&path, root.text, w->job->name, FILE_STILL, w->last.frame, NULL));
     *there = w->n_frames > 0 && access(path.text, R_OK) == 0;
     if (!*there)
         return OK;

@@ -170,8 +170,8 @@ status turntable_wedges(struct preview *p, const struct job *const *wedge, size_
     for (size_t i = 0; i < n; i++) {
         const struct job *job = wedge[i];
         char number[FRAME_TEXT];
-        TRY(folder_path(tile[k].picture.text, wedge_text((int)job->wedge.index, number), job->name,
-                        FILE_STILL, job->frames.last, NULL));
+        TRY(folder_path(&tile[k].picture, wedge_text((int)job->wedge.index, number), job->name, FILE_STILL,
+                        job->frames.last, NULL));
         plain_label(job, tile[k].label);
         TRY(path_join(&path, p->root, tile[k].picture.text));
         k += access(path.text, R_OK) == 0;

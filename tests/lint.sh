@@ -48,14 +48,16 @@ layout() {
 rule "the layout is that of .clang-format (make format)" layout
 
 rule "no Vulkan outside src/gpu" none git grep -nE '\bVk[A-Z]|\bvk[A-Z]' -- 'src/*.c' 'src/*.h' 'render' ':!src/gpu'
+rule "numbers in names and whole paths are made in src/base/path.c alone" none git grep -nE \
+    '%04d|char [a-z_]*(path|root|folder|file|name|from|to|out)\[[0-9]{4}\]|%\.[34][0-9]{3}s' -- src render farm ':!src/base/path.c'
 rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*.h'
 
 # A folder may include those of lower rank, and itself.
 rank() {
     case $1 in
     base) echo 0 ;; gpu | job | mesh) echo 1 ;; particles | stacks) echo 2 ;;
-    scene | stress | erosion | blocks | mpm | voxels | field | output | checkpoint | wind | water | deposit | plants | piles) echo 3 ;;
-    frame) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; cli) echo 9 ;; *) echo 10 ;;
+    scene | stress | erosion | blocks | mpm | voxels | field | output | wind | water | deposit | plants | piles) echo 3 ;;
+    frame | checkpoint) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; cli) echo 9 ;; *) echo 10 ;;
     esac
 }
 includes() {

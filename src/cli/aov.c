@@ -23,7 +23,8 @@
 #include "scene/scene.h"
 
 struct shot {
-    char root[4096], name[256];
+    struct path root;
+    char name[256];
     bool missing; /* only what is not there */
     struct job *job;
     uint64_t job_hash;
@@ -56,15 +57,15 @@ static void unload(struct shot *s, struct loaded *l)
 static status load(struct shot *s, int frame, struct loaded *l)
 {
     status st = OK;
-    char volumes[4096], points[4096];
-    TRY(folder_path(volumes, s->root, s->name, FILE_VOLUMES, frame, NULL));
-    TRY(folder_path(points, s->root, s->name, FILE_POINTS, frame, NULL));
-    TRY(vdb_volumes_read(volumes, &l->grids));
-    if (access(points, F_OK) != 0) {
-        st = fail(E_INPUT, "%s is not there: pictures need the particles (output.vdb.points)", points);
+    struct path volumes, points;
+    TRY(folder_path(&volumes, s->root.text, s->name, FILE_VOLUMES, frame, NULL));
+    TRY(folder_path(&points, s->root.text, s->name, FILE_POINTS, frame, NULL));
+    TRY(vdb_volumes_read(volumes.text, &l->grids));
+    if (access(points.text, F_OK) != 0) {
+        st = fail(E_INPUT, "%s is not there: pictures need the particles (output.vdb.points)", points.text);
         goto done;
     }
-    TRY(vdb_points_read(points, &l->rock));
+    TRY(vdb_points_read(points.text, &l->rock));
     if (l->rock.n == 0) {
         st = fail(E_INPUT, "frame %d: no rock is left, there is nothing to show", frame);
         goto done;
@@ -72,7 +73,7 @@ static status load(struct shot *s, int frame, struct loaded *l)
     if (field_upload(s->gpu, &s->field, &l->grids) != OK) {
         char why[400];
         snprintf(why, sizeof why, "%.390s", status_message());
-        st = fail(E_INPUT, "%s: %s", volumes, why);
+        st = fail(E_INPUT, "%s: %s", volumes.text, why);
         goto done;
     }
     TRY(particles_create(s->gpu, s->work, &l->rock, DERIVED, s->voxels, s->job->domain.spacing_m,
@@ -89,8 +90,8 @@ done:
 static status check_unlisted(const struct shot *s, int frame, const char *path)
 {
     struct manifest manifest = {0};
-    status st = manifest_read(s->root, s->name, frame, &manifest);
-    const char *own = path + strlen(s->root) + 1;
+    status st = manifest_read(s->root.text, s->name, frame, &manifest);
+    const char *own = path + strlen(s->root.text) + 1;
     for (size_t i = 0; st == OK && i < manifest.n_files; i++)
         if (strcmp(manifest.file[i].path, own) == 0)
             st = fail(E_OUTPUT,
@@ -104,7 +105,7 @@ static status check_unlisted(const struct shot *s, int frame, const char *path)
 static status write_picture(const struct shot *s, int frame, const struct aov_image *image)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     void *bytes = NULL;
     size_t size;
     const struct exr_options options = {
@@ -116,10 +117,10 @@ static status write_picture(const struct shot *s, int frame, const struct aov_im
         .owner = s->job->output.owner,
         .comments = s->job->output.comments,
     };
-    TRY(folder_path(path, s->root, s->name, FILE_AOV, frame, image->camera));
-    TRY(check_unlisted(s, frame, path));
+    TRY(folder_path(&path, s->root.text, s->name, FILE_AOV, frame, image->camera));
+    TRY(check_unlisted(s, frame, path.text));
     TRY(exr_encode(image, &options, &bytes, &size));
-    TRY(atomic_file_write(path, bytes, size));
+    TRY(atomic_file_write(path.text, bytes, size));
 done:
     free(bytes);
     return st;
@@ -128,11 +129,12 @@ done:
 /* Is the camera's picture there, no older than the frame's volumes? */
 static bool current(const struct shot *s, int frame, const char *camera)
 {
-    char path[4096];
+    struct path path;
     struct stat from, made;
-    return folder_path(path, s->root, s->name, FILE_VOLUMES, frame, NULL) == OK && stat(path, &from) == 0 &&
-           folder_path(path, s->root, s->name, FILE_AOV, frame, camera) == OK && stat(path, &made) == 0 &&
-           made.st_mtim.tv_sec >= from.st_mtim.tv_sec;
+    return folder_path(&path, s->root.text, s->name, FILE_VOLUMES, frame, NULL) == OK &&
+           stat(path.text, &from) == 0 &&
+           folder_path(&path, s->root.text, s->name, FILE_AOV, frame, camera) == OK &&
+           stat(path.text, &made) == 0 && made.st_mtim.tv_sec >= from.st_mtim.tv_sec;
 }
 
 static status shoot(struct shot *s, int frame)
@@ -236,7 +238,7 @@ status cli_aov(int argc, char **argv)
     struct words operands = {0}, cameras = {0};
     struct shot s = {0};
     struct progress progress = {0};
-    char path[4700];
+    struct path path;
     int *frames = NULL;
     size_t n = 0;
     int wedge = 0;
@@ -256,16 +258,16 @@ status cli_aov(int argc, char **argv)
     TRY(options_parse(&usage_aov, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(wedge_folder(operands.word[0], wedge, s.root));
-    TRY(folder_open(s.root, s.name));
-    snprintf(path, sizeof path, "%.4096s/job.yaml", s.root);
-    TRY(job_load(path, NULL, 0, &s.job));
-    TRY(branch_prepare_own(s.job, s.root));
+    TRY(wedge_folder(operands.word[0], wedge, &s.root));
+    TRY(folder_open(s.root.text, s.name));
+    TRY(path_join(&path, s.root.text, "job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &s.job));
+    TRY(branch_prepare_own(s.job, s.root.text));
     TRY(job_hash(s.job, &s.job_hash));
     job_destroy(&s.job);
-    TRY(job_load(path, c.sets.word, c.sets.n, &s.job));
+    TRY(job_load(path.text, c.sets.word, c.sets.n, &s.job));
     TRY(choose_cameras(&s, &cameras));
-    st = volume_frames(s.root, s.name, c.frames, &frames, &n);
+    st = volume_frames(s.root.text, s.name, c.frames, &frames, &n);
     if (st == E_INPUT && allow_none)
         st = OK;
     TRY(st);

@@ -7,6 +7,7 @@
 #ifndef HOODOO_CLI_H
 #define HOODOO_CLI_H
 
+#include "base/path.h"
 #include "base/status.h"
 #include "cli/options.h"
 
@@ -31,8 +32,9 @@
 VERBS(VERB_DECLARE)
 #undef VERB_DECLARE
 
-/* OUT, or with `wedge` > 0 that wedge's folder in it, in `out`. E_USAGE: there can be no such wedge. */
-MUST_USE status wedge_folder(const char *root, int wedge, char out[4096]);
+/* OUT, or with `wedge` > 0 that wedge's folder in it, in `out`. E_USAGE: there can be no such wedge, or the path is
+ * too long. */
+MUST_USE status wedge_folder(const char *root, int wedge, struct path *out);
 
 /* The frames whose volumes a verb can read, of those in `range` (step 0: all), ascending; *frames freed with
  * free(). E_INPUT if there are none. */

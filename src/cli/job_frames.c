@@ -8,24 +8,22 @@
 
 status job_frames(const char *root, struct frame_range *out)
 {
-    char path[4096];
+    struct path path;
     struct job *job = NULL;
     status st = OK;
-    if (snprintf(path, sizeof path, "%s/job.yaml", root) >= (int)sizeof path)
-        return fail(E_INPUT, "%.200s...: the path is too long", root);
-    TRY(job_load(path, NULL, 0, &job));
+    TRY(path_join(&path, root, "job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &job));
     *out = job->frames;
 done:
     job_destroy(&job);
     return st;
 }
 
-status wedge_folder(const char *root, int wedge, char out[4096])
+status wedge_folder(const char *root, int wedge, struct path *out)
 {
-    int n = wedge ? snprintf(out, 4096, "%s/w%04d", root, wedge) : snprintf(out, 4096, "%s", root);
-    if (wedge < 0 || wedge > 9999)
-        return fail(E_USAGE, "--wedge %d: 1 to 9999", wedge);
-    return n < 0 || n >= 4096 ? fail(E_INPUT, "%.200s...: the path is too long", root) : OK;
+    if (wedge < 0 || wedge > WEDGE_MAX)
+        return fail(E_USAGE, "--wedge %d: 1 to %d", wedge, WEDGE_MAX);
+    return path_wedge(out, root, wedge) == OK ? OK : fail(E_USAGE, "%s", status_message());
 }
 
 status volume_frames(const char *root, const char *name, struct frame_range range, int **out, size_t *n)
@@ -33,14 +31,15 @@ status volume_frames(const char *root, const char *name, struct frame_range rang
     status st = OK;
     int *frames = NULL;
     size_t n_all;
-    char path[4096], asked[48];
+    struct path path;
+    char asked[48];
     *n = 0;
     TRY(folder_frames(root, name, &frames, &n_all));
     for (size_t i = 0; i < n_all; i++) {
         if (range.step && !range_holds(range, frames[i]))
             continue;
-        TRY(folder_path(path, root, name, FILE_VOLUMES, frames[i], NULL));
-        if (access(path, R_OK) == 0)
+        TRY(folder_path(&path, root, name, FILE_VOLUMES, frames[i], NULL));
+        if (access(path.text, R_OK) == 0)
             frames[(*n)++] = frames[i];
     }
     if (*n == 0) {

@@ -20,9 +20,10 @@ status cli_mesh(int argc, char **argv)
     size_t n, n_found = 0;
     struct meshes meshes = {0};
     bool no_rocks = false;
-    char name[256], path[4300];
+    struct path path;
+    char name[256];
     struct progress progress = {0};
-    char root[4096];
+    struct path root;
     int wedge = 0;
     bool help = false, missing = false, allow_none = false;
     const struct option options[] = {
@@ -42,7 +43,7 @@ status cli_mesh(int argc, char **argv)
     TRY(options_parse(&usage_mesh, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(wedge_folder(operands.word[0], wedge, root));
+    TRY(wedge_folder(operands.word[0], wedge, &root));
     if (!(meshes.adaptivity >= 0 && meshes.adaptivity <= 1)) {
         st = fail(E_USAGE, "--adaptivity %g: 0 to 1", meshes.adaptivity);
         goto done;
@@ -51,13 +52,13 @@ status cli_mesh(int argc, char **argv)
         st = fail(E_USAGE, "--smooth %d: 0 to 100", meshes.smooth);
         goto done;
     }
-    TRY(folder_open(root, name));
-    snprintf(path, sizeof path, "%.4096s/job.yaml", root);
-    TRY(job_load(path, NULL, 0, &job));
-    snprintf(path, sizeof path, "%.4096s/mesh", root);
-    TRY(folder_make(path));
-    TRY(folder_frames(root, job->name, &frames, &n));
-    meshes.root = root;
+    TRY(folder_open(root.text, name));
+    TRY(path_join(&path, root.text, "job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &job));
+    TRY(path_join(&path, root.text, "mesh"));
+    TRY(folder_make(path.text));
+    TRY(folder_frames(root.text, job->name, &frames, &n));
+    meshes.root = root.text;
     meshes.job = job;
     meshes.rocks = !no_rocks;
     progress_begin_notes(&progress, (enum progress_style)c.progress);
@@ -65,8 +66,8 @@ status cli_mesh(int argc, char **argv)
         char line[64];
         if (c.frames.step && !range_holds(c.frames, frames[i]))
             continue;
-        TRY(folder_path(path, root, job->name, FILE_VOLUMES, frames[i], NULL));
-        if (access(path, R_OK) != 0)
+        TRY(folder_path(&path, root.text, job->name, FILE_VOLUMES, frames[i], NULL));
+        if (access(path.text, R_OK) != 0)
             continue;
         n_found++;
         if (missing && meshes_current(&meshes, frames[i]))
@@ -76,7 +77,7 @@ status cli_mesh(int argc, char **argv)
         progress_note(&progress, i + 1, n, line);
     }
     if (n_found == 0 && !allow_none)
-        st = fail(E_INPUT, "%s holds no volumes of the frames asked for; run the job first", root);
+        st = fail(E_INPUT, "%s holds no volumes of the frames asked for; run the job first", root.text);
 done:
     progress_end(&progress);
     free(frames);

@@ -39,19 +39,22 @@ done:
 }
 
 /* Seconds of a frame: as the folder's frames came, or by what a word takes here. */
-static void time_frames(struct farm *f, double word, bool *measured)
+static status time_frames(struct farm *f, double word, bool *measured)
 {
-    char root[FARM_PATH + 16];
+    status st = OK;
+    struct path root;
     for (size_t i = 0; i < f->n_wedges; i++) {
         struct farm_wedge *w = &f->wedge[i];
         double n = (double)range_count(w->job->frames);
-        farm_root(f, (int)w->job->wedge.index, root);
-        w->frame_seconds = farm_frame_seconds(root, w->job->name);
+        TRY(farm_root(f, (int)w->job->wedge.index, &root));
+        w->frame_seconds = farm_frame_seconds(root.text, w->job->name);
         *measured |= w->frame_seconds > 0;
         if (w->frame_seconds == 0)
             w->frame_seconds = word * WORDS_PER_PARTICLE_STEP * (double)w->estimate.n_particles *
                                (w->estimate.steps + n) / n;
     }
+done:
+    return st;
 }
 
 static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t)
@@ -66,7 +69,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     size_t n_frames = range_count(job->frames);
     const uint64_t process = room_process(gpu);
     TRY(word_seconds(gpu, &word));
-    time_frames(f, word, &measured);
+    TRY(time_frames(f, word, &measured));
     TRY(farm_graph(f));
     size_t n_checkpoints =
         (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));

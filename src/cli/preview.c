@@ -112,7 +112,7 @@ static status turntable(struct preview *p, const struct wanted *w, const int *fr
         goto done;
     TRY(turntable_video(p, frames[n - 1], w->views));
     /* A sheet of stills says more than one of views, if there is one. */
-    TRY(folder_path(path.text, p->root, p->job->name, FILE_SHEET, 0, picture_part(p)));
+    TRY(folder_path(&path, p->root, p->job->name, FILE_SHEET, 0, picture_part(p)));
     if (access(path.text, R_OK) != 0)
         TRY(turntable_contact(p, frames, n, w->views));
 done:
@@ -230,7 +230,7 @@ status cli_preview(int argc, char **argv)
                       &help));
     if (help)
         goto done;
-    TRY(wedge_folder(operands.word[0], w.wedge, root.text));
+    TRY(wedge_folder(operands.word[0], w.wedge, &root));
     p.root = root.text;
     if (w.jobs < 1) {
         st = fail(E_USAGE, "--jobs %d: 1 or more", w.jobs);

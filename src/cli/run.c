@@ -45,7 +45,7 @@ status cli_run(int argc, char **argv)
     struct words operands = {0};
     struct job *job = NULL;
     struct shown shown = {0};
-    char root[4096], path[4200], folder[96], below[16] = "";
+    struct path root, path, folder;
     const char *farm = NULL, *path_map = NULL;
     bool help = false, repair = false;
     int wedge = 0;
@@ -69,10 +69,9 @@ status cli_run(int argc, char **argv)
     if (c.from)
         TRY(words_add(&c.sets, BRANCH_SET));
     TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
-    snprintf(folder, sizeof folder, "out/%s", job->name);
+    TRY(path_join(&folder, "out", job->name));
     if (wedge) {
         TRY(take_wedge(operands.word[0], &c, wedge, &job));
-        snprintf(below, sizeof below, "/w%04d", wedge);
     } else if (job_wedges(job)) {
         log_info(
             "this job has %zu wedges; this run is the job itself (--wedge N is one of them, hoodoo submit "
@@ -81,20 +80,18 @@ status cli_run(int argc, char **argv)
     }
     if (path_map)
         TRY(job_map_paths(job, path_map));
-    int length = c.out ? snprintf(root, sizeof root, "%s", c.out)
-                       : snprintf(root, sizeof root, "%s%s", farm ? farm : folder, below);
-    if (length < 0 || (size_t)length >= sizeof root - 200) {
-        st = fail(E_USAGE, "--out: the path is too long");
-        goto done;
-    }
+    if (c.out)
+        TRY(path_format(&root, "%s", c.out));
+    else
+        TRY(path_wedge(&root, farm ? farm : folder.text, wedge));
     if (c.from)
-        TRY(branch_from(job, c.from, root));
-    TRY(folder_prepare(root));
-    snprintf(path, sizeof path, "%s/log/run.log", root);
-    TRY(log_open(path));
+        TRY(branch_from(job, c.from, root.text));
+    TRY(folder_prepare(root.text));
+    TRY(path_join(&path, root.text, "log/run.log"));
+    TRY(log_open(path.text));
     signals_install();
     shown.style = (enum progress_style)c.progress;
-    TRY(run_job(job, &(struct run_options){.root = root,
+    TRY(run_job(job, &(struct run_options){.root = root.text,
                                            .device = c.device,
                                            .frames = c.frames,
                                            .resume = (enum run_resume)c.resume,

@@ -28,9 +28,9 @@ struct survey {
 
 static double modified(const struct survey *s, int frame)
 {
-    char path[4096];
+    struct path path;
     struct stat info;
-    if (folder_path(path, s->root, s->name, FILE_MANIFEST, frame, NULL) != OK || stat(path, &info) != 0)
+    if (folder_path(&path, s->root, s->name, FILE_MANIFEST, frame, NULL) != OK || stat(path.text, &info) != 0)
         return 0;
     return (double)info.st_mtim.tv_sec + 1e-9 * (double)info.st_mtim.tv_nsec;
 }
@@ -182,8 +182,8 @@ done:
 /* Has any run been there? */
 static bool begun(const char *root)
 {
-    char path[4096];
-    return snprintf(path, sizeof path, "%s/run.json", root) < (int)sizeof path && access(path, F_OK) == 0;
+    struct path path;
+    return path_join(&path, root, "run.json") == OK && access(path.text, F_OK) == 0;
 }
 
 /* A farm's folder that holds no frames, or holds them in folders of its wedges. */

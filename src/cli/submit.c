@@ -96,14 +96,14 @@ static status to_local(const struct wanted *w, struct farm *f)
     struct view v = {.farm = f, .began = seconds_now()};
     struct local_worker worker[LOCAL_WORKERS];
     size_t n = 0, total;
-    char path[FARM_PATH + 32];
+    struct path path;
     TRY(local_workers(w->gpus, w->workers, worker, &n));
     if (w->common.device)
         for (size_t i = 0; i < n; i++)
             snprintf(worker[i].device, sizeof worker[i].device, "%s", w->common.device);
     TRY(farm_freeze(f));
-    snprintf(path, sizeof path, "%s/log/farm.log", f->root);
-    TRY(log_open(path));
+    TRY(path_join(&path, f->root.text, "log/farm.log"));
+    TRY(log_open(path.text));
     signals_install();
     v.frames_before = farm_frames(f, &total);
     log_info("%zu tasks for %zu workers; %zu of %zu frames are done", f->graph.n, n, v.frames_before, total);
@@ -115,7 +115,7 @@ static status to_local(const struct wanted *w, struct farm *f)
                                              .tick = show_state,
                                              .user = &v}));
     progress_end(&v.progress);
-    log_info("all %zu tasks are done: %s", f->graph.n, f->root);
+    log_info("all %zu tasks are done: %s", f->graph.n, f->root.text);
 done:
     progress_end(&v.progress);
     return st;
@@ -127,15 +127,15 @@ static status to_slurm(const struct wanted *w, const struct words *operands, str
 {
     status st = OK;
     struct text t = {0};
-    char path[FARM_PATH + 32];
+    struct path path;
     if (!w->dry_run) {
         TRY(farm_freeze(f));
-        snprintf(path, sizeof path, "%s/log/farm.log", f->root);
-        TRY(log_open(path));
+        TRY(path_join(&path, f->root.text, "log/farm.log"));
+        TRY(log_open(path.text));
     }
     json_object(&t, NULL);
     json_text(&t, "name", f->base->name);
-    json_text(&t, "folder", f->root);
+    json_text(&t, "folder", f->root.text);
     TRY(slurm_submit(f,
                      &(struct slurm_options){.device = w->common.device,
                                              .extra = operands->word + 1, /* after the job */
@@ -155,7 +155,7 @@ static status to_openjd(const struct wanted *w, struct farm *f)
 {
     status st = OK;
     struct text t = {0};
-    char path[FARM_PATH + 96];
+    struct path path;
     if (!w->dry_run)
         TRY(farm_freeze(f));
     TRY(openjd_template(f, w->common.device, &t));
@@ -163,9 +163,10 @@ static status to_openjd(const struct wanted *w, struct farm *f)
         fputs(t.data, stdout);
         goto done;
     }
-    snprintf(path, sizeof path, "%s/%s.openjd.json", f->root, f->base->name);
-    TRY(atomic_file_write(path, t.data, t.size));
-    log_info("%s: submit it with your farm's client, or try it: openjd run %s --step ...", path, path);
+    TRY(path_format(&path, "%s/%s.openjd.json", f->root.text, f->base->name));
+    TRY(atomic_file_write(path.text, t.data, t.size));
+    log_info("%s: submit it with your farm's client, or try it: openjd run %s --step ...", path.text,
+             path.text);
 done:
     text_free(&t);
     return st;
@@ -178,7 +179,7 @@ static status print_tasks(const struct farm *f, bool as_json)
     struct text t = {0};
     json_object(&t, NULL);
     json_text(&t, "name", f->base->name);
-    json_text(&t, "folder", f->root);
+    json_text(&t, "folder", f->root.text);
     farm_describe(f, !as_json, &t);
     json_end_object(&t);
     status st = words_print(&t, as_json);
@@ -208,7 +209,7 @@ status cli_submit(int argc, char **argv)
     struct wanted w = {.to = -1};
     struct words operands = {0};
     struct farm farm = {0};
-    char root[FARM_PATH + 16];
+    struct path root;
     bool help = false;
     const struct option options[] = {
         {"to", CHOICE_TEXT(TO_CHOICE), OPTION_CHOICE, &w.to,
@@ -235,8 +236,8 @@ status cli_submit(int argc, char **argv)
     TRY(farm_load(operands.word[0], w.common.sets.word, w.common.sets.n, w.common.from, w.wedge, w.common.out,
                   &farm));
     for (size_t i = 0; i < farm.n_wedges; i++) {
-        farm_root(&farm, (int)farm.wedge[i].job->wedge.index, root);
-        farm.wedge[i].frame_seconds = farm_frame_seconds(root, farm.wedge[i].job->name);
+        TRY(farm_root(&farm, (int)farm.wedge[i].job->wedge.index, &root));
+        farm.wedge[i].frame_seconds = farm_frame_seconds(root.text, farm.wedge[i].job->name);
     }
     TRY(farm_graph(&farm));
     TRY(dispatch(&w, &operands, &farm));

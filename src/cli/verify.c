@@ -60,26 +60,27 @@ static bool ends_with(const char *path, const char *end)
 /* E_MEMORY alone ends the search; everything else is a finding. */
 static status verify_file(struct search *s, const struct manifest_file *f)
 {
-    char path[4096], what[256] = "";
+    struct path path;
+    char what[256] = "";
     uint64_t hash, size;
     status st = OK;
     s->n_files++;
-    if (snprintf(path, sizeof path, "%s/%s", s->root, f->path) >= (int)sizeof path)
-        return fail(E_INPUT, "%.200s...: the path is too long", s->root);
-    if (access(path, F_OK) != 0) {
+    if ((st = path_join(&path, s->root, f->path)) != OK)
+        return st;
+    if (access(path.text, F_OK) != 0) {
         found(s, true, f->path, "");
         return OK;
     }
-    st = hash_file(path, &hash, &size);
+    st = hash_file(path.text, &hash, &size);
     if (st == OK && size != f->size)
         snprintf(what, sizeof what, "%llu bytes, its manifest says %llu", (unsigned long long)size,
                  (unsigned long long)f->size);
     else if (st == OK && hash != f->hash)
         snprintf(what, sizeof what, "its content is not what its manifest says");
-    else if (st == OK && ends_with(path, ".vdb"))
-        st = vdb_check(path);
-    else if (st == OK && ends_with(path, ".exr"))
-        st = exr_check(path);
+    else if (st == OK && ends_with(path.text, ".vdb"))
+        st = vdb_check(path.text);
+    else if (st == OK && ends_with(path.text, ".exr"))
+        st = exr_check(path.text);
     if (st == E_MEMORY)
         return st;
     if (st != OK || *what)
@@ -90,12 +91,12 @@ static status verify_file(struct search *s, const struct manifest_file *f)
 static status verify_frame(struct search *s, int frame)
 {
     struct manifest m = {0};
-    char path[4096];
-    const char *relative = path + strlen(s->root) + 1;
+    struct path path;
+    const char *relative = path.text + strlen(s->root) + 1;
     status st = OK;
-    TRY(folder_path(path, s->root, s->name, FILE_MANIFEST, frame, NULL));
+    TRY(folder_path(&path, s->root, s->name, FILE_MANIFEST, frame, NULL));
     s->n_files++;
-    if (access(path, F_OK) != 0) {
+    if (access(path.text, F_OK) != 0) {
         found(s, true, relative, "the frame is not done");
         goto done;
     }
@@ -155,15 +156,15 @@ static status verify_checkpoints(struct search *s)
     status st = OK;
     int *frames = NULL;
     size_t n;
-    char path[4096];
+    struct path path;
     TRY(checkpoint_list(s->root, s->name, &frames, &n));
     for (size_t i = 0; i < n; i++) {
-        TRY(folder_path(path, s->root, s->name, FILE_CHECKPOINT, frames[i], NULL));
-        TRY(verify_checkpoint(s, path, &frames[i]));
+        TRY(folder_path(&path, s->root, s->name, FILE_CHECKPOINT, frames[i], NULL));
+        TRY(verify_checkpoint(s, path.text, &frames[i]));
     }
-    TRY(branch_copy(path, s->root, s->name));
-    if (access(path, F_OK) == 0)
-        TRY(verify_checkpoint(s, path, NULL));
+    TRY(branch_copy(&path, s->root, s->name));
+    if (access(path.text, F_OK) == 0)
+        TRY(verify_checkpoint(s, path.text, NULL));
 done:
     free(frames);
     return st;

@@ -69,37 +69,32 @@ static void color_of(const struct job *job, const struct vdb_mesh *m, size_t i, 
 
 /* ---- files */
 
-/* mesh/NAME.FRAME.EXT, or mesh/NAME.rocks.FRAME.EXT */
-static status mesh_path(const struct meshes *m, bool rocks, int frame, const char *extension, char out[4096])
+/* What the names of the rocks' files have after the job's. */
+static const char *part(bool rocks)
 {
-    status st = OK;
-    char name[300];
-    snprintf(name, sizeof name, "%.255s%s", m->job->name, rocks ? ".rocks" : "");
-    TRY(folder_path(out, m->root, name, FILE_MESH, frame, NULL));
-    strcpy(out + strlen(out) - 3, extension);
-done:
-    return st;
+    return rocks ? "rocks" : NULL;
 }
 
 static status write_both(const struct meshes *m, bool rocks, int frame, struct mesh_file *file)
 {
     status st = OK;
-    char path[4096], comment[400];
+    struct path path;
+    char comment[400];
     struct text text = {0};
     snprintf(comment, sizeof comment, "hoodoo %s: %.255s, frame %d; metres, %s up", hoodoo_version,
              m->job->name, frame, m->job->output.up == OUTPUT_UP_Y ? "y" : "z");
     file->name = m->job->name;
     file->comment = comment;
     file->up = m->job->output.up;
-    TRY(mesh_path(m, rocks, frame, "ply", path));
+    TRY(folder_path(&path, m->root, m->job->name, FILE_MESH, frame, part(rocks)));
     mesh_file_ply(file, &text);
     TRY(text_status(&text));
-    TRY(atomic_file_write(path, text.data, text.size));
+    TRY(atomic_file_write(path.text, text.data, text.size));
     text_free(&text);
-    TRY(mesh_path(m, rocks, frame, "obj", path));
+    TRY(folder_path(&path, m->root, m->job->name, FILE_OBJ, frame, part(rocks)));
     mesh_file_obj(file, &text);
     TRY(text_status(&text));
-    TRY(atomic_file_write(path, text.data, text.size));
+    TRY(atomic_file_write(path.text, text.data, text.size));
 done:
     text_free(&text);
     return st;
@@ -108,15 +103,15 @@ done:
 static status write_surface(const struct meshes *m, int frame)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct rock rock = {0};
     struct layers layers = {0};
     struct labels labels = {.job = m->job};
     struct vdb_mesh mesh = {0};
     float(*color)[3] = NULL;
-    TRY(folder_path(path, m->root, m->job->name, FILE_POINTS, frame, NULL));
-    if (access(path, R_OK) == 0) {
-        TRY(vdb_points_read(path, &rock));
+    TRY(folder_path(&path, m->root, m->job->name, FILE_POINTS, frame, NULL));
+    if (access(path.text, R_OK) == 0) {
+        TRY(vdb_points_read(path.text, &rock));
         if (rock.layer) {
             TRY(layers_create(&rock, m->job->domain.spacing_m, &layers));
             labels.layers = &layers;
@@ -129,8 +124,8 @@ static status write_surface(const struct meshes *m, int frame)
                                              .n_optional = value_count(m->job) - (VALUES - OPTIONAL),
                                              .label = set_labels,
                                              .user = &labels};
-    TRY(folder_path(path, m->root, m->job->name, FILE_VOLUMES, frame, NULL));
-    TRY(vdb_mesh_make(path, &options, &mesh));
+    TRY(folder_path(&path, m->root, m->job->name, FILE_VOLUMES, frame, NULL));
+    TRY(vdb_mesh_make(path.text, &options, &mesh));
     TRY(memory_alloc(mesh.n_vertices, sizeof *color, "colours", &color));
 #pragma omp parallel for
     for (size_t i = 0; i < mesh.n_vertices; i++)
@@ -218,14 +213,14 @@ done:
 static status write_rocks(const struct meshes *m, int frame)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct pile_tile tile = {0};
     struct rock at = {0};
     struct trimesh *shape = NULL, all = {0};
     float *normal = NULL, (*color)[3] = NULL;
     uint32_t *layer = NULL;
-    TRY(folder_path(path, m->root, m->job->name, FILE_ROCKS, frame, NULL));
-    TRY(vdb_points_read(path, &at));
+    TRY(folder_path(&path, m->root, m->job->name, FILE_ROCKS, frame, NULL));
+    TRY(vdb_points_read(path.text, &at));
     TRY(rocks_tile(m->job, &tile));
     TRY(memory_alloc(tile.n, sizeof *shape, "rocks", &shape));
     for (size_t i = 0; i < tile.n; i++)
@@ -277,15 +272,16 @@ done:
 
 bool meshes_current(const struct meshes *m, int frame)
 {
-    static const char *const extension[] = {"ply", "obj"};
-    char path[4096];
+    static const enum folder_file both[] = {FILE_MESH, FILE_OBJ};
+    struct path path;
     struct stat from, made;
-    if (folder_path(path, m->root, m->job->name, FILE_VOLUMES, frame, NULL) != OK || stat(path, &from) != 0)
+    if (folder_path(&path, m->root, m->job->name, FILE_VOLUMES, frame, NULL) != OK ||
+        stat(path.text, &from) != 0)
         return false;
     for (int rocks = 0; rocks <= has_rocks(m); rocks++)
         for (int e = 0; e < 2; e++)
-            if (mesh_path(m, rocks, frame, extension[e], path) != OK || stat(path, &made) != 0 ||
-                made.st_mtim.tv_sec < from.st_mtim.tv_sec)
+            if (folder_path(&path, m->root, m->job->name, both[e], frame, part(rocks)) != OK ||
+                stat(path.text, &made) != 0 || made.st_mtim.tv_sec < from.st_mtim.tv_sec)
                 return false;
     return true;
 }

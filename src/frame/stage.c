@@ -155,15 +155,15 @@ static void add_field(struct stage *s, const struct json *grid)
 static status find_fields(struct stage *s)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct text t = {0};
     struct json *json = NULL;
     if (s->sequence.n_volumes == 0)
         return OK;
-    TRY(folder_path(path, s->root, s->job->name, FILE_VOLUMES, s->volumes[s->sequence.n_volumes - 1], NULL));
-    st = vdb_describe_lattices(path, &t);
+    TRY(folder_path(&path, s->root, s->job->name, FILE_VOLUMES, s->volumes[s->sequence.n_volumes - 1], NULL));
+    st = vdb_describe_lattices(path.text, &t);
     if (st == OK)
-        st = json_read(path, t.data, t.size, &json);
+        st = json_read(path.text, t.data, t.size, &json);
     if (st != OK) { /* a run does not fail of a file that was sound once; `hoodoo verify` tells */
         log_warn("%s.usda: no volumes in it: %s", s->job->name, status_message());
         st = OK;
@@ -270,20 +270,21 @@ static status put(const char *path, struct text *t)
 
 static status put_clips(const struct stage *s, const struct usd_prim *prim)
 {
-    char path[4096];
+    status st = OK;
+    struct path path;
     struct text t = {0};
-    if (snprintf(path, sizeof path, "%s/%s/%s.clips.usda", s->root, prim->folder, s->job->name) >=
-        (int)sizeof path)
-        return fail(E_OUTPUT, "%.200s...: the path is too long", s->root);
+    TRY(path_format(&path, "%s/%s/%s.clips.usda", s->root, prim->folder, s->job->name));
     usd_clips(&s->sequence, prim, &t);
-    return put(path, &t);
+    TRY(put(path.text, &t));
+done:
+    return st;
 }
 
 /* What the rocks look like: the same for all frames. */
 static status put_shapes(struct stage *s)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct text t = {0};
     struct pile_tile tile;
     struct usd_shape *shape = NULL;
@@ -298,12 +299,9 @@ static status put_shapes(struct stage *s)
                                 .triangle = tile.triangle};
     palette_color(s->job, rocks_layer(s->job), shapes.color);
     s->sequence.n_shapes = tile.n;
-    if (snprintf(path, sizeof path, "%s/rocks/%s.shapes.usda", s->root, s->job->name) >= (int)sizeof path) {
-        st = fail(E_OUTPUT, "%.200s...: the path is too long", s->root);
-        goto done;
-    }
+    TRY(path_format(&path, "%s/rocks/%s.shapes.usda", s->root, s->job->name));
     usd_shapes(&shapes, &t);
-    TRY(put(path, &t));
+    TRY(put(path.text, &t));
 done:
     free(shape);
     pile_tile_destroy(&tile);
@@ -314,7 +312,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
 {
     status st = OK;
     struct stage_frames all = {0};
-    char path[4096];
+    struct path path;
     struct text t = {0};
     struct stage s = {.job = job,
                       .root = root,
@@ -341,9 +339,9 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
         TRY(put_clips(&s, &usd_rocks_prim));
         TRY(put_shapes(&s));
     }
-    snprintf(path, sizeof path, "%.3800s/%.200s.usda", root, job->name);
+    TRY(folder_path(&path, root, job->name, FILE_STAGE, 0, NULL));
     usd_stage(&s.sequence, &t);
-    TRY(put(path, &t));
+    TRY(put(path.text, &t));
 done:
     stage_frames_free(&all);
     free(s.volumes);

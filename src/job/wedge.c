@@ -5,6 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "base/path.h"
 #include "job/parse.h"
 
 enum { WEDGES_MAX = 9999, OVER_MAX = 64, LABEL_MAX = 1000 };
@@ -80,12 +81,13 @@ status job_load_wedge(const char *path, const char *const *sets, size_t n_sets, 
     status st = OK;
     struct text own[OVER_MAX + 5] = {0};
     const char **all = NULL;
+    char number[FRAME_TEXT];
     size_t n = 0;
     *out = NULL;
     TRY(check(base, index));
     for (; n < base->wedge.n_over; n++)
         text_add(&own[n], "%s=%s", base->wedge.over[n].key, value_of(&base->wedge, n, index));
-    text_add(&own[n++], "name=\"%s_w%04d\"", base->name, index);
+    text_add(&own[n++], "name=\"%s_%s\"", base->name, wedge_text(index, number));
     text_add(&own[n++], "wedge.over=[]");
     text_add(&own[n++], "wedge.csv=\"\"");
     text_add(&own[n++], "wedge.index=%d", index);
@@ -214,16 +216,16 @@ status read_wedge_csv(const char *folder, struct job *job)
 {
     status st = OK;
     struct job_wedge *w = &job->wedge;
-    char path[4096], *bytes = NULL;
+    struct path path;
+    char *bytes = NULL;
     size_t n;
     if (!*w->csv)
         return OK;
-    int length = *w->csv == '/' ? snprintf(path, sizeof path, "%s", w->csv)
-                                : snprintf(path, sizeof path, "%s/%s", folder, w->csv);
-    if (length < 0 || (size_t)length >= sizeof path)
-        return fail(E_INPUT, "wedge.csv: the path is too long");
-    TRY(file_read(path, YAML_BYTES, &bytes, &n));
-    struct csv csv = {.path = path, .at = bytes, .end = bytes + n, .line = 1};
+    st = *w->csv == '/' ? path_format(&path, "%s", w->csv) : path_join(&path, folder, w->csv);
+    if (st != OK)
+        return fail(E_INPUT, "wedge.csv: %s", status_message());
+    TRY(file_read(path.text, YAML_BYTES, &bytes, &n));
+    struct csv csv = {.path = path.text, .at = bytes, .end = bytes + n, .line = 1};
     if (n >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
         csv.at += 3; /* spreadsheets begin with a byte order mark */
     TRY(csv_rows(w, &csv));

@@ -73,22 +73,33 @@ status folder_views(struct path *out, const char *name, const char *part, int fr
     return view_name(out, name, part, frame, "%03d");
 }
 
-status folder_path(char out[PATH_BYTES], const char *root, const char *name, enum folder_file kind, int frame,
+status folder_path(struct path *out, const char *root, const char *name, enum folder_file kind, int frame,
                    const char *part)
 {
-    struct path path;
-    status st = folder_name(&path, name, kind, frame, part);
-    if (st == OK)
-        st = path_join(&path, root, path.text);
-    if (st == OK)
-        memcpy(out, path.text, strlen(path.text) + 1);
-    return st;
+    struct path below;
+    const status st = folder_name(&below, name, kind, frame, part);
+    return st == OK ? path_join(out, root, below.text) : st;
+}
+
+status folder_room(const char *root)
+{
+    /* A wedge's folder, a folder in it, a name of up to 200 letters, a part's, a number, and what a temporary name
+     * adds. */
+    enum { BELOW = 512, LONGEST = PATH_BYTES - 1 - BELOW };
+    const size_t n = strlen(root);
+    return n <= LONGEST
+               ? OK
+               : fail(E_OUTPUT,
+                      "%.100s...: the output folder's path is %zu bytes long; at most %d leave room for "
+                      "its files",
+                      root, n, LONGEST);
 }
 
 status folder_prepare(const char *root)
 {
     status st = OK;
     struct path path;
+    TRY(folder_room(root));
     TRY(folder_make(root));
     atomic_file_sweep(root);
     for (size_t i = 0; i < sizeof always / sizeof *always; i++) {

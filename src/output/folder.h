@@ -11,26 +11,26 @@
 #include "base/text.h"
 #include "particles/frame.h"
 
-enum folder_file {
-    FILE_POINTS,
-    FILE_VOLUMES,
-    FILE_AOV,
-    FILE_MANIFEST,
-    FILE_CHECKPOINT,
-    FILE_KEEP, /* beside a checkpoint that is never pruned */
-    FILE_MESH, /* the PLY */
-    FILE_OBJ,
-    FILE_USD, /* the surface's points */
-    FILE_ROCKS,
-    FILE_ROCKS_USD,
-    FILE_STACKS,
-    FILE_STILL,
-    FILE_STILL_SCENE, /* POV-Ray's */
-    FILE_ORBIT_SCENE,
-    FILE_SHEET, /* from here on one file of all frames */
-    FILE_VIDEO,
-    FILE_WEDGES, /* the sheet across a farm's wedges */
-    FILE_STAGE
+enum folder_file { /* VDBs hold a hash of theirs: new ones come last */
+                   FILE_POINTS,
+                   FILE_VOLUMES,
+                   FILE_AOV,
+                   FILE_MANIFEST,
+                   FILE_CHECKPOINT,
+                   FILE_MESH, /* the PLY */
+                   FILE_USD,  /* the surface's points */
+                   FILE_ROCKS,
+                   FILE_ROCKS_USD,
+                   FILE_STACKS,
+                   FILE_KEEP, /* beside a checkpoint that is never pruned */
+                   FILE_OBJ,
+                   FILE_STILL,
+                   FILE_STILL_SCENE, /* POV-Ray's */
+                   FILE_ORBIT_SCENE,
+                   FILE_SHEET, /* of all frames, as are those that follow */
+                   FILE_VIDEO,
+                   FILE_WEDGES, /* the sheet across a farm's wedges */
+                   FILE_STAGE
 };
 
 /* points/NAME.1001.vdb and so on, relative to the output folder: `name` is the job's. `part`: put in the name
@@ -47,8 +47,11 @@ MUST_USE status folder_views(struct path *out, const char *name, const char *par
 
 /* root/points/NAME.1001.vdb: `root` is the output folder, the rest is folder_name()'s. E_OUTPUT if the path is
  * too long. */
-MUST_USE status folder_path(char out[PATH_BYTES], const char *root, const char *name, enum folder_file kind,
+MUST_USE status folder_path(struct path *out, const char *root, const char *name, enum folder_file kind,
                             int frame, const char *part);
+
+/* Has the output folder `root` room below it for the longest path of any file there? E_OUTPUT if not. */
+MUST_USE status folder_room(const char *root);
 
 /* Makes root and its subfolders, and sweeps temporary files out of them. */
 MUST_USE status folder_prepare(const char *root);

@@ -24,9 +24,9 @@ static void write_hash(struct text *t, const char *key, uint64_t hash)
 status manifest_write(const char *root, const char *name, const struct manifest *m)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct text t = {0};
-    TRY(folder_path(path, root, name, FILE_MANIFEST, m->frame, NULL));
+    TRY(folder_path(&path, root, name, FILE_MANIFEST, m->frame, NULL));
     json_object(&t, NULL);
     json_text(&t, "kind", "hoodoo frame");
     json_integer(&t, "format", 1);
@@ -64,7 +64,7 @@ status manifest_write(const char *root, const char *name, const struct manifest 
     write_hash(&t, "self_xxh3", hash_bytes(t.data, t.size));
     json_end_object(&t);
     TRY(text_status(&t));
-    TRY(atomic_file_write(path, t.data, t.size));
+    TRY(atomic_file_write(path.text, t.data, t.size));
 done:
     text_free(&t);
     return st;
@@ -185,27 +185,29 @@ static status check_self(const char *path, const char *bytes, size_t size)
 status manifest_read(const char *root, const char *name, int frame, struct manifest *out)
 {
     status st = OK;
-    char path[4096], *bytes = NULL;
+    struct path path;
+    char *bytes = NULL;
     size_t size = 0;
     struct json *json = NULL;
     struct manifest m = {0};
     const struct json *files;
     const char *wrong;
-    TRY(folder_path(path, root, name, FILE_MANIFEST, frame, NULL));
-    TRY(file_read(path, LARGEST, &bytes, &size));
-    TRY(json_read(path, bytes, size, &json));
-    TRY(check_self(path, bytes, size));
+    TRY(folder_path(&path, root, name, FILE_MANIFEST, frame, NULL));
+    TRY(file_read(path.text, LARGEST, &bytes, &size));
+    TRY(json_read(path.text, bytes, size, &json));
+    TRY(check_self(path.text, bytes, size));
     files = json_member(json, "files");
     if (files && files->n > MOST_FILES) {
-        st = fail(E_INPUT, "%s: it lists %zu files, more than the %d allowed", path, files->n, MOST_FILES);
+        st = fail(E_INPUT, "%s: it lists %zu files, more than the %d allowed", path.text, files->n,
+                  MOST_FILES);
         goto done;
     }
-    TRY(memory_alloc(files ? files->n : 0, sizeof *m.file, path, &m.file));
+    TRY(memory_alloc(files ? files->n : 0, sizeof *m.file, path.text, &m.file));
     wrong = to_manifest(json, &m);
     if (!*wrong && m.frame != frame)
         wrong = "it is of another frame than its name says";
     if (*wrong) {
-        st = fail(E_INPUT, "%s: %s", path, wrong);
+        st = fail(E_INPUT, "%s: %s", path.text, wrong);
         goto done;
     }
     *out = m;
@@ -227,21 +229,21 @@ void manifest_free(struct manifest *manifest)
 /* Whether the file stands there as listed. If not, the sentence says why. */
 static bool stands(const char *root, const struct manifest_file *f, bool deep)
 {
-    char path[4096];
+    struct path path;
     struct stat info;
     uint64_t hash = 0, size = 0;
     status st = OK;
-    if (snprintf(path, sizeof path, "%s/%s", root, f->path) >= (int)sizeof path)
-        st = fail(E_INPUT, "%.200s...: the path is too long", root);
-    else if (stat(path, &info) != 0)
-        st = fail(E_INPUT, "%s: %s", path, strerror(errno));
+    if (path_join(&path, root, f->path) != OK)
+        return false;
+    if (stat(path.text, &info) != 0)
+        st = fail(E_INPUT, "%s: %s", path.text, strerror(errno));
     else if (!S_ISREG(info.st_mode))
-        st = fail(E_INPUT, "%s: not a regular file", path);
+        st = fail(E_INPUT, "%s: not a regular file", path.text);
     else if ((uint64_t)info.st_size != f->size)
-        st = fail(E_INPUT, "%s: %lld bytes, but %llu were written", path, (long long)info.st_size,
+        st = fail(E_INPUT, "%s: %lld bytes, but %llu were written", path.text, (long long)info.st_size,
                   (unsigned long long)f->size);
-    else if (deep && (st = hash_file(path, &hash, &size)) == OK && (hash != f->hash || size != f->size))
-        st = fail(E_INPUT, "%s: damaged: its content is not what was written", path);
+    else if (deep && (st = hash_file(path.text, &hash, &size)) == OK && (hash != f->hash || size != f->size))
+        st = fail(E_INPUT, "%s: damaged: its content is not what was written", path.text);
     return st == OK;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "base/version.h"
 
 /* ---- words of the language */
@@ -59,11 +60,12 @@ static void add_vector(struct text *t, const double *v, int n)
     text_add(t, ")");
 }
 
-/* Files' paths, with frames as folder_path() writes them. */
+/* Files' paths, with frames as folder_name() writes them. */
 static void add_path(struct text *t, const struct usd_sequence *s, const char *folder, int frame,
                      const char *extension)
 {
-    text_add(t, "@./%s/%s.%s%04d.%s@", folder, s->name, frame < 0 ? "-" : "", abs(frame), extension);
+    char number[FRAME_TEXT];
+    text_add(t, "@./%s/%s.%s.%s@", folder, s->name, frame_text(frame, number), extension);
 }
 
 /* ---- the stage's parts; `root` is the name of the prim that holds all */

@@ -11,10 +11,9 @@
 #include "base/memory.h"
 #include "output/folder.h"
 
-status branch_copy(char out[4096], const char *root, const char *name)
+status branch_copy(struct path *out, const char *root, const char *name)
 {
-    int n = snprintf(out, 4096, "%s/checkpoint/%s.from.ckpt", root, name);
-    return n < 0 || n >= 4096 ? fail(E_OUTPUT, "%.200s...: the path is too long", root) : OK;
+    return path_format(out, "%s/checkpoint/%s.from.ckpt", root, name);
 }
 
 static status set_from(struct job *job, const char *path)
@@ -31,17 +30,18 @@ static status set_from(struct job *job, const char *path)
 /* ---- --from */
 
 /* "out/arch@1040": the last @ parts them. */
-static status cut(const char *text, char out[4096], int *frame)
+static status cut(const char *text, struct path *out, int *frame)
 {
     const char *at = strrchr(text, '@');
     char *end = NULL;
     errno = 0;
     long number = at ? strtol(at + 1, &end, 10) : 0;
-    if (!at || at == text || at - text >= 4096 || end == at + 1 || *end || errno || number < -999999 ||
-        number > 9999999 || strspn(at + 1, "-0123456789") != strlen(at + 1))
+    if (!at || at == text || end == at + 1 || *end || errno || number < -999999 || number > 9999999 ||
+        strspn(at + 1, "-0123456789") != strlen(at + 1))
         return fail(E_USAGE, "--from %.200s: write OUT@FRAME, such as out/arch@1040", text);
-    snprintf(out, 4096, "%.*s", (int)(at - text), text);
     *frame = (int)number;
+    if (path_format(out, "%.*s", (int)(at - text), text) != OK)
+        return fail(E_USAGE, "--from %s", status_message());
     return OK;
 }
 
@@ -64,35 +64,36 @@ done:
 }
 
 /* The copy in the branch's own folder, if it is of this frame. */
-static bool own_copy(const struct job *job, const char *root, int frame, char path[4096])
+static bool own_copy(const struct job *job, const char *root, int frame, struct path *path)
 {
     struct checkpoint c;
-    return branch_copy(path, root, job->name) == OK && access(path, F_OK) == 0 &&
-           checkpoint_read_index(path, &c) == OK && c.frame == frame;
+    return branch_copy(path, root, job->name) == OK && access(path->text, F_OK) == 0 &&
+           checkpoint_read_index(path->text, &c) == OK && c.frame == frame;
 }
 
 status branch_from(struct job *job, const char *text, const char *root)
 {
     status st = OK;
-    char out[4096], name[256], path[4096], *whole = NULL;
+    struct path out, path;
+    char name[256], *whole = NULL;
     int frame = 0;
-    TRY(cut(text, out, &frame));
-    st = folder_open(out, name);
+    TRY(cut(text, &out, &frame));
+    st = folder_open(out.text, name);
     if (st == OK)
-        st = folder_path(path, out, name, FILE_CHECKPOINT, frame, NULL);
-    if (st == OK && access(path, F_OK) != 0)
-        st = no_checkpoint(out, name, frame);
+        st = folder_path(&path, out.text, name, FILE_CHECKPOINT, frame, NULL);
+    if (st == OK && access(path.text, F_OK) != 0)
+        st = no_checkpoint(out.text, name, frame);
     if (st != OK) {
         char message[1024];
         snprintf(message, sizeof message, "%s", status_message());
-        if (!own_copy(job, root, frame, path))
+        if (!own_copy(job, root, frame, &path))
             return fail(st, "--from %.200s: %s", text, message);
         log_info("%s; this folder has its own copy of that checkpoint", message);
         st = OK;
     }
-    whole = realpath(path, NULL);
+    whole = realpath(path.text, NULL);
     if (!whole)
-        return fail(E_INPUT, "--from %.200s: %s: %s", text, path, strerror(errno));
+        return fail(E_INPUT, "--from %.200s: %s: %s", text, path.text, strerror(errno));
     TRY(set_from(job, whole));
 done:
     free(whole);
@@ -112,14 +113,15 @@ static void begin_with(struct job *job, int frame)
 status branch_prepare(struct job *job, const char *root)
 {
     status st = OK;
-    char path[4096], frames[48];
+    struct path path;
+    char frames[48];
     struct checkpoint c;
     if (!*job->from)
         return OK;
     if (access(job->from, F_OK) != 0) {
-        TRY(branch_copy(path, root, job->name));
-        if (access(path, F_OK) == 0)
-            TRY(set_from(job, path));
+        TRY(branch_copy(&path, root, job->name));
+        if (access(path.text, F_OK) == 0)
+            TRY(set_from(job, path.text));
     }
     TRY(checkpoint_read_index(job->from, &c));
     if (!range_holds(job->frames, c.frame)) {
@@ -143,12 +145,12 @@ done:
 status branch_prepare_own(struct job *job, const char *root)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     if (!*job->from)
         return OK;
-    TRY(branch_copy(path, root, job->name));
-    if (access(path, F_OK) == 0)
-        TRY(set_from(job, path));
+    TRY(branch_copy(&path, root, job->name));
+    if (access(path.text, F_OK) == 0)
+        TRY(set_from(job, path.text));
 done:
     return st;
 }
@@ -156,14 +158,15 @@ done:
 status branch_read(const struct job *job, const char *root, struct checkpoint *out)
 {
     status st = OK;
-    char path[4096], *bytes = NULL;
+    struct path path;
+    char *bytes = NULL;
     size_t n;
     TRY(checkpoint_read(job->from, out));
-    TRY(branch_copy(path, root, job->name));
-    if (strcmp(path, job->from) == 0)
+    TRY(branch_copy(&path, root, job->name));
+    if (strcmp(path.text, job->from) == 0)
         goto done;
     if ((st = file_read(job->from, (size_t)1 << 40, &bytes, &n)) != OK ||
-        (st = atomic_file_write(path, bytes, n)) != OK)
+        (st = atomic_file_write(path.text, bytes, n)) != OK)
         checkpoint_free(out);
 done:
     free(bytes);

@@ -7,6 +7,7 @@
 #ifndef HOODOO_BRANCH_H
 #define HOODOO_BRANCH_H
 
+#include "base/path.h"
 #include "base/status.h"
 #include "checkpoint/checkpoint.h"
 #include "job/job.h"
@@ -16,7 +17,7 @@
 #define BRANCH_SET "from=checkpoint"
 
 /* Where the copy is, or would be: ROOT/checkpoint/NAME.from.ckpt. */
-MUST_USE status branch_copy(char out[4096], const char *root, const char *name);
+MUST_USE status branch_copy(struct path *out, const char *root, const char *name);
 
 /* Sets the job's `from` by "OUT@FRAME", as --from gives it; `root` is the branch's own folder. E_USAGE: not of that
  * form. E_INPUT: OUT is no output folder. E_CHECKPOINT: it has no checkpoint of that frame; those there are are listed.

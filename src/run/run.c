@@ -28,7 +28,7 @@ struct run {
     struct writer *writer;
     struct lock *lock;
     struct provenance provenance;
-    char lock_path[4096];
+    struct path lock_path;
     bool lacks_checkpoint; /* the last frame's, or a later one */
     bool *done;            /* [last - first + 1], by frame number */
     int first_missing;     /* last + 1: none */
@@ -118,26 +118,26 @@ done:
 static status check_owner(struct run *r)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct job *theirs = NULL;
     uint64_t hash;
-    if (snprintf(path, sizeof path, "%s/job.yaml", r->options->root) >= (int)sizeof path)
-        return fail(E_OUTPUT, "%.100s...: the path is too long", r->options->root);
-    if (access(path, F_OK) != 0)
+    TRY(path_join(&path, r->options->root, "job.yaml"));
+    if (access(path.text, F_OK) != 0)
         return OK;
-    if (job_load(path, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, r->options->root) != OK ||
+    if (job_load(path.text, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, r->options->root) != OK ||
         job_hash(theirs, &hash) != OK) {
         st = fail(E_CHECKPOINT,
                   "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
                   "--resume never to start over",
-                  path, status_message());
+                  path.text, status_message());
     } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
         st = fail(
             E_CHECKPOINT,
             "%s holds another job (%s differs in what is simulated); use another --out, or --resume never "
             "to start over",
-            r->options->root, path);
+            r->options->root, path.text);
     }
+done:
     job_destroy(&theirs);
     return st;
 }
@@ -148,18 +148,18 @@ static status forget(const struct run *r)
     status st = OK;
     int *frames = NULL;
     size_t n;
-    char path[4096];
+    struct path path;
     TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
     for (size_t i = 0; i < n; i++) {
-        TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
-        unlink(path);
+        TRY(folder_path(&path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
+        unlink(path.text);
     }
     free(frames);
     frames = NULL;
     TRY(folder_frames(r->options->root, r->job->name, &frames, &n));
     for (size_t i = 0; i < n; i++) {
-        TRY(folder_path(path, r->options->root, r->job->name, FILE_MANIFEST, frames[i], NULL));
-        unlink(path);
+        TRY(folder_path(&path, r->options->root, r->job->name, FILE_MANIFEST, frames[i], NULL));
+        unlink(path.text);
     }
 done:
     free(frames);
@@ -172,15 +172,15 @@ static status drop_damaged(const struct run *r)
     status st = OK;
     int *frames = NULL;
     size_t n;
-    char path[4096];
+    struct path path;
     struct checkpoint c;
     TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
     for (size_t i = 0; i < n; i++) {
-        TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
-        st = checkpoint_read_index(path, &c);
+        TRY(folder_path(&path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
+        st = checkpoint_read_index(path.text, &c);
         if (st == E_CHECKPOINT) {
             log_warn("%s; it is removed", status_message());
-            unlink(path);
+            unlink(path.text);
             st = OK;
         }
         TRY(st);
@@ -196,7 +196,7 @@ static status own_folder(struct run *r)
     status st = OK;
     char what[128], frames[48];
     snprintf(what, sizeof what, "simulates frames %s here", range_text(r->frames, frames));
-    TRY(lock_take(r->lock_path, what, (struct lock_patience){0}, r->options->stop, &r->lock));
+    TRY(lock_take(r->lock_path.text, what, (struct lock_patience){0}, r->options->stop, &r->lock));
     if (r->options->resume == RUN_NEVER)
         TRY(forget(r));
     if (r->options->repair)
@@ -224,21 +224,21 @@ static status find_checkpoint(struct run *r, struct checkpoint *c, bool *found)
     status st = OK;
     int *frames = NULL;
     size_t n;
-    char path[4096];
+    struct path path;
     *found = false;
     TRY(checkpoint_list(r->options->root, r->job->name, &frames, &n));
     for (size_t i = 0; i < n && !*found; i++) {
         if (frames[i] > r->first_missing)
             continue;
-        TRY(folder_path(path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
-        st = checkpoint_read(path, c);
+        TRY(folder_path(&path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
+        st = checkpoint_read(path.text, c);
         if (st == E_CHECKPOINT) {
             log_warn("%s; trying the one before", status_message());
             st = OK;
             continue;
         }
         TRY(st);
-        TRY(check_provenance(r, c, path));
+        TRY(check_provenance(r, c, path.text));
         *found = true;
     }
 done:
@@ -374,10 +374,10 @@ done:
 static status write_stage(const struct run *r)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct job *theirs = NULL;
-    snprintf(path, sizeof path, "%.4000s/job.yaml", r->options->root);
-    TRY(job_load(path, NULL, 0, &theirs));
+    TRY(path_join(&path, r->options->root, "job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &theirs));
     TRY(stage_write(theirs, r->job_hash, r->options->root, NULL));
 done:
     job_destroy(&theirs);
@@ -399,8 +399,7 @@ status run_job(struct job *job, const struct run_options *options)
     }
     TRY(job_hash(job, &r.job_hash));
     TRY(folder_prepare(options->root));
-    if (snprintf(r.lock_path, sizeof r.lock_path, "%s/lock", options->root) >= (int)sizeof r.lock_path)
-        return fail(E_OUTPUT, "%.100s...: the path is too long", options->root);
+    TRY(path_join(&r.lock_path, options->root, "lock"));
     if (options->resume != RUN_NEVER)
         TRY(check_owner(&r));
     if (!options->repair)
@@ -408,7 +407,7 @@ status run_job(struct job *job, const struct run_options *options)
     if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
         TRY(own_folder(&r));
     else
-        lock_sweep(r.lock_path);
+        lock_sweep(r.lock_path.text);
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
     if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {

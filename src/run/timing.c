@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/log.h"
+#include "base/path.h"
 #include "base/text.h"
 #include "base/version.h"
 
@@ -61,19 +62,19 @@ static void describe(const struct gpu *gpu, int first, int last, double started,
 
 void timing_write(const char *root, const struct gpu *gpu, int first, int last, double started)
 {
-    char path[4096];
+    struct path path;
     struct text t = {0};
     int file = -1;
     describe(gpu, first, last, started, &t);
-    if (text_status(&t) != OK || snprintf(path, sizeof path, "%s/log/timing.jsonl", root) >= (int)sizeof path)
+    if (text_status(&t) != OK || path_join(&path, root, "log/timing.jsonl") != OK)
         goto done;
     /* The writer breaks lines between members only: texts hold none. */
     for (size_t i = 0; i + 1 < t.size; i++)
         if (t.data[i] == '\n')
             t.data[i] = ' ';
-    file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    file = open(path.text, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (file < 0 || write(file, t.data, t.size) != (ssize_t)t.size)
-        log_note("%s: %s", path, strerror(errno));
+        log_note("%s: %s", path.text, strerror(errno));
 done:
     if (file >= 0)
         close(file);

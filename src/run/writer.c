@@ -49,11 +49,11 @@ static status put_beside(const char *root, const char *name, enum folder_file ki
                          struct vdb_bytes *file, struct manifest *manifest)
 {
     status st = OK;
-    char path[4096], folder[4096];
-    TRY(folder_path(path, root, name, kind, frame, NULL));
-    snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(path, '/') - path), path);
-    TRY(folder_make(folder));
-    TRY(put(root, path, file, manifest));
+    struct path path, folder;
+    TRY(folder_path(&path, root, name, kind, frame, NULL));
+    TRY(path_folder(&folder, path.text));
+    TRY(folder_make(folder.text));
+    TRY(put(root, path.text, file, manifest));
 done:
     return st;
 }
@@ -62,18 +62,18 @@ static status put_points(const struct job *job, uint64_t job_hash, const char *r
                          const struct frame *frame, struct vdb_options *options, struct manifest *manifest)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct vdb_bytes file = {0};
     if (options->points != VDB_POINTS_NONE) {
         options->identity = identity(job_hash, frame->number, FILE_POINTS);
         TRY(vdb_points(&frame->rock, options, &file));
-        TRY(folder_path(path, root, job->name, FILE_POINTS, frame->number, NULL));
-        TRY(put(root, path, &file, manifest));
+        TRY(folder_path(&path, root, job->name, FILE_POINTS, frame->number, NULL));
+        TRY(put(root, path.text, &file, manifest));
     }
     if (job->output.usd.points != USD_POINTS_NONE) {
         TRY(usd_points(&frame->rock, options, job->fps, &file));
-        TRY(folder_path(path, root, job->name, FILE_USD, frame->number, NULL));
-        TRY(put(root, path, &file, manifest));
+        TRY(folder_path(&path, root, job->name, FILE_USD, frame->number, NULL));
+        TRY(put(root, path.text, &file, manifest));
     }
 done:
     free(file.bytes);
@@ -84,7 +84,7 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
                        struct manifest *manifest)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct vdb_bytes file = {0};
     size_t n_layers = palette_size(job);
     float(*color)[3] = NULL;
@@ -108,8 +108,8 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         goto done;
     options.identity = identity(job_hash, frame->number, FILE_VOLUMES);
     TRY(vdb_volumes(&frame->grids, &options, &file));
-    TRY(folder_path(path, root, job->name, FILE_VOLUMES, frame->number, NULL));
-    TRY(put(root, path, &file, manifest));
+    TRY(folder_path(&path, root, job->name, FILE_VOLUMES, frame->number, NULL));
+    TRY(put(root, path.text, &file, manifest));
     if (frame->rocks.wanted) {
         options.identity = identity(job_hash, frame->number, FILE_ROCKS);
         options.instances = true;
@@ -131,7 +131,7 @@ static status put_images(const struct job *job, uint64_t job_hash, const char *r
                          const struct frame *frame, struct manifest *manifest)
 {
     status st = OK;
-    char path[4096];
+    struct path path;
     struct vdb_bytes file = {0};
     struct exr_options options = {.layout = job->output.aov.layout,
                                   .fps = job->fps,
@@ -143,9 +143,9 @@ static status put_images(const struct job *job, uint64_t job_hash, const char *r
                                   .wedge = job->wedge.label};
     for (size_t i = 0; i < frame->n_images; i++) {
         TRY(exr_encode(&frame->image[i], &options, &file.bytes, &file.size));
-        TRY(folder_path(path, root, job->name, FILE_AOV, frame->number,
+        TRY(folder_path(&path, root, job->name, FILE_AOV, frame->number,
                         frame->n_images > 1 ? frame->image[i].camera : NULL));
-        TRY(put(root, path, &file, manifest));
+        TRY(put(root, path.text, &file, manifest));
     }
 done:
     free(file.bytes);

@@ -184,7 +184,7 @@ static void every_value_is_shown(void **state)
     for (int seed = 0; seed < JOBS; seed++) {
         struct sample s;
         struct farm_graph g = {0};
-        struct farm f = {.root = "/x", .hoodoo = "hoodoo"};
+        struct farm f = {.root = {"/x"}, .hoodoo = {"hoodoo"}};
         struct farm_command *c;
         assert_ok(memory_alloc(1, sizeof *c, "a command", &c));
         make_sample(seed, &s);
@@ -354,7 +354,7 @@ static void tasks_are_done_when_their_files_are_there_and_new(void **state)
     struct farm f = {.base = &job, .wedge = &wedge, .n_wedges = 1};
     char root[] = "farm-done-XXXXXX";
     assert_non_null(mkdtemp(root));
-    snprintf(f.root, sizeof f.root, "%s", root);
+    assert_ok(path_format(&f.root, "%s", root));
     assert_ok(graph_make(&wedge, 1, &f.graph));
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         put_file(root, "volumes/sample.0007.vdb", 1000);
@@ -474,15 +474,15 @@ static void paths_stay_single_words_of_a_command(void **state)
         make_sample(3, &s);
         f.wedge = s.wedge;
         f.n_wedges = s.n;
-        snprintf(f.root, sizeof f.root, "/x/%s", hostile[i]);
-        snprintf(f.hoodoo, sizeof f.hoodoo, "/bin/%s", hostile[i]);
+        snprintf(f.root.text, sizeof f.root.text, "/x/%s", hostile[i]);
+        snprintf(f.hoodoo.text, sizeof f.hoodoo.text, "/bin/%s", hostile[i]);
         assert_ok(graph_make(s.wedge, s.n, &f.graph));
         for (size_t k = 0; k < f.graph.n; k++) {
             bool root = false;
             assert_ok(farm_command(&f, &f.graph.task[k], hostile[i], 2, c));
-            assert_string_equal(c->argv[0], f.hoodoo);
+            assert_string_equal(c->argv[0], f.hoodoo.text);
             for (size_t word = 1; word < c->n; word++) {
-                root |= strncmp(c->argv[word], f.root, strlen(f.root)) == 0;
+                root |= strncmp(c->argv[word], f.root.text, strlen(f.root.text)) == 0;
                 /* No word but an option of ours begins with a dash. */
                 if (c->argv[word][0] == '-')
                     assert_memory_equal(c->argv[word], "--", 2);

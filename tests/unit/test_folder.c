@@ -42,15 +42,25 @@ static void paths_are_those_of_the_design(void **state)
                  {FILE_STILL, -12, "stress", "out/arch/preview/arch.stress.-0012.png"},
                  {FILE_SHEET, -12, NULL, "out/arch/arch.contact.png"},
                  {FILE_VIDEO, 7, "stress", "out/arch/arch.stress.turntable.mp4"}};
-    char path[4096], longest[5000];
+    struct path path;
+    char longest[5000];
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         assert_int_equal(
-            folder_path(path, "out/arch", "arch", paths[i].kind, paths[i].frame, paths[i].camera), OK);
-        assert_string_equal(path, paths[i].path);
+            folder_path(&path, "out/arch", "arch", paths[i].kind, paths[i].frame, paths[i].camera), OK);
+        assert_string_equal(path.text, paths[i].path);
     }
     memset(longest, 'a', sizeof longest);
     longest[4090] = '\0';
-    assert_int_equal(folder_path(path, longest, "arch", FILE_AOV, 1, NULL), E_OUTPUT);
+    assert_int_equal(folder_path(&path, longest, "arch", FILE_AOV, 1, NULL), E_OUTPUT);
+    assert_string_equal(path.text, "");
+    assert_int_equal(folder_room(longest), E_OUTPUT);
+    assert_int_equal(folder_prepare(longest), E_OUTPUT);
+    longest[3583] = '\0';
+    assert_int_equal(folder_room(longest), OK);
+    assert_int_equal(folder_view(&path, "arch", "stress", -12, 7), OK);
+    assert_string_equal(path.text, "turntable/arch.stress.-0012.007.png");
+    assert_int_equal(folder_views(&path, "arch", NULL, -12), OK);
+    assert_string_equal(path.text, "turntable/arch.-0012.%03d.png");
 }
 
 /* A frame of two files in `root`, and its manifest. */
@@ -69,11 +79,11 @@ static void make_frame(const char *root, int frame, struct manifest *m)
                            .stress_iterations = 77,
                            .ledger = {1000, 700, 100, 50, 150}};
     for (int k = 0; k < 2; k++) {
-        char path[4096];
-        assert_int_equal(folder_path(path, root, "arch", k ? FILE_VOLUMES : FILE_POINTS, frame, NULL), OK);
-        assert_int_equal(atomic_file_write(path, content[k], strlen(content[k])), OK);
-        snprintf(m->file[k].path, sizeof m->file[k].path, "%s", path + strlen(root) + 1);
-        assert_int_equal(hash_file(path, &m->file[k].hash, &m->file[k].size), OK);
+        struct path path;
+        assert_int_equal(folder_path(&path, root, "arch", k ? FILE_VOLUMES : FILE_POINTS, frame, NULL), OK);
+        assert_int_equal(atomic_file_write(path.text, content[k], strlen(content[k])), OK);
+        snprintf(m->file[k].path, sizeof m->file[k].path, "%s", path.text + strlen(root) + 1);
+        assert_int_equal(hash_file(path.text, &m->file[k].hash, &m->file[k].size), OK);
     }
     assert_int_equal(manifest_write(root, "arch", m), OK);
 }
