@@ -119,27 +119,49 @@ done:
     return st;
 }
 
+/* What gets uploaded to the arrays of that name. */
+static status take_array(const struct checkpoint *from, const struct flow_array *array, const void **data)
+{
+    status st = OK;
+    size_t stride = gpu_buffer_item(array->buffer) / 4;
+    struct idset ids = {0};
+    struct section_rule rule = {
+        array->name, array->words ? SECTION_WORD : SECTION_FLOAT, array->n * stride, stride, {{0}}};
+    memcpy(rule.range, array->range, sizeof rule.range);
+    TRY(section_take(from, &rule, data, NULL));
+    if (strcmp(array->name, "air id") == 0)
+        TRY(section_check_ids(from, array->name, *data, array->n, UINT64_MAX, &ids));
+done:
+    idset_free(&ids);
+    return st;
+}
+
 status air_restore(struct gpu *gpu, struct wind *wind, const struct checkpoint *from)
 {
     status st = OK;
-    const struct checkpoint_section *s = checkpoint_find(from, "air box", 8);
+    const struct section_rule its_box = {"air box", SECTION_DOUBLE, AIR_BOX, 1, {{0, SECTION_COUNT_MAX}}};
     double box[AIR_BOX];
+    const void *data = NULL;
     air_box(&wind->flow, box);
-    if (!s || s->n != AIR_BOX || memcmp(s->data, box, sizeof box) != 0) {
+    if (checkpoint_find(from, "air box", 8))
+        TRY(section_take(from, &its_box, &data, NULL));
+    if (!data || memcmp(data, box, sizeof box) != 0) {
         log_info("frame %d: the checkpoint has no air of this size: it begins anew", from->frame);
         return OK;
     }
     struct flow *air = &wind->flow;
     struct flow_array array[FLOW_ARRAYS];
-    TRY(section_find(from, "air", 8, sizeof air->state / 8, &s));
-    memcpy(&air->state, s->data, sizeof air->state);
+    /* Its members are checked by flow_check(). */
+    TRY(section_take(from,
+                     &(struct section_rule){"air", SECTION_INTEGER, sizeof air->state / 8, 1, {SECTION_ALL}},
+                     &data, NULL));
+    memcpy(&air->state, data, sizeof air->state);
     TRY(flow_check(air));
     flow_arrays(air, array);
     for (int i = 0; i < FLOW_ARRAYS; i++) {
-        if (array[i].n == 0)
-            continue;
-        TRY(section_find(from, array[i].name, 4, array[i].n * gpu_buffer_item(array[i].buffer) / 4, &s));
-        TRY(gpu_upload(gpu, array[i].buffer, 0, s->data, array[i].n));
+        TRY(take_array(from, &array[i], &data));
+        if (array[i].n)
+            TRY(gpu_upload(gpu, array[i].buffer, 0, data, array[i].n));
     }
     flow_restore(gpu, air);
 done:

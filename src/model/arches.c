@@ -230,11 +230,34 @@ static status restore(struct model *m, const struct checkpoint *c)
 {
     status st = OK;
     struct arches *t = of(m);
-    const struct checkpoint_section *counts, *layers;
-    TRY(section_find(c, "stack counts", 4, stack_count(t), &counts));
-    TRY(section_find(c, "stack layers", 4, 0, &layers));
-    if (stacks_unpack(&t->stacks, counts->data, layers->data, layers->n) != OK)
-        st = fail(E_CHECKPOINT, "the checkpoint of frame %d holds damaged stacks", c->frame);
+    const struct ledger told = m->ledger;
+    const void *counts, *layers;
+    size_t n;
+    TRY(section_take(c,
+                     &(struct section_rule){"stack counts", SECTION_WORD, stack_count(t), 1, {SECTION_ALL}},
+                     &counts, NULL));
+    TRY(section_take(c, &(struct section_rule){"stack layers", SECTION_WORD, SECTION_ANY, 1, {SECTION_ALL}},
+                     &layers, &n));
+    for (size_t i = 0; i < n; i++) {
+        uint32_t material = layer_material(((const uint32_t *)layers)[i]);
+        if (material >= (uint32_t)t->n_materials)
+            return section_refuse(c, "stack layers", i, "is of material %u, and this job has %d",
+                                  (unsigned)material, t->n_materials);
+    }
+    st = stacks_unpack(&t->stacks, counts, layers, n);
+    if (st == E_INPUT)
+        st = fail(E_CHECKPOINT,
+                  "the checkpoint of frame %d is damaged: sections 'stack counts' and 'stack layers': %s",
+                  c->frame, status_message());
+    TRY(st);
+    terrain_ledger(&t->stacks, t->table, t->n_materials, &m->ledger.rock, &m->ledger.deposit);
+    if (memcmp(&told, &m->ledger, sizeof told) != 0)
+        st = fail(E_CHECKPOINT,
+                  "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock and %llu "
+                  "deposited, and "
+                  "the stacks have %llu and %llu",
+                  c->frame, (unsigned long long)told.rock, (unsigned long long)told.deposit,
+                  (unsigned long long)m->ledger.rock, (unsigned long long)m->ledger.deposit);
 done:
     return st;
 }

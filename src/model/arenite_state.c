@@ -1,6 +1,7 @@
 /* How arenite's state begins, and what lasts of it in checkpoints. */
 #include "model/arenite.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -95,38 +96,89 @@ done:
     return st;
 }
 
-/* The STATE fields, borrowed from the checkpoint: they are not to be freed. */
-static status restore_rock(const struct checkpoint *c, struct rock *rock)
+/* What a field can be. Those that are not here can be any finite number. */
+static void set_range(const struct model *m, int f, struct section_rule *rule)
+{
+    static const double factor = 1e12; /* paints multiply, and may do so often */
+    static const double known[ROCK_FIELDS][2] = {
+        [ROCK_id] = {0, UINT32_MAX},           [ROCK_viability] = {0, 1},
+        [ROCK_phase] = {0, PHASE_FALLING},     [ROCK_rate_factor] = {0, factor},
+        [ROCK_interlock_factor] = {0, factor}, [ROCK_vegetation] = {0, 1}};
+    const double layers[2] = {0, (double)m->job->n_strata - 1},
+                 finite[2] = {-(double)FLT_MAX, (double)FLT_MAX};
+    const double *range = f == ROCK_layer ? layers : known[f][1] > 0 ? known[f] : finite;
+    for (size_t a = 0; a < rule->stride; a++)
+        memcpy(rule->range[a], range, sizeof finite);
+    if (f == ROCK_P)
+        section_place(rule->range, m->voxels, m->h);
+}
+
+/* The ledger counts particles that there are, and ids are of particles that there were at some time. */
+static status check_rock(const struct model *m, const struct checkpoint *c, const struct rock *rock,
+                         struct idset *ids)
 {
     status st = OK;
-    const struct checkpoint_section *s;
-    TRY(section_find(c, "id", 4, 0, &s));
-    rock->n = s->n;
-    for (int f = 0; f < ROCK_FIELDS; f++) {
-        const struct rock_field_info *info = &rock_field_table[f];
-        if (info->keep != STATE)
-            continue;
-        TRY(section_find(c, info->name, 4, rock->n * (size_t)info->components, &s));
-        rock->field[f] = s->data;
-    }
+    const struct ledger *l = &m->ledger;
+    size_t falling = 0;
+    for (size_t i = 0; i < rock->n; i++)
+        falling += rock->phase[i] == PHASE_FALLING;
+    if (l->rock + l->deposit + falling != rock->n || l->fallen < falling)
+        return fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock, %llu deposited and "
+            "%llu fallen, and there are %zu particles, %zu of them falling",
+            c->frame, (unsigned long long)l->rock, (unsigned long long)l->deposit,
+            (unsigned long long)l->fallen, rock->n, falling);
+    TRY(section_check_ids(c, "id", rock->id, rock->n, l->start, ids));
 done:
     return st;
 }
+
+/* The STATE fields, borrowed from the checkpoint: they are not to be freed. `ids` becomes the particles'. */
+static status restore_rock(const struct model *m, const struct checkpoint *c, struct rock *rock,
+                           struct idset *ids)
+{
+    status st = OK;
+    const struct checkpoint_section *id = checkpoint_find(c, "id", 4);
+    rock->n = id ? id->n : 0;
+    for (int f = 0; f < ROCK_FIELDS; f++) {
+        const struct rock_field_info *info = &rock_field_table[f];
+        const size_t stride = (size_t)info->components;
+        struct section_rule rule = {
+            info->name, info->is_float ? SECTION_FLOAT : SECTION_WORD, stride * rock->n, stride, {{0}}};
+        const void *data;
+        if (info->keep != STATE)
+            continue;
+        set_range(m, f, &rule);
+        TRY(section_take(c, &rule, &data, NULL));
+        rock->field[f] = (void *)(uintptr_t)data;
+    }
+    TRY(check_rock(m, c, rock, ids));
+done:
+    return st;
+}
+
+/* Beyond, numbers mean nothing. */
+enum { MOST_ITERATIONS = 1000000000, MOST_MOVED = 1000000000 /* m */ };
 
 /* The displacement is a solution unless a branch has changed what it depends on. */
 static status restore_stress(struct arenite *a, const struct checkpoint *c, bool *solved)
 {
     status st = OK;
-    const struct checkpoint_section *s;
     const size_t nodes = elastic_nodes(&a->elastic);
+    const struct section_rule
+        constants = {"elasticity", SECTION_DOUBLE, ELASTICITY, 1, {{0, SECTION_COUNT_MAX}}},
+        number = {"iterations", SECTION_WORD, 1, 1, {{0, MOST_ITERATIONS}}},
+        moved = {"displacement", SECTION_FLOAT, 4 * nodes, 1, {{-MOST_MOVED, MOST_MOVED}}};
+    const void *data;
     double now[ELASTICITY];
     elasticity(a, now);
-    TRY(section_find(c, "elasticity", 8, ELASTICITY, &s));
-    *solved = memcmp(s->data, now, sizeof now) == 0;
-    TRY(section_find(c, "iterations", 4, 1, &s));
-    memcpy(&a->elastic.iterations, s->data, 4);
-    TRY(section_find(c, "displacement", 4, 4 * nodes, &s));
-    TRY(gpu_upload(a->m.gpu, a->elastic.u, 0, s->data, nodes));
+    TRY(section_take(c, &constants, &data, NULL));
+    *solved = memcmp(data, now, sizeof now) == 0;
+    TRY(section_take(c, &number, &data, NULL));
+    memcpy(&a->elastic.iterations, data, 4);
+    TRY(section_take(c, &moved, &data, NULL));
+    TRY(gpu_upload(a->m.gpu, a->elastic.u, 0, data, nodes));
 done:
     return st;
 }
@@ -136,23 +188,25 @@ status arenite_restore(struct model *m, const struct checkpoint *c)
     status st = OK;
     struct arenite *a = arenite_of(m);
     struct rock rock = {0};
-    const struct checkpoint_section *s;
+    struct idset ids = {0};
+    const void *data;
     bool solved;
-    TRY(restore_rock(c, &rock));
+    TRY(restore_rock(m, c, &rock, &ids));
     TRY(restore_stress(a, c, &solved));
-    TRY(section_find(c, "processes", 8, 2, &s));
-    a->deposits |= ((const double *)s->data)[0] != 0;
-    a->plants |= ((const double *)s->data)[1] != 0;
+    TRY(section_take(c, &(struct section_rule){"processes", SECTION_DOUBLE, 2, 1, {{0, 1}}}, &data, NULL));
+    a->deposits |= ((const double *)data)[0] != 0;
+    a->plants |= ((const double *)data)[1] != 0;
     if (a->wind.flows)
         TRY(air_restore(m->gpu, &a->wind, c));
     TRY(arenite_create_particles(a, &rock));
     /* A shot may begin where years have passed. */
     if (a->collapse.shot && checkpoint_find(c, mpm_word_names[MPM_ID], 4))
-        TRY(collapse_restore(m->gpu, &a->collapse, &a->particles, c));
+        TRY(collapse_restore(m->gpu, &a->collapse, &a->particles, c, &ids));
     else if (a->collapse.shot)
         TRY(collapse_load(m->gpu, &a->collapse, &a->particles));
     TRY(arrive(a, solved));
 done:
+    idset_free(&ids);
     return st;
 }
 

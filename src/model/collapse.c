@@ -1,5 +1,6 @@
 #include "model/collapse.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -158,25 +159,90 @@ done:
     return st;
 }
 
+/* No rock moves faster, spins or is strained more, or is stronger: beyond, numbers mean nothing. */
+static const double SPEED = 1e4, SPIN = 1e9, STRAIN = 1e4, STRENGTH = 1e15;
+
+/* Four ranges of a vector whose last is another's component. */
+static void set_ranges(struct section_rule *rule, double most, double last)
+{
+    for (int a = 0; a < 4; a++) {
+        rule->range[a][1] = a < 3 ? most : last;
+        rule->range[a][0] = -rule->range[a][1];
+    }
+}
+
+static status take_vector(const struct checkpoint *from, const struct particles *p, int v, const void **data)
+{
+    struct section_rule rule = {mpm_vector_names[v], SECTION_FLOAT, 4 * p->n, 4, {{0}}};
+    bool strain = v == MPM_STRETCH_X || v == MPM_STRETCH_Y;
+    set_ranges(&rule, strain ? STRAIN : v == MPM_VELOCITY ? SPEED : SPIN, strain ? STRAIN : SPIN);
+    if (v == MPM_PLACE) {
+        section_place(rule.range, p->voxels, p->h);
+        rule.range[3][1] = STRAIN;
+        rule.range[3][0] = -STRAIN;
+    }
+    return section_take(from, &rule, data, NULL);
+}
+
+static status take_word(const struct checkpoint *from, const struct particles *p, int w, const void **data)
+{
+    static const struct {
+        enum section_kind kind;
+        double range[2];
+    } known[MPM_ORIGIN] = {
+        [MPM_SHARE] = {SECTION_FLOAT, {FLT_TRUE_MIN, 1}}, /* what nothing is left of is taken out before */
+        [MPM_APART] = {SECTION_FLOAT, {(double)MPM_WHOLE, SPIN}},
+        [MPM_STRENGTH] = {SECTION_FLOAT, {0, STRENGTH}},
+        [MPM_ID] = {SECTION_WORD, SECTION_ALL},
+        [MPM_PIECE] = {SECTION_WORD, SECTION_ALL},
+        [MPM_JOINT] = {SECTION_WORD, SECTION_ALL},
+    };
+    struct section_rule rule = {
+        mpm_word_names[w], known[w].kind, p->n, 1, {{known[w].range[0], known[w].range[1]}}};
+    return section_take(from, &rule, data, NULL);
+}
+
+/* A point for each particle, by id; and pieces and joints as this job has them. */
+static status check_points(const struct checkpoint *from, const struct mpm *m, struct idset *ids,
+                           const void *const word[MPM_ORIGIN])
+{
+    const uint32_t *id = word[MPM_ID], *piece = word[MPM_PIECE], *joint = word[MPM_JOINT];
+    for (size_t i = 0; i < m->n; i++) {
+        if (!idset_take(ids, id[i]))
+            return section_refuse(from, mpm_word_names[MPM_ID], i,
+                                  "is %u, which no particle or another point is", (unsigned)id[i]);
+        if (!mpm_piece_fits(m, piece[i]))
+            return section_refuse(from, mpm_word_names[MPM_PIECE], i,
+                                  "is %u: this job's collapse.joints_m makes no such piece",
+                                  (unsigned)piece[i]);
+        if (!mpm_joint_fits(m, piece[i], joint[i]))
+            return section_refuse(from, mpm_word_names[MPM_JOINT], i,
+                                  "is %u: with this job's collapse.joints_m, piece %u has no such joint",
+                                  (unsigned)joint[i], (unsigned)piece[i]);
+    }
+    return OK;
+}
+
 status collapse_restore(struct gpu *gpu, struct collapse *c, struct particles *p,
-                        const struct checkpoint *from)
+                        const struct checkpoint *from, struct idset *ids)
 {
     status st = OK;
     struct mpm *m = &c->mpm;
-    const struct checkpoint_section *s;
-    TRY(section_find(from, mpm_word_names[MPM_ID], 4, p->n, &s));
+    const void *data, *word[MPM_ORIGIN];
     m->n = p->n;
     p->moving = true;
     for (int v = 0; v < MPM_VECTORS; v++) {
-        TRY(section_find(from, mpm_vector_names[v], 4, 4 * m->n, &s));
-        TRY(gpu_upload(gpu, m->vector[v], 0, s->data, m->n));
+        TRY(take_vector(from, p, v, &data));
+        TRY(gpu_upload(gpu, m->vector[v], 0, data, m->n));
     }
-    for (int w = 0; w < MPM_ORIGIN; w++) {
-        TRY(section_find(from, mpm_word_names[w], 4, m->n, &s));
-        TRY(gpu_upload(gpu, m->word[w], 0, s->data, m->n));
-    }
-    TRY(section_find(from, "mpm fastest", 8, 1, &s));
-    m->fastest = *(const double *)s->data;
+    for (int w = 0; w < MPM_ORIGIN; w++)
+        TRY(take_word(from, p, w, &word[w]));
+    TRY(check_points(from, m, ids, word));
+    for (int w = 0; w < MPM_ORIGIN; w++)
+        TRY(gpu_upload(gpu, m->word[w], 0, word[w], m->n));
+    TRY(section_take(from, &(struct section_rule){"mpm fastest", SECTION_DOUBLE, 1, 1, {{0, 2 * SPEED}}},
+                     &data, NULL));
+    m->fastest = *(const double *)data;
     mpm_follow(gpu, m, p, c->table);
     mpm_store(gpu, m, p, true);
 done:

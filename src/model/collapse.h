@@ -3,6 +3,7 @@
 #ifndef HOODOO_COLLAPSE_H
 #define HOODOO_COLLAPSE_H
 
+#include "base/idset.h"
 #include "blocks/blocks.h"
 #include "checkpoint/checkpoint.h"
 #include "job/job.h"
@@ -49,9 +50,9 @@ MUST_USE status collapse_count(struct gpu *gpu, const struct particles *p, struc
 MUST_USE status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *c, struct blocks *b,
                                 struct particles *p, struct ledger *ledger);
 
-/* The shot's state, as sections of a checkpoint. */
+/* The shot's state, as sections of a checkpoint. `ids` are those of p's particles, and are taken out of the set. */
 MUST_USE status collapse_save(struct gpu *gpu, const struct collapse *c, struct checkpoint *out);
 MUST_USE status collapse_restore(struct gpu *gpu, struct collapse *c, struct particles *p,
-                                 const struct checkpoint *from);
+                                 const struct checkpoint *from, struct idset *ids);
 
 #endif

@@ -192,13 +192,35 @@ done:
     return st;
 }
 
+enum { HALF_MAX = 65504 }; /* factors are kept as halves */
+
+/* Voxels with something left of them. */
+static size_t count(const float *share, size_t n)
+{
+    size_t sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += share[i] > VOXELS_SLIVER;
+    return sum;
+}
+
 static status restore(struct model *m, const struct checkpoint *c)
 {
     status st = OK;
-    const struct checkpoint_section *share, *factor;
-    TRY(section_find(c, "voxels", 4, voxel_count(m->voxels), &share));
-    TRY(section_find(c, "factors", 4, voxel_count(m->voxels), &factor));
-    TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share->data, factor->data, &of(m)->voxels));
+    const size_t n = voxel_count(m->voxels);
+    size_t n_rock;
+    const void *share, *factor;
+    TRY(section_take(c, &(struct section_rule){"voxels", SECTION_FLOAT, n, 1, {{0, 1}}}, &share, NULL));
+    TRY(section_take(c, &(struct section_rule){"factors", SECTION_FLOAT, n, 1, {{0, HALF_MAX}}}, &factor,
+                     NULL));
+    /* Frames have as many particles as the ledger has rock. */
+    n_rock = count(share, n);
+    if (m->ledger.rock != n_rock || m->ledger.deposit != 0)
+        return fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu voxels of rock and %llu "
+            "deposited, and section 'voxels' has %zu",
+            c->frame, (unsigned long long)m->ledger.rock, (unsigned long long)m->ledger.deposit, n_rock);
+    TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &of(m)->voxels));
 done:
     return st;
 }
@@ -213,9 +235,7 @@ static status begin(struct model *m)
     TRY(memory_alloc(n, sizeof *factor, "voxels", &factor));
     TRY(scene_grid(m->job, m->job->goblins.floats, share, factor));
     TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &g->voxels));
-    for (size_t i = 0; i < n; i++)
-        m->ledger.start += share[i] > 0;
-    m->ledger.rock = m->ledger.start;
+    m->ledger.start = m->ledger.rock = count(share, n);
     TRY(remove_unsupported(g));
     model_warn_unheld(m, "voxels");
     TRY(voxels_download(m->gpu, &g->voxels, share, NULL));

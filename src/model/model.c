@@ -56,16 +56,18 @@ done:
 static status restore_counts(struct model *m, const struct checkpoint *c)
 {
     status st = OK;
-    const struct checkpoint_section *s;
+    const struct section_rule volume = {"start volume", SECTION_DOUBLE, 1, 1, {{0, SECTION_COUNT_MAX}}};
+    const struct section_rule change = {
+        "change", SECTION_INTEGER, BUDGET_ROWS, 1, {{-SECTION_COUNT_MAX, SECTION_COUNT_MAX}}};
+    const void *data;
     TRY(section_check_domain(c, m->job));
-    TRY(section_find(c, "ledger", 8, sizeof m->ledger / 8, &s));
-    memcpy(&m->ledger, s->data, sizeof m->ledger);
+    TRY(section_take_ledger(c, &m->ledger));
     if (m->type->n_processes == 0)
         return OK;
-    TRY(section_find(c, "start volume", 8, 1, &s));
-    memcpy(&m->start_volume, s->data, sizeof m->start_volume);
-    TRY(section_find(c, "change", 8, BUDGET_ROWS, &s));
-    memcpy(m->change, s->data, sizeof m->change);
+    TRY(section_take(c, &volume, &data, NULL));
+    memcpy(&m->start_volume, data, sizeof m->start_volume);
+    TRY(section_take(c, &change, &data, NULL));
+    memcpy(m->change, data, sizeof m->change);
 done:
     return st;
 }

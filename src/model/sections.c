@@ -1,5 +1,7 @@
 #include "model/sections.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -19,14 +21,132 @@ status section_add(struct checkpoint *c, const char *name, size_t item, size_t n
     return st;
 }
 
-status section_find(const struct checkpoint *c, const char *name, size_t item, size_t n,
-                    const struct checkpoint_section **out)
+/* ---- checks */
+
+status section_refuse(const struct checkpoint *c, const char *section, size_t i, const char *format, ...)
 {
-    *out = checkpoint_find(c, name, item);
-    if (!*out || (n && (*out)->n != n))
-        return fail(E_CHECKPOINT, "the checkpoint of frame %d has no usable section '%s'", c->frame, name);
+    char what[512];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(what, sizeof what, format, args);
+    va_end(args);
+    return fail(E_CHECKPOINT, "the checkpoint of frame %d is damaged: section '%s': item %zu %s", c->frame,
+                section, i, what);
+}
+
+/* The first item out of its range; n if there is none. Whether a range holds is asked so that NaN is in none. */
+#define FIRST_WRONG(type)                                                                                    \
+    static size_t first_wrong_##type(const type *item, size_t n, const struct section_rule *r)               \
+    {                                                                                                        \
+        for (size_t i = 0; i < n; i += r->stride)                                                            \
+            for (size_t k = 0; k < r->stride; k++)                                                           \
+                if (!((double)item[i + k] >= r->range[k][0] && (double)item[i + k] <= r->range[k][1]))       \
+                    return i + k;                                                                            \
+        return n;                                                                                            \
+    }
+FIRST_WRONG(float)
+FIRST_WRONG(uint32_t)
+FIRST_WRONG(double)
+FIRST_WRONG(int64_t)
+
+static size_t first_wrong(const struct checkpoint_section *s, const struct section_rule *r)
+{
+    switch (r->kind) {
+    case SECTION_FLOAT:
+        return first_wrong_float(s->data, s->n, r);
+    case SECTION_WORD:
+        return first_wrong_uint32_t(s->data, s->n, r);
+    case SECTION_DOUBLE:
+        return first_wrong_double(s->data, s->n, r);
+    default:
+        return first_wrong_int64_t(s->data, s->n, r);
+    }
+}
+
+static double value_of(const struct checkpoint_section *s, enum section_kind kind, size_t i)
+{
+    switch (kind) {
+    case SECTION_FLOAT:
+        return (double)((const float *)s->data)[i];
+    case SECTION_WORD:
+        return ((const uint32_t *)s->data)[i];
+    case SECTION_DOUBLE:
+        return ((const double *)s->data)[i];
+    default:
+        return (double)((const int64_t *)s->data)[i];
+    }
+}
+
+status section_take(const struct checkpoint *c, const struct section_rule *rule, const void **data, size_t *n)
+{
+    const size_t item = rule->kind == SECTION_FLOAT || rule->kind == SECTION_WORD ? 4 : 8;
+    const struct checkpoint_section *s = checkpoint_find(c, rule->name, item);
+    const bool any = rule->n == SECTION_ANY;
+    if (!s)
+        return fail(E_CHECKPOINT, "the checkpoint of frame %d has no section '%s' of items of %zu bytes",
+                    c->frame, rule->name, item);
+    if (any ? s->n % rule->stride != 0 : s->n != rule->n)
+        return fail(E_CHECKPOINT, "the checkpoint of frame %d is damaged: section '%s' has %zu items, %s %zu",
+                    c->frame, rule->name, s->n, any ? "no multiple of" : "and not",
+                    any ? rule->stride : rule->n);
+    size_t i = first_wrong(s, rule);
+    if (i < s->n) {
+        const double *range = rule->range[i % rule->stride];
+        return section_refuse(c, rule->name, i, "is %.9g, and may be %.9g to %.9g",
+                              value_of(s, rule->kind, i), range[0], range[1]);
+    }
+    *data = s->data;
+    if (n)
+        *n = s->n;
     return OK;
 }
+
+void section_place(double range[4][2], const int voxels[3], double h)
+{
+    for (int a = 0; a < 4; a++) {
+        range[a][0] = a < 3 ? -h : 0;
+        range[a][1] = a < 3 ? (voxels[a] + 1) * h : 0;
+    }
+}
+
+status section_check_ids(const struct checkpoint *c, const char *section, const uint32_t *id, size_t n,
+                         uint64_t bound, struct idset *ids)
+{
+    status st = OK;
+    for (size_t i = 0; i < n; i++) {
+        bool added;
+        if (id[i] >= bound)
+            return section_refuse(c, section, i, "is %u, and all are below %llu", (unsigned)id[i],
+                                  (unsigned long long)bound);
+        TRY(idset_add(ids, id[i], &added));
+        if (!added)
+            return section_refuse(c, section, i, "is %u, as another is", (unsigned)id[i]);
+    }
+done:
+    return st;
+}
+
+status section_take_ledger(const struct checkpoint *c, struct ledger *out)
+{
+    status st = OK;
+    const struct section_rule rule = {
+        "ledger", SECTION_INTEGER, sizeof *out / 8, 1, {{0, SECTION_COUNT_MAX}}};
+    const void *data;
+    TRY(section_take(c, &rule, &data, NULL));
+    memcpy(out, data, sizeof *out);
+    if (out->start != out->rock + out->deposit + out->fallen + out->left)
+        st = fail(E_CHECKPOINT,
+                  "the checkpoint of frame %d is damaged: section 'ledger': %llu at the start are not %llu "
+                  "of rock, "
+                  "%llu deposited, %llu fallen and %llu that left",
+                  c->frame, (unsigned long long)out->start, (unsigned long long)out->rock,
+                  (unsigned long long)out->deposit, (unsigned long long)out->fallen,
+                  (unsigned long long)out->left);
+done:
+    return st;
+}
+
+/* ---- what every model has */
 
 enum { DOMAIN_MODEL, DOMAIN_VOXELS, DOMAIN_SPACING = DOMAIN_VOXELS + 3, DOMAIN_STRATA, DOMAIN_NUMBERS };
 
@@ -57,11 +177,12 @@ done:
 status section_check_domain(const struct checkpoint *c, const struct job *job)
 {
     status st = OK;
-    const struct checkpoint_section *s;
+    const struct section_rule rule = {"domain", SECTION_DOUBLE, DOMAIN_NUMBERS, 1, {{0, SECTION_COUNT_MAX}}};
+    const void *data;
     double here[DOMAIN_NUMBERS];
-    TRY(section_find(c, "domain", 8, DOMAIN_NUMBERS, &s));
+    TRY(section_take(c, &rule, &data, NULL));
     TRY(domain_numbers(job, here));
-    const double *there = s->data;
+    const double *there = data;
     if (there[DOMAIN_MODEL] != here[DOMAIN_MODEL])
         return fail(E_CHECKPOINT, "the checkpoint of frame %d is of another model than the job's", c->frame);
     if (memcmp(there + DOMAIN_VOXELS, here + DOMAIN_VOXELS, 4 * sizeof *here) != 0)

@@ -23,6 +23,8 @@
 #ifndef HOODOO_MPM_H
 #define HOODOO_MPM_H
 
+#include <stdbool.h>
+
 #include "gpu/gpu.h"
 #include "gpu/primitives.h"
 #include "particles/particles.h"
@@ -134,6 +136,11 @@ MUST_USE status mpm_settle(struct gpu *gpu, struct mpm *m, struct particles *p, 
 /* After p was indexed: where each point's particle is now, by id. All ids are below n_ids; `table` is scratch of
  * n_ids words. */
 void mpm_follow(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_buffer *table);
+
+/* Can a point be of that piece (MPM_PIECE), as these options part the rock; and can one of that piece be on that joint
+ * (MPM_JOINT)? */
+bool mpm_piece_fits(const struct mpm *m, uint32_t piece);
+bool mpm_joint_fits(const struct mpm *m, uint32_t piece, uint32_t joint);
 
 /* Static equilibrium of p by kinetic damping: motion stops whenever its energy has passed a peak, until the
  * energy of a peak is below tolerance^2 of the elastic energy. Fills p's stress and von_mises. *steps and *error

@@ -101,6 +101,23 @@ static uint32_t beyond(const int n[3], uint32_t joint)
     return (uint32_t)((int)(joint / MPM_JOINTS) + (z * n[1] + y) * n[0] + x);
 }
 
+bool mpm_piece_fits(const struct mpm *m, uint32_t piece)
+{
+    size_t n = count(m->pieces.n);
+    return piece >= 1 && piece <= (n > 0 ? n : 1);
+}
+
+bool mpm_joint_fits(const struct mpm *m, uint32_t piece, uint32_t joint)
+{
+    const struct mpm_pieces *s = &m->pieces;
+    uint32_t n = (uint32_t)count(s->n), j = joint & ~MPM_PARTED;
+    if (joint == MPM_NO_JOINT)
+        return true;
+    if (j >= n * MPM_JOINTS || beyond(s->n, j) >= n)
+        return false;
+    return piece - 1 == j / MPM_JOINTS || piece - 1 == beyond(s->n, j);
+}
+
 status mpm_pieces_look(struct gpu *gpu, struct mpm *m)
 {
     status st = OK;

@@ -12,6 +12,8 @@
 #ifndef HOODOO_FLOW_H
 #define HOODOO_FLOW_H
 
+#include <stdbool.h>
+
 #include "gpu/gpu.h"
 #include "gpu/primitives.h"
 #include "job/job.h"
@@ -80,11 +82,13 @@ MUST_USE status flow_run(struct gpu *gpu, struct flow *f, struct particles *p, c
 /* Steps that carry the wind once through the box. */
 int flow_flush(const struct flow *f, const double direction[2]);
 
-/* The state as arrays, in host memory: one at a time, n items of `item` bytes (4 or 16). */
+/* The state as arrays, in host memory: one at a time, n items of the buffer's size. */
 struct flow_array {
     const char *name;
     struct gpu_buffer *buffer;
     size_t n;
+    bool words;         /* uint, else float */
+    double range[4][2]; /* least and most of each component that air can have: far beyond what it does have */
 };
 enum { FLOW_ARRAYS = 7 };
 void flow_arrays(const struct flow *f, struct flow_array out[FLOW_ARRAYS]);

@@ -119,14 +119,28 @@ void flow_destroy(struct gpu *gpu, struct flow *f)
 
 void flow_arrays(const struct flow *f, struct flow_array out[FLOW_ARRAYS])
 {
+    const double speed = 1e3, pressure = 1e9, most = UINT32_MAX;
+    const size_t n = f->state.n, box = box_count(f);
+#define BESIDE(a)                                                                                            \
+    {                                                                                                        \
+        -MARGIN, f->box[a] + MARGIN                                                                          \
+    }
+#define ALIKE(x)                                                                                             \
+    {                                                                                                        \
+        -(x), (x)                                                                                            \
+    }
     const struct flow_array arrays[FLOW_ARRAYS] = {
-        {"air position", f->position[0], f->state.n},
-        {"air velocity", f->velocity[0], f->state.n},
-        {"air density pressure", f->density_pressure[0], f->state.n},
-        {"air divergence pressure", f->divergence_pressure[0], f->state.n},
-        {"air id", f->id[0], f->state.n},
-        {"air surface", f->surface, box_count(f)},
-        {"air sums", f->sums, box_count(f)},
+        {"air position", f->position[0], n, false, {BESIDE(0), BESIDE(1), BESIDE(2), ALIKE(speed)}},
+        {"air velocity",
+         f->velocity[0],
+         n,
+         false,
+         {ALIKE(speed), ALIKE(speed), ALIKE(speed), {(double)FLOW_AIR, (double)FLOW_GROUND}}},
+        {"air density pressure", f->density_pressure[0], n, false, {ALIKE(pressure)}},
+        {"air divergence pressure", f->divergence_pressure[0], n, false, {ALIKE(pressure)}},
+        {"air id", f->id[0], n, true, {{0, most}}},
+        {"air surface", f->surface, box, true, {{0, 1}}},
+        {"air sums", f->sums, box, false, {ALIKE(speed), ALIKE(speed), ALIKE(speed), ALIKE(speed)}},
     };
     memcpy(out, arrays, sizeof arrays);
 }
@@ -138,7 +152,7 @@ status flow_check(const struct flow *f)
     bool fits = s->n <= f->slots && s->next_id < FLOW_GROUND_ID && s->weight >= 0 && s->weight <= 1;
     for (int a = 0; a < 2; a++)
         fits = fits && s->offset[a] >= 0 && s->offset[a] <= 1;
-    if (!fits || !(s->steps == 0 || fabs(length - 1) < 1e-6))
+    if (!fits || !(s->steps == 0 ? length < 2 : fabs(length - 1) < 1e-6))
         return fail(E_CHECKPOINT, "the checkpoint's air (%u particles) does not fit this job's (%zu at most)",
                     (unsigned)s->n, f->slots);
     return OK;
