@@ -33,6 +33,7 @@ sources() {
     # shellcheck disable=SC2086,SC2090 # lists of flags
     git ls-files 'src/*.c' 'render/*.c' 'farm/*.c' | each "$@" $flags $warnings $version -fsyntax-only
 }
+[ -n "$(git ls-files 'src/*.c')" ] || { echo "not ok git lists the files"; exit 1; }
 rule "gcc warns of nothing" sources gcc -fopenmp
 rule "clang warns of nothing" sources clang -Wno-unknown-pragmas
 
