@@ -49,7 +49,7 @@ SMALL = ("--resolution", "64x36", "--preset", "draft", "--progress", "none")
 with open("neg.yaml", "w") as f:
     f.write(JOB)
 with open("wedges.yaml", "w") as f:
-    f.write(JOB.replace("turntable: 3", "turntable: 0").replace("show: [stress], ", "") + "wedge: {over: [{seed: [1, 2]}]}\n")
+    f.write(JOB.replace("turntable: 3", "turntable: 0").replace("show: [stress], ", "") + "wedge: {over: [{key: seed, values: [1, 2]}]}\n")
 
 # The run, and the verbs that read it.
 works("run", "run", "neg.yaml", "--out", "o", "--progress", "none", "--frames", "-12--10")

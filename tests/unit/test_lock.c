@@ -301,11 +301,11 @@ static void make(const char *path)
 static void temporaries_of_another_container_are_not_swept(void **state)
 {
     (void)state;
-    char ours[200];
+    struct path ours;
     int how;
     assert_int_equal(mkdir("swept", 0777), 0);
-    assert_ok(atomic_file_temporary("swept/a", ours, sizeof ours));
-    make(ours);
+    assert_ok(atomic_file_temporary("swept/a", "", &ours));
+    make(ours.text);
     pid_t pid = fork();
     if (pid == 0) {
         if (unshare(CLONE_NEWPID) != 0)
@@ -313,13 +313,13 @@ static void temporaries_of_another_container_are_not_swept(void **state)
         pid_t inner = fork();
         if (inner == 0) {
             atomic_file_sweep("swept");
-            _exit(there(ours) ? 0 : 1);
+            _exit(there(ours.text) ? 0 : 1);
         }
         _exit(waitpid(inner, &how, 0) == inner && WIFEXITED(how) ? WEXITSTATUS(how) : 2);
     }
     assert_int_equal(waitpid(pid, &how, 0), pid);
     assert_true(WIFEXITED(how));
-    unlink(ours);
+    unlink(ours.text);
     if (WEXITSTATUS(how) == 77)
         skip();
     assert_int_equal(WEXITSTATUS(how), 0);
@@ -328,27 +328,27 @@ static void temporaries_of_another_container_are_not_swept(void **state)
 static void temporaries_of_killed_processes_are_swept(void **state)
 {
     (void)state;
-    enum { PATH = 200 };
-    char *theirs = mmap(NULL, PATH, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    struct path *theirs =
+        mmap(NULL, sizeof *theirs, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     assert_ptr_not_equal(theirs, MAP_FAILED);
     assert_int_equal(mkdir("dead", 0777), 0);
     pid_t pid = fork();
     if (pid == 0) {
-        if (atomic_file_temporary("dead/a", theirs, PATH) != OK)
+        if (atomic_file_temporary("dead/a", "", theirs) != OK)
             _exit(1);
-        make(theirs);
+        make(theirs->text);
         for (;;)
             pause();
     }
-    for (int i = 0; i < 1000 && !(*theirs && there(theirs)); i++)
+    for (int i = 0; i < 1000 && !(*theirs->text && there(theirs->text)); i++)
         usleep(2000);
-    assert_true(there(theirs));
+    assert_true(there(theirs->text));
     atomic_file_sweep("dead");
-    assert_true(there(theirs)); /* it lives */
+    assert_true(there(theirs->text)); /* it lives */
     end(pid);
     atomic_file_sweep("dead");
-    assert_false(there(theirs));
-    munmap(theirs, PATH);
+    assert_false(there(theirs->text));
+    munmap(theirs, sizeof *theirs);
 }
 
 /* Many at once on a lock that was left behind, again and again: never two inside. */
