@@ -327,7 +327,8 @@ static void kernels_agree_with_plain_sums(void **state)
     flow_arrays(&f, array);
     float *x = array_copy(&t, &array[0]), *v = array_copy(&t, &array[1]),
           *pressure = array_copy(&t, &array[3]);
-    struct flow_array more[3] = {{"", f.of_step, n}, {"", f.crowd, n}, {"", f.viscous, n}};
+    struct flow_array more[3] = {
+        {.buffer = f.of_step, .n = n}, {.buffer = f.crowd, .n = n}, {.buffer = f.viscous, .n = n}};
     float *of_step = array_copy(&t, &more[0]), *crowd = array_copy(&t, &more[1]),
           *viscous = array_copy(&t, &more[2]);
 
@@ -335,7 +336,7 @@ static void kernels_agree_with_plain_sums(void **state)
     struct flow_params k = {.n = (uint)n, .slots = (uint)f.slots, .dt = 0.2f, .full = 0};
     GPU_RUN(t.gpu, wind_flow_push, n, k, f.of_step, f.list, f.position[0], f.divergence_pressure[0], f.push);
     GPU_RUN(t.gpu, wind_flow_relax, n, k, f.of_step, f.list, f.position[0], f.push, f.divergence_pressure[0]);
-    struct flow_array pushed = {"", f.push, n};
+    struct flow_array pushed = {.buffer = f.push, .n = n};
     float *push = array_copy(&t, &pushed), *relaxed = array_copy(&t, &array[3]);
 
     struct wind_ref_particle *p = calloc(n, sizeof *p);
