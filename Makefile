@@ -14,7 +14,7 @@ ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += --jobs=$(shell nproc)
 endif
 
-VERSION = 0.1.0
+VERSION = 0.2.0
 BUILD = build
 SHARE = $(BUILD)
 CC = gcc
