@@ -11,23 +11,24 @@ struct room room_free(const struct gpu *gpu)
     return (struct room){.device = gpu_memory_free(gpu), .host = memory_available()};
 }
 
-/* What a process comes to hold after its device is opened, while jobs of nearly no rock ran on Mesa 22.3's lavapipe:
- * 42 to 56 MB for 23 to 80 kernels, most of it the compiler's own code. */
-static const uint64_t COMPILED = 50000000;
+/* What a process comes to hold after its device is opened, beside its job's own: OpenVDB, 32 MB, and on Mesa 22.3's
+ * lavapipe the compiler's code and what it made. Jobs of little rock took 60 MB in all with 28 kernels and 69 MB with
+ * a model of 40; the largest models have 80. */
+static const uint64_t LATER = 75000000;
 
-/* And before: the same, with OpenVDB and all drivers that a Debian 12 has. */
-static const uint64_t PROGRAM = 187000000;
+/* And before: the program, the loader and the drivers that a Debian 12 has, as `hoodoo devices` opens them. */
+static const uint64_t BEFORE = 68000000;
 
 uint64_t room_process(const struct gpu *gpu)
 {
-    return (gpu ? memory_resident() : PROGRAM) + COMPILED;
+    return (gpu ? memory_resident() : BEFORE) + LATER;
 }
 
 struct room room_needed(const struct gpu *gpu, const struct model_estimate *e)
 {
     if (gpu_info(gpu)->is_cpu)
-        return (struct room){.host = e->device_bytes + e->host_bytes + COMPILED};
-    return (struct room){.device = e->device_bytes, .host = e->host_bytes + COMPILED};
+        return (struct room){.host = e->device_bytes + e->host_bytes + LATER};
+    return (struct room){.device = e->device_bytes, .host = e->host_bytes + LATER};
 }
 
 bool room_enough(struct room there, struct room needed)
