@@ -158,7 +158,7 @@ static status read_mesh(const struct preview *p, int frame, struct vdb_mesh *mes
     }
     if (p->show != SHOW_ROCK)
         return vdb_mesh_read(full.text, 0, &value, 1, 0, mesh);
-    double adaptivity = p->job->model == MODEL_ARCHES ? 0 : ADAPTIVITY;
+    double adaptivity = job_model(p->job)->terrain ? 0 : ADAPTIVITY;
     TRY(vdb_mesh_read(full.text, adaptivity, scene_values, SCENE_VALUES, SCENE_VALUES, mesh));
 done:
     return st;

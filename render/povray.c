@@ -105,7 +105,7 @@ static void add_strata(struct text *out, const struct scene *s)
 
 static bool is_terrain(const struct scene *s)
 {
-    return s->job->model == MODEL_ARCHES;
+    return job_model(s->job)->terrain;
 }
 
 /* terrain.inc's textures: quarters of sand, then of the axes. */

@@ -78,7 +78,7 @@ static void add_ledger(const struct report *r, const struct columns *c, struct t
     struct text svg = {0};
     bool exact = true;
     int last = 0;
-    const char *what = r->job->model == MODEL_GOBLINS ? "voxels" : "particles";
+    const char *what = job_model(r->job)->samples;
     for (size_t i = 0; i < r->n_frames; i++)
         if (!r->frame[i].damaged) {
             l = &r->frame[i].manifest.ledger;
@@ -128,7 +128,7 @@ static void add_stress(const struct report *r, struct text *t)
     }
     /* Other models weather alike under any load. */
     const double ends[] = {least, most};
-    for (size_t i = 0; r->job->model == MODEL_ARENITE && i < (most > least ? 2 : 1); i++)
+    for (size_t i = 0; job_model(r->job)->interlocks && i < (most > least ? 2 : 1); i++)
         if (ends[i] > s->low && ends[i] < s->high) {
             mark[n_marks].x = ends[i];
             snprintf(mark[n_marks].name, sizeof mark[n_marks].name, "%s at %.30s MPa",
@@ -156,7 +156,7 @@ static void add_words(const struct report *r, struct text *t)
     const struct report_stress *s = &r->stress;
     PAGE_ROW(t, "stress", "frame", phrase("%d", s->frame).text, "n", phrase_number((double)s->n).text, "what",
              s->what, "low", phrase_number(s->low).text, "high", phrase_number(s->high).text, "interlocks",
-             r->job->model == MODEL_ARENITE ? "yes" : "");
+             job_model(r->job)->interlocks ? "yes" : "");
 }
 
 /* Linear to sRGB, as #rrggbb. */

@@ -1,4 +1,5 @@
 /* What the report's page says of a run: its head, its troubles and its pictures. */
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -98,6 +99,8 @@ static void add_tile(struct text *t, const char *name, struct phrase value, stru
 
 static void add_last_tiles(const struct report *r, const struct manifest *m, struct text *t)
 {
+    struct phrase samples = phrase("%s", job_model(r->job)->samples);
+    samples.text[0] = (char)toupper((unsigned char)samples.text[0]);
     add_tile(t, "Weathered for", phrase_age(m->years), phrase("at frame %d", m->frame));
     if (m->start_volume_m3 > 0)
         add_tile(t, "Rock left", phrase("%.1f %%", 100 * m->volume_m3 / m->start_volume_m3),
@@ -105,8 +108,7 @@ static void add_last_tiles(const struct report *r, const struct manifest *m, str
     if (m->max_stress_Pa > 0)
         add_tile(t, "Greatest stress", phrase("%s MPa", phrase_number(m->max_stress_Pa / 1e6).text),
                  phrase("compression"));
-    add_tile(t, r->job->model == MODEL_GOBLINS ? "Voxels" : "Particles",
-             phrase_number((double)m->ledger.start),
+    add_tile(t, samples.text, phrase_number((double)m->ledger.start),
              phrase("at the start, every %s m", phrase_number(r->job->domain.spacing_m).text));
 }
 

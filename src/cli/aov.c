@@ -78,7 +78,7 @@ static status load(struct shot *s, int frame, struct loaded *l)
     }
     TRY(particles_create(s->gpu, s->work, &l->rock, DERIVED, s->voxels, s->job->domain.spacing_m,
                          &l->particles));
-    if (s->job->model == MODEL_ARENITE)
+    if (job_model(s->job)->wind)
         TRY(air_upload(s->gpu, &l->grids, job_at(s->job, frame), frame, &l->air));
 done:
     return st;

@@ -75,7 +75,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
         (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));
     json_object(t, NULL);
     json_text(t, "name", f->base->name);
-    json_text(t, "model", model_name(job));
+    json_text(t, "model", job_model(job)->name);
     json_text(t, "frames", range_text(job->frames, frames));
     json_integer(t, "frame_count", (int64_t)n_frames);
     json_number(t, "years", job_years(job, job->frames.first, job->frames.last));

@@ -26,7 +26,7 @@ enum { BEDROCK = 6, ROCK, SAND, WATER, VALUES = sizeof values / sizeof *values, 
 
 static size_t value_count(const struct job *job)
 {
-    return job->model == MODEL_ARCHES ? VALUES : BEDROCK;
+    return job_model(job)->terrain ? VALUES : BEDROCK;
 }
 
 /* ---- layers and colours */
@@ -51,7 +51,7 @@ static status set_labels(void *user, const float (*vertex)[3], size_t n, uint32_
 static void color_of(const struct job *job, const struct vdb_mesh *m, size_t i, float rgb[3])
 {
     palette_color(job, m->label[i], rgb);
-    if (job->model != MODEL_ARCHES)
+    if (!job_model(job)->terrain)
         return;
     double height = (double)m->vertex[3 * i + 2], rest = 1, sum[3] = {0};
     const size_t color[] = {job_layer_at(job, height), job->n_strata + 1, job->n_strata, job->n_strata + 2};

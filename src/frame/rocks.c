@@ -41,8 +41,8 @@ done:
 
 uint32_t rocks_layer(const struct job *job)
 {
-    return (uint32_t)(job->model == MODEL_ARCHES ? job->n_strata + MATERIAL_ROCK - MATERIAL_SAND
-                                                 : job->n_strata - 1);
+    return (uint32_t)(job_model(job)->terrain ? job->n_strata + MATERIAL_ROCK - MATERIAL_SAND
+                                              : job->n_strata - 1);
 }
 
 /* The corners of every shape. */

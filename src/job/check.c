@@ -281,9 +281,9 @@ static status check_clock(const struct yaml *root, const struct job *job)
     if (c->seconds_per_frame == 0 && !(c->years_per_frame >= 1e-3))
         return yaml_fail(place(map, "years_per_frame"), NULL, "%g, and no seconds_per_frame: no time passes",
                          c->years_per_frame);
-    if (c->seconds_per_frame > 0 && job->model != MODEL_ARENITE)
-        return yaml_fail(place(map, "seconds_per_frame"), NULL,
-                         "only the model arenite has shots in real time");
+    if (c->seconds_per_frame > 0 && !job_model(job)->seconds)
+        return yaml_fail(place(map, "seconds_per_frame"), NULL, "model: %s has no shots in real time",
+                         job_model(job)->name);
     return OK;
 }
 
@@ -305,8 +305,8 @@ static status check_edits(const struct yaml *root, const struct job *job)
     for (size_t i = 0; i < job->n_edits; i++) {
         const struct job_edit *e = &job->edits[i];
         const struct yaml *item = yaml_item(list, i);
-        if (job->model != MODEL_ARENITE)
-            return yaml_fail(list, NULL, "only model: arenite has edits");
+        if (!job_model(job)->edits)
+            return yaml_fail(list, NULL, "model: %s has no edits", job_model(job)->name);
         if (i && e->frame < e[-1].frame)
             return yaml_fail(place(item, "frame"), NULL,
                              "frame %lld is before the edit above it, of frame %lld", (long long)e->frame,

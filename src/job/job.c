@@ -116,10 +116,19 @@ const struct job *job_at(const struct job *job, int frame)
     return now;
 }
 
+const struct job_model *job_model(const struct job *job)
+{
+#define MODEL(constant, word, ...) [MODEL_##constant] = {.name = #word, __VA_ARGS__},
+    static const struct job_model models[] = {JOB_MODELS(MODEL)};
+#undef MODEL
+    return &models[job->model];
+}
+
 const struct job_piles *job_piles(const struct job *job)
 {
-    const struct job_piles *p = job->model == MODEL_ARCHES ? &job->arches.piles : &job->deposition.piles;
-    return job->model != MODEL_GOBLINS && p->rock_m > 0 ? p : NULL;
+    const size_t offset = job_model(job)->piles;
+    const struct job_piles *p = (const void *)((const char *)job + offset);
+    return offset && p->rock_m > 0 ? p : NULL;
 }
 
 bool job_marks(const struct job *job, int frame)

@@ -174,6 +174,19 @@ MUST_USE status job_resolved(const struct job *job, struct text *out);
 /* The job as it is in a frame: with what the edits up to it set. Lives as long as `job`. */
 const struct job *job_at(const struct job *job, int frame);
 
+/* What differs between models beside what they compute: a row of JOB_MODELS in keys.def. */
+struct job_model {
+    const char *name;
+    const char *samples; /* what its rock is counted in: "particles" */
+    size_t piles; /* offset in struct job of the struct job_piles that its rocks come from; 0: it has none */
+    bool seconds; /* it can run in real time: clock.seconds_per_frame */
+    bool edits;   /* rock and parameters can be edited on the way */
+    bool wind;    /* its pictures show wind */
+    bool interlocks; /* stress above a layer's threshold slows its weathering */
+    bool terrain;    /* it has materials besides the strata, and frames show their shares */
+};
+const struct job_model *job_model(const struct job *job);
+
 /* The rocks that frames show: of arches.piles, or lying on deposits of deposition.piles, as the job begins.
  * NULL: none. */
 const struct job_piles *job_piles(const struct job *job);

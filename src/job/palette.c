@@ -22,7 +22,7 @@ static bool is_own(const char *name)
 size_t palette_size(const struct job *job)
 {
     size_t n = job->n_strata;
-    if (job->model != MODEL_ARCHES)
+    if (!job_model(job)->terrain)
         return n;
     n += OWN;
     for (size_t i = 0; i < job->arches.n_materials; i++)

@@ -321,7 +321,6 @@ static status estimate(const struct job *job, struct model_needs *needs)
 }
 
 const struct model_type arches_type = {
-    .name = "arches",
     .size = sizeof(struct arches),
     .estimate = estimate,
     .work_items = work_items,

@@ -373,7 +373,6 @@ static const uint32_t processes[] = {BUDGET_EDITS,      BUDGET_DEFLATION, BUDGET
                                      BUDGET_DEPOSITION, BUDGET_BLOCKS,    BUDGET_COLLAPSE};
 
 const struct model_type arenite_type = {
-    .name = "arenite",
     .size = sizeof(struct arenite),
     .processes = processes,
     .n_processes = sizeof processes / sizeof *processes,

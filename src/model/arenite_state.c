@@ -229,7 +229,7 @@ status arenite_begin(struct model *m)
     else
         TRY(arenite_unsupported(a));
     if (!a->blocks.rubble)
-        model_warn_unheld(m, "particles");
+        model_warn_unheld(m);
     rock_free(&rock);
     TRY(particles_download(m->gpu, &a->particles, STATE, &rock));
     m->start_volume = model_sum(rock.viability, rock.n) * pow(m->h, 3);

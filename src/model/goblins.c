@@ -237,7 +237,7 @@ static status begin(struct model *m)
     TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &g->voxels));
     m->ledger.start = m->ledger.rock = count(share, n);
     TRY(remove_unsupported(g));
-    model_warn_unheld(m, "voxels");
+    model_warn_unheld(m);
     TRY(voxels_download(m->gpu, &g->voxels, share, NULL));
     m->start_volume = volume_of(m, share);
 done:
@@ -310,7 +310,6 @@ done:
 }
 
 const struct model_type goblins_type = {
-    .name = "goblins",
     .size = sizeof(struct goblins),
     .processes = (const uint32_t[]){BUDGET_WEATHERING, BUDGET_BLOCKS},
     .n_processes = 2,

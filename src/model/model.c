@@ -11,18 +11,16 @@
 #include "particles/particles.h"
 #include "scene/scene.h"
 
-extern const struct model_type arenite_type, goblins_type, arches_type;
+#define MODEL(constant, word, ...) extern const struct model_type word##_type;
+JOB_MODELS(MODEL)
+#undef MODEL
 
 static const struct model_type *type_of(const struct job *job)
 {
-    /* In the order of the key `model`. */
-    static const struct model_type *const types[] = {&arenite_type, &goblins_type, &arches_type};
+#define MODEL(constant, word, ...) [MODEL_##constant] = &word##_type,
+    static const struct model_type *const types[] = {JOB_MODELS(MODEL)};
+#undef MODEL
     return types[job->model];
-}
-
-const char *model_name(const struct job *job)
-{
-    return type_of(job)->name;
 }
 
 /* ---- what a job takes */
@@ -205,9 +203,10 @@ void model_weigh(struct model *m, uint32_t process, bool after, struct gpu_buffe
     budget_sum(m->gpu, &m->budget, process, after, left, n);
 }
 
-void model_warn_unheld(const struct model *m, const char *what)
+void model_warn_unheld(const struct model *m)
 {
     if (m->ledger.fallen)
         log_warn("frame %d: %llu of %llu %s have no face path to the ground and were taken out", m->frame,
-                 (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start, what);
+                 (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start,
+                 job_model(m->job)->samples);
 }

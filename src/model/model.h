@@ -25,9 +25,6 @@ struct model_estimate {
     double steps; /* of erosion and equilibrium, over all frames */
 };
 
-/* Of the job's: "arenite". */
-const char *model_name(const struct job *job);
-
 /* E_USAGE, E_INPUT: the scene is wrong, or a file of it. */
 MUST_USE status model_estimate(const struct job *job, struct model_estimate *out);
 

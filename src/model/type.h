@@ -44,7 +44,6 @@ struct model_needs {
 };
 
 struct model_type {
-    const char *name;
     size_t size; /* of its struct */
 
     /* The rows of the budget that its frames report, BUDGET_*. A model without any counts in its ledger alone: its
@@ -85,8 +84,8 @@ double model_sum(const float *left, size_t n);
 /* Enters all that the rock has, before and after a process, into the frame's budget. */
 void model_weigh(struct model *m, uint32_t process, bool after, struct gpu_buffer *left, size_t n);
 
-/* Says in the first frame what was taken out because nothing holds it; `what`: "particles". */
-void model_warn_unheld(const struct model *m, const char *what);
+/* Says in the first frame how much was taken out because nothing holds it. */
+void model_warn_unheld(const struct model *m);
 
 /* The ledger; and for a model with processes, start volume and changes. */
 MUST_USE status sections_add_counts(struct checkpoint *c, const struct model *m);

@@ -203,7 +203,7 @@ static const struct {
      "1]}}]}\n",
      {"paint.0.image.file: a file name is wanted"}},
     {"  - {frame: 1010, set: {wind.speed_m_s: 3}}\nmodel: goblins\n",
-     {"job.yaml:8:3: edits: only model: arenite has edits"}},
+     {"job.yaml:8:3: edits: model: goblins has no edits"}},
     {"  - {frame: 1010, set: {wind.speed_m_s: 3}}\nsources: [{bed_m: 1}]\n",
      {"sources.0.bed_m: a bed along path_m"}},
     {"  []\ncheckpoint: {mark: 1040}\n", {"checkpoint.mark: a number, but a list of frames is wanted"}},
