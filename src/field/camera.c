@@ -3,21 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
+#include "base/vector.h"
 
 static void normalize(double v[3])
 {
-    double length = sqrt(dot(v, v));
+    double length = sqrt(dot3(v, v));
     for (int i = 0; i < 3; i++)
         v[i] /= length > 0 ? length : 1;
 }
@@ -32,9 +22,9 @@ static struct camera look(const double eye[3], const double target[3], double fi
     }
     normalize(c.ahead);
     /* Straight up or down, the picture's top is north. */
-    cross(c.ahead, fabs(c.ahead[2]) > 1 - 1e-9 ? north : up, c.right);
+    cross3(c.ahead, fabs(c.ahead[2]) > 1 - 1e-9 ? north : up, c.right);
     normalize(c.right);
-    cross(c.ahead, c.right, c.down);
+    cross3(c.ahead, c.right, c.down);
     for (int i = 0; i < 3; i++) {
         c.right[i] *= film;
         c.down[i] *= film * height / width;
@@ -84,17 +74,17 @@ struct camera camera_overscan(struct camera c, const int margin[2])
 bool camera_project(const struct camera *c, const double x[3], double px[2])
 {
     const double d[3] = {x[0] - c->eye[0], x[1] - c->eye[1], x[2] - c->eye[2]};
-    double depth = dot(d, c->ahead);
+    double depth = dot3(d, c->ahead);
     if (depth <= 0)
         return false;
-    px[0] = 0.5 * c->width * (1 + dot(d, c->right) / dot(c->right, c->right) / depth);
-    px[1] = 0.5 * c->height * (1 + dot(d, c->down) / dot(c->down, c->down) / depth);
+    px[0] = 0.5 * c->width * (1 + dot3(d, c->right) / dot3(c->right, c->right) / depth);
+    px[1] = 0.5 * c->height * (1 + dot3(d, c->down) / dot3(c->down, c->down) / depth);
     return true;
 }
 
 void camera_matrices(const struct camera *c, int up, double world_to_camera[16], double world_to_ndc[16])
 {
-    double half_width = sqrt(dot(c->right, c->right)), half_height = sqrt(dot(c->down, c->down));
+    double half_width = sqrt(dot3(c->right, c->right)), half_height = sqrt(dot3(c->down, c->down));
     const double *axis[3] = {c->right, c->down, c->ahead};
     const double scale[3] = {1 / half_width, -1 / half_height, 1}; /* y is up in camera space */
     double m[16] = {0};
@@ -106,7 +96,7 @@ void camera_matrices(const struct camera *c, int up, double world_to_camera[16],
         double rows[3] = {a[0], up == OUTPUT_UP_Y ? a[2] : a[1], up == OUTPUT_UP_Y ? -a[1] : a[2]};
         for (int row = 0; row < 3; row++)
             m[4 * row + column] = rows[row];
-        m[12 + column] = -dot(c->eye, a);
+        m[12 + column] = -dot3(c->eye, a);
     }
     m[15] = 1;
     memcpy(world_to_camera, m, sizeof m);

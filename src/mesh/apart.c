@@ -3,26 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
+
 /* Doubt, as a share of the triangles' size: above the rounding of what is computed here. */
 static const double DOUBT = 1e-9;
-
-double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-void minus3(const double a[3], const double b[3], double out[3])
-{
-    for (int d = 0; d < 3; d++)
-        out[d] = a[d] - b[d];
-}
-
-void cross3(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
 
 static double largest(const double (*v)[3], int n)
 {

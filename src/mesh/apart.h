@@ -7,10 +7,6 @@
 /* The first `shared` corners of both are the same (0 to 3). */
 bool triangles_apart(const double a[3][3], const double b[3][3], int shared);
 
-double dot3(const double a[3], const double b[3]);
-void minus3(const double a[3], const double b[3], double out[3]);
-void cross3(const double a[3], const double b[3], double out[3]);
-
 /* The square of p's distance to the triangle. */
 double triangle_distance2(const double p[3], const double t[3][3]);
 

@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "mesh/apart.h"
 #include "mesh/near.h"
 

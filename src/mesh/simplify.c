@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "mesh/apart.h"
 #include "mesh/near.h"
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "mesh/apart.h"
 #include "mesh/near.h"
 

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/vector.h"
 #include "piles/piles.h"
 
 /* Share of the tile that spheres fill: random placing gets to 0.38 and no further. */
@@ -26,11 +27,6 @@ struct cell {
     size_t n;
     struct plane plane[PLANES];
 };
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 static double chance(uint32_t seed, uint32_t a, uint32_t b, uint32_t what)
 {
@@ -66,7 +62,7 @@ static void scatter(struct pile_tile *t, const struct pile_options *o)
             at[k] = t->side * chance(o->seed, trial, k, 3);
         for (size_t i = 0; i < t->n && clear; i++) {
             shortest(t, at, t->rock[i].center, d);
-            clear = dot(d, d) >= 4 * o->radius * o->radius;
+            clear = dot3(d, d) >= 4 * o->radius * o->radius;
         }
         if (clear)
             memcpy(t->rock[t->n++].center, at, sizeof at);
@@ -96,7 +92,7 @@ static status find_cell(const struct pile_tile *t, size_t i, struct cell *c)
             const int offset[3] = {image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1};
             for (int k = 0; k < 3; k++)
                 p.shift[k] = t->rock[j].center[k] - t->rock[i].center[k] + offset[k] * t->side;
-            double length = sqrt(dot(p.shift, p.shift));
+            double length = sqrt(dot3(p.shift, p.shift));
             if (!(length > 0))
                 continue;
             for (int k = 0; k < 3; k++)
@@ -118,7 +114,7 @@ static double depth_at(const struct cell *c, const double p[3], size_t except)
     double depth = HUGE_VAL;
     for (size_t k = 0; k < c->n; k++)
         if (k != except)
-            depth = fmin(depth, c->plane[k].d - dot(c->plane[k].n, p));
+            depth = fmin(depth, c->plane[k].d - dot3(c->plane[k].n, p));
     return depth;
 }
 
@@ -139,7 +135,7 @@ static size_t same_face(const struct cell *beyond, size_t i, const struct plane 
     for (size_t k = 0; k < beyond->n; k++) {
         const struct plane *p = &beyond->plane[k];
         const double d[3] = {p->shift[0] + f->shift[0], p->shift[1] + f->shift[1], p->shift[2] + f->shift[2]};
-        if (p->other == i && dot(d, d) < 1e-12 * dot(f->shift, f->shift))
+        if (p->other == i && dot3(d, d) < 1e-12 * dot3(f->shift, f->shift))
             return k;
     }
     return SIZE_MAX;
@@ -155,7 +151,7 @@ static bool point_on_face(const struct cell *cell, size_t i, size_t face, double
     for (uint32_t trial = 0; trial < CONTACT_TRIALS; trial++, size *= 0.9) {
         double away[3];
         direction(seed, what, trial, away);
-        double length = size * sqrt(chance(seed, what, trial, 4)), out_of = dot(away, f->n);
+        double length = size * sqrt(chance(seed, what, trial, 4)), out_of = dot3(away, f->n);
         for (int k = 0; k < 3; k++)
             out[k] = f->d * f->n[k] + length * (away[k] - out_of * f->n[k]);
         const double there[3] = {out[0] - f->shift[0], out[1] - f->shift[1], out[2] - f->shift[2]};
@@ -217,7 +213,7 @@ static double inside(const struct worn *w, const double p[3])
     double width = ROUNDING * w->radius, depth = 4 * w->radius, resistance = 0;
     double own[PLANES], rounded = 0;
     for (size_t k = 0; k < w->cell->n; k++) {
-        own[k] = w->cell->plane[k].d - dot(w->cell->plane[k].n, p);
+        own[k] = w->cell->plane[k].d - dot3(w->cell->plane[k].n, p);
         depth = fmin(depth, own[k]);
     }
     /* Each face that is nearly as near rounds the edge it makes; the nearest itself counts as one, too much. */
@@ -228,11 +224,11 @@ static double inside(const struct worn *w, const double p[3])
     depth -= 0.25 * width * (rounded - 1);
     for (size_t k = 0; k < w->rock->n_contacts; k++) {
         const double *c = w->rock->contact[k].at, d[3] = {p[0] - c[0], p[1] - c[1], p[2] - c[2]};
-        resistance = fmax(resistance, exp(-dot(d, d) / (w->radius * w->radius)));
+        resistance = fmax(resistance, exp(-dot3(d, d) / (w->radius * w->radius)));
     }
     double worn = depth - w->erosion * w->radius * (1 - resistance);
     for (size_t k = 0; k < w->n_chips; k++)
-        worn = smooth_min(worn, w->chip[k].d - dot(w->chip[k].n, p), 0.15 * width);
+        worn = smooth_min(worn, w->chip[k].d - dot3(w->chip[k].n, p), 0.15 * width);
     return worn;
 }
 
@@ -266,7 +262,7 @@ static void chip(struct worn *w, uint32_t seed, uint32_t rock)
         p.d = leave(w, p.n) * (0.70 + 0.22 * chance(seed, rock, 2000 + k, 5));
         bool clear = true;
         for (size_t c = 0; c < w->rock->n_contacts; c++)
-            clear &= p.d - dot(p.n, w->rock->contact[c].at) > 0.06 * w->radius;
+            clear &= p.d - dot3(p.n, w->rock->contact[c].at) > 0.06 * w->radius;
         if (clear)
             w->chip[w->n_chips++] = p;
     }
@@ -279,12 +275,12 @@ static void trim(struct cell *c, const double (*u)[3], size_t n, double radius)
     for (size_t v = 0; v < n; v++) {
         double nearest = HUGE_VAL;
         for (size_t k = 0; k < c->n; k++) {
-            double slope = dot(c->plane[k].n, u[v]);
+            double slope = dot3(c->plane[k].n, u[v]);
             nearest = fmin(nearest, slope > 0 ? c->plane[k].d / slope : HUGE_VAL);
         }
         const double p[3] = {nearest * u[v][0], nearest * u[v][1], nearest * u[v][2]};
         for (size_t k = 0; k < c->n; k++)
-            used[k] |= c->plane[k].d - dot(c->plane[k].n, p) < 2 * ROUNDING * radius;
+            used[k] |= c->plane[k].d - dot3(c->plane[k].n, p) < 2 * ROUNDING * radius;
     }
     size_t kept = 0;
     for (size_t k = 0; k < c->n; k++)
@@ -298,12 +294,12 @@ static void aim(const struct pile_rock *r, const double (*sphere)[3], double (*u
 {
     for (size_t c = 0; c < r->n_contacts; c++) {
         const double *at = r->contact[c].at;
-        double length = sqrt(dot(at, at)), best = -HUGE_VAL;
+        double length = sqrt(dot3(at, at)), best = -HUGE_VAL;
         size_t nearest = 0;
         for (size_t v = 0; v < n; v++)
             /* One that has been turned serves its own contact. */
-            if (dot(u[v], at) > best && memcmp(u[v], sphere[v], sizeof u[v]) == 0) {
-                best = dot(u[v], at);
+            if (dot3(u[v], at) > best && memcmp(u[v], sphere[v], sizeof u[v]) == 0) {
+                best = dot3(u[v], at);
                 nearest = v;
             }
         for (int a = 0; a < 3; a++)
@@ -339,7 +335,7 @@ static status make_mesh(struct pile_tile *t, const struct pile_options *o, size_
             q[1][a] += step;
             normal[a] = inside(&w, q[0]) - inside(&w, q[1]);
         }
-        double length = sqrt(dot(normal, normal));
+        double length = sqrt(dot3(normal, normal));
         for (int a = 0; a < 3; a++)
             r->normal[3 * v + (size_t)a] = (float)(length > 0 ? normal[a] / length : u[v][a]);
     }
@@ -360,7 +356,7 @@ static size_t middle_of(double (*u)[3], size_t *n, uint32_t (*edge)[3], size_t *
     double m[3], length;
     for (int k = 0; k < 3; k++)
         m[k] = u[a][k] + u[b][k];
-    length = sqrt(dot(m, m));
+    length = sqrt(dot3(m, m));
     for (int k = 0; k < 3; k++)
         u[*n][k] = m[k] / length;
     edge[*n_edges][0] = lo;

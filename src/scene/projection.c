@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "scene/image.h"
 
 /* The first rock behind the picture is kept in cells of a spacing, at most this many a side. */
@@ -20,18 +21,13 @@ struct projection {
     float *first; /* [cells]: how far behind the picture rock begins */
 };
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Right, up and away from the picture's corner, m. */
 static void place(const struct projection *p, const double x[3], double out[3])
 {
     const double d[3] = {x[0] - p->corner[0], x[1] - p->corner[1], x[2] - p->corner[2]};
-    out[0] = dot(d, p->right);
-    out[1] = dot(d, p->up);
-    out[2] = dot(d, p->away);
+    out[0] = dot3(d, p->right);
+    out[1] = dot3(d, p->up);
+    out[2] = dot3(d, p->away);
 }
 
 static status check_pixels(const struct projection *p, const char *file)
@@ -50,8 +46,8 @@ status projection_create(const struct job_image *job, double h, struct projectio
     TRY(memory_alloc(1, sizeof *p, "an image", &p));
     TRY(image_read(job->file, &p->width, &p->height, &p->value));
     TRY(check_pixels(p, job->file));
-    p->size[0] = sqrt(dot(job->right_m, job->right_m));
-    p->size[1] = sqrt(dot(job->up_m, job->up_m));
+    p->size[0] = sqrt(dot3(job->right_m, job->right_m));
+    p->size[1] = sqrt(dot3(job->up_m, job->up_m));
     for (int a = 0; a < 3; a++) {
         p->corner[a] = job->corner_m[a];
         p->right[a] = job->right_m[a] / p->size[0];

@@ -5,26 +5,15 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 
 enum { MOST_PIECES = 1 << 20, MOST_LISTED = 1 << 28 };
 
 /* ---- small vectors */
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 static double normalize(double v[3])
 {
-    double length = sqrt(dot(v, v));
+    double length = sqrt(dot3(v, v));
     for (int a = 0; a < 3 && length > 0; a++)
         v[a] /= length;
     return length;
@@ -124,7 +113,7 @@ static double arc_length(const struct graph *g, size_t arc)
     arc_of(g, arc, end);
     const double *a = g->op->points_m[end[0]], *b = g->op->points_m[end[1]];
     const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    return sqrt(dot(d, d));
+    return sqrt(dot3(d, d));
 }
 
 /* Along the arcs, however they are listed: a few passes settle what is listed in any sensible order. */
@@ -201,17 +190,17 @@ static void turn(struct maker *m, struct path_end *e, const double up[3])
 {
     if (!(normalize(e->along) > 0))
         e->along[0] = 1;
-    cross(e->along, up, e->side);
-    double across = sqrt(dot(e->side, e->side));
+    cross3(e->along, up, e->side);
+    double across = sqrt(dot3(e->side, e->side));
     if (across < 0.05)
         memcpy(e->side, m->side, sizeof e->side);
-    double out = dot(e->side, e->along);
+    double out = dot3(e->side, e->along);
     for (int a = 0; a < 3; a++)
         e->side[a] -= out * e->along[a];
     if (!(normalize(e->side) > 0))
-        cross(e->along, (const double[]){0.6, 0.8, 0}, e->side);
+        cross3(e->along, (const double[]){0.6, 0.8, 0}, e->side);
     normalize(e->side);
-    cross(e->side, e->along, e->up);
+    cross3(e->side, e->along, e->up);
     memcpy(m->side, e->side, sizeof e->side);
 }
 
@@ -473,10 +462,10 @@ static double in_capsule(const struct path_piece *piece, const double ax[3], con
                          double *radius)
 {
     const double ab[3] = {ax[0] - bx[0], ax[1] - bx[1], ax[2] - bx[2]};
-    double square = dot(ab, ab), t = square > 0 ? smaller(larger(dot(ax, ab) / square, 0), 1) : 0;
+    double square = dot3(ab, ab), t = square > 0 ? smaller(larger(dot3(ax, ab) / square, 0), 1) : 0;
     const double d[3] = {ax[0] - t * ab[0], ax[1] - t * ab[1], ax[2] - t * ab[2]};
     *radius = mix(piece->end[0].radius, piece->end[1].radius, t);
-    return sqrt(dot(d, d)) - *radius;
+    return sqrt(dot3(d, d)) - *radius;
 }
 
 /* A piece is a prism cut by the planes across its ends: neighbours share theirs, so that they neither overlap
@@ -485,11 +474,11 @@ static double in_prism(const struct path *p, const struct path_piece *piece, con
                        const double bx[3], double nearest, double *radius)
 {
     const struct path_end *a = &piece->end[0], *b = &piece->end[1];
-    double before = -dot(ax, a->along), past = dot(bx, b->along), length = -before - past;
+    double before = -dot3(ax, a->along), past = dot3(bx, b->along), length = -before - past;
     if (larger(before, past) >= nearest)
         return nearest;
     double t = length > 0 ? smaller(larger(-before / length, 0), 1) : 0.5;
-    double x = mix(dot(ax, a->side), dot(bx, b->side), t), y = mix(dot(ax, a->up), dot(bx, b->up), t);
+    double x = mix(dot3(ax, a->side), dot3(bx, b->side), t), y = mix(dot3(ax, a->up), dot3(bx, b->up), t);
     int step = (int)lrint(mix(a->share, b->share, t) * (PROFILE_STEPS - 1));
     *radius = mix(a->radius, b->radius, t);
     double section = *radius * polygon_distance(p->profile[step], x / *radius, y / *radius);

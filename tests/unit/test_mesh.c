@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "mesh/apart.h"
 #include "mesh/trimesh.h"
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "piles/piles.h"
 
 static struct pile_tile make(size_t rocks, uint32_t seed)
@@ -15,11 +16,6 @@ static struct pile_tile make(size_t rocks, uint32_t seed)
         .radius = 0.5, .rocks = rocks, .erosion = 0.25, .contacts = 1, .detail = 3, .seed = seed};
     assert_ok(pile_tile_create(&options, &tile));
     return tile;
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 static void corner(const struct pile_rock *r, uint32_t v, double out[3])
@@ -57,8 +53,8 @@ static void test_spheres_and_periods(void **state)
                 double d[3];
                 for (int a = 0; a < 3; a++)
                     d[a] = t.rock[j].center[a] + off[a] * t.side - t.rock[i].center[a];
-                if (dot(d, d) > 0)
-                    nearest = fmin(nearest, sqrt(dot(d, d)));
+                if (dot3(d, d) > 0)
+                    nearest = fmin(nearest, sqrt(dot3(d, d)));
             }
     print_message("# %zu rocks in a tile of %.3f m; centres %.4f m apart or more (2 radii: %.1f)\n", t.n,
                   t.side, nearest, 2 * t.radius);
@@ -85,9 +81,9 @@ static void test_no_overlap(void **state)
                     double d[3];
                     for (int a = 0; a < 3; a++)
                         d[a] = t.rock[j].center[a] + off[a] * t.side - r->center[a];
-                    double length = sqrt(dot(d, d));
+                    double length = sqrt(dot3(d, d));
                     if (length > 0)
-                        worst = fmax(worst, dot(p, d) / length - length / 2);
+                        worst = fmax(worst, dot3(p, d) / length - length / 2);
                 }
         }
     }
@@ -117,14 +113,14 @@ static void test_contacts(void **state)
                 double p[3];
                 corner(r, v, p);
                 const double d[3] = {p[0] - k->at[0], p[1] - k->at[1], p[2] - k->at[2]};
-                own = fmin(own, sqrt(dot(d, d)));
+                own = fmin(own, sqrt(dot3(d, d)));
             }
             for (uint32_t v = 0; v < t.rock[k->other].n_vertices; v++) {
                 double p[3];
                 corner(&t.rock[k->other], v, p);
                 const double d[3] = {p[0] + k->shift[0] - k->at[0], p[1] + k->shift[1] - k->at[1],
                                      p[2] + k->shift[2] - k->at[2]};
-                other = fmin(other, sqrt(dot(d, d)));
+                other = fmin(other, sqrt(dot3(d, d)));
             }
             worst = fmax(worst, fmax(own, other));
             apart += own + other;
