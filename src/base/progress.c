@@ -6,21 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/log.h"
 
 /* The bar on screen. Log lines come from any thread, hence the lock: held while a log line passes. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct progress *shown;
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 const char *duration_text(double seconds, char out[32])
 {
@@ -127,7 +120,7 @@ static void attach(struct progress *p, enum progress_style style)
 {
     const char *terminal = getenv("TERM");
     p->style = style;
-    p->last_s = seconds_now();
+    p->last_s = clock_seconds();
     if (style == PROGRESS_AUTO) {
         bool capable = isatty(STDERR_FILENO) && terminal && strcmp(terminal, "dumb") != 0;
         p->style = capable ? PROGRESS_BAR : PROGRESS_PLAIN;
@@ -170,7 +163,7 @@ void progress_frame(struct progress *p, int frame, double volume_share, const ch
 {
     /* The first frame builds pipelines and caches, so early frames weigh more than a fixed factor would let
      * them. */
-    double now = seconds_now(), took = now - p->last_s;
+    double now = clock_seconds(), took = now - p->last_s;
     p->seconds_per_frame =
         p->seconds_per_frame > 0 ? 0.8 * p->seconds_per_frame + 0.2 * took : fmax(took, 1e-6);
     p->last_s = now;

@@ -1,8 +1,8 @@
 /* hoodoo submit JOB --to local|slurm|openjd: the job's tasks, to this machine's devices or to a scheduler. */
 #include <stdio.h>
-#include <time.h>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/signals.h"
@@ -31,13 +31,6 @@ struct view {
     double began;
     size_t frames, frames_before; /* done now, and when it began */
 };
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void show_news(void *user, enum local_news what, const struct farm_task *t, int worker, double seconds,
                       const char *why)
@@ -74,7 +67,7 @@ static void show_state(void *user, const struct local_state *s)
     size_t total = 0;
     v->frames = farm_frames(v->farm, &total);
     int n = snprintf(line, sizeof line, "%zu/%zu tasks, %zu/%zu frames", s->done, s->total, v->frames, total);
-    double spent = seconds_now() - v->began;
+    double spent = clock_seconds() - v->began;
     if (v->frames > v->frames_before && v->frames < total && n > 0) {
         double each = spent / (double)(v->frames - v->frames_before);
         n += snprintf(line + n, sizeof line - (size_t)n, ", %s of simulation to go",
@@ -93,7 +86,7 @@ static void show_state(void *user, const struct local_state *s)
 static status to_local(const struct wanted *w, struct farm *f)
 {
     status st = OK;
-    struct view v = {.farm = f, .began = seconds_now()};
+    struct view v = {.farm = f, .began = clock_seconds()};
     struct local_worker worker[LOCAL_WORKERS];
     size_t n = 0, total;
     struct path path;

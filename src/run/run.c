@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "base/lock.h"
 #include "base/log.h"
 #include "base/memory.h"
@@ -387,7 +388,7 @@ done:
 status run_job(struct job *job, const struct run_options *options)
 {
     status st = OK;
-    const double started = timing_now();
+    const double started = clock_seconds();
     struct run r = {.job = job, .options = options, .frames = options->frames};
     TRY(branch_prepare(job, options->root));
     if (r.frames.step == 0)

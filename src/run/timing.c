@@ -7,17 +7,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/log.h"
 #include "base/path.h"
 #include "base/text.h"
 #include "base/version.h"
-
-double timing_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* To the millisecond: more digits say nothing. */
 static double rounded(double seconds)
@@ -43,7 +37,7 @@ static void describe(const struct gpu *gpu, int first, int last, double started,
     json_text(t, "ended", ended);
     json_integer(t, "first_frame", first);
     json_integer(t, "last_frame", last);
-    json_number(t, "wall_seconds", rounded(timing_now() - started));
+    json_number(t, "wall_seconds", rounded(clock_seconds() - started));
     json_array(t, "stages");
     for (size_t i = 0; i < n; i++) {
         if (times[i].ns == 0)

@@ -8,10 +8,7 @@
 
 #include "gpu/gpu.h"
 
-/* A monotonic clock, s. */
-double timing_now(void);
-
-/* Notes the device times in the log and adds the line. `started` is from timing_now(). Never fails: a run
+/* Notes the device times in the log and adds the line. `started` is from clock_seconds(). Never fails: a run
  * whose frames are written is done, whatever becomes of this; what goes wrong is noted in the log. */
 void timing_write(const char *root, const struct gpu *gpu, int first, int last, double started);
 

@@ -3,8 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "base/clock.h"
 
 static const char job[] = "hoodoo: 1\nname: four\nframes: 1001-1010\nclock: {years_per_frame: 2000}\n"
                           "domain: {size_m: [16, 8, 12], spacing_m: 0.25}\n"
@@ -12,13 +13,6 @@ static const char job[] = "hoodoo: 1\nname: four\nframes: 1001-1010\nclock: {yea
                           "strata: [{weak_m_per_kyr: 0.1, strong_m_per_kyr: 0.01, interlock_MPa: 0.2}]\n"
                           "farm: {still_every: 0, turntable: 0, block_frames: 5}\n"
                           "wedge: {over: [{key: seed, values: [1, 2, 3, 4]}]}\n";
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static int run(const char *const *argv)
 {
@@ -35,10 +29,10 @@ static int run(const char *const *argv)
 /* Seconds, or -1. */
 static double farm(const char *hoodoo, const char *workers)
 {
-    double start = seconds_now();
+    double start = clock_seconds();
     const char *const argv[] = {hoodoo,      "submit", "four.yaml", "--to",  "local",
                                 "--workers", workers,  "--out",     workers, NULL};
-    return run(argv) == 0 ? seconds_now() - start : -1;
+    return run(argv) == 0 ? clock_seconds() - start : -1;
 }
 
 int main(int argc, char **argv)

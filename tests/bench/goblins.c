@@ -10,16 +10,10 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "base/status.h"
 #include "scene/scene.h"
 #include "voxels/voxels.h"
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void check(status st)
 {
@@ -67,20 +61,20 @@ static struct result weather(const int n[3], int radius, double quantum)
     double *seconds = calloc(100000, sizeof *seconds);
     size_t *active = calloc(100000, sizeof *active);
     check(gpu_create(&(struct gpu_options){.device = "auto"}, &gpu));
-    double start = now();
+    double start = clock_seconds();
     check(scene_grid(job, false, share, factor));
     r.bytes = voxels_bytes(job, n, 0, &words);
     check(gpu_work_create(gpu, words, &work));
     check(voxels_create(gpu, work, job, n, share, factor, &v));
     check(voxels_rates(gpu, &v, job, 1));
     check(gpu_wait(gpu));
-    r.set_up = now() - start;
+    r.set_up = clock_seconds() - start;
     while (rock > 0 && r.cycles < 100000) {
-        double passed, before = now();
+        double passed, before = clock_seconds();
         uint32_t gone;
         active[r.cycles] = v.n_active;
         check(voxels_cycle(gpu, work, &v, quantum, 1e9, &passed, &gone));
-        seconds[r.cycles++] = now() - before;
+        seconds[r.cycles++] = clock_seconds() - before;
         rock -= gone;
         r.most_active = v.n_active > r.most_active ? v.n_active : r.most_active;
     }

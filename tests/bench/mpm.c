@@ -7,16 +7,10 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/clock.h"
 #include "mpm/internal.h"
 
 enum { CELLS = 128, SIDE = 100, REPEATS = 7 }; /* 100^3 particles: 50^3 cells of them */
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* s of the processors' time, of all threads: what a busy machine leaves alone. */
 static double spent(void)
@@ -340,17 +334,17 @@ static void compare(void)
     double device = INFINITY, plain = INFINITY, sorted = INFINITY, error = 0;
     double device_cpu = INFINITY, plain_cpu = INFINITY;
     for (int i = 0; i <= REPEATS; i++) { /* the first compiles */
-        double begin = now(), cpu = spent();
+        double begin = clock_seconds(), cpu = spent();
         mpm_step(gpu, &m, &k, false);
         check(gpu_wait(gpu));
         if (i > 0)
-            device = fmin(device, now() - begin);
+            device = fmin(device, clock_seconds() - begin);
         if (i > 0)
             device_cpu = fmin(device_cpu, spent() - cpu);
-        begin = now();
+        begin = clock_seconds();
         cpu = spent();
         step_in_c(&r, p, n, start, grid);
-        plain = fmin(plain, now() - begin);
+        plain = fmin(plain, clock_seconds() - begin);
         plain_cpu = fmin(plain_cpu, spent() - cpu);
     }
     check(gpu_download(gpu, m.vector[MPM_VELOCITY], 0, speed, n));
@@ -358,10 +352,10 @@ static void compare(void)
         for (size_t a = 0; a < 3; a++)
             error = fmax(error, fabs((double)(speed[4 * i + a] - p[i].v[a])));
     for (int i = 0; i < 3; i++) {
-        double begin = now();
+        double begin = clock_seconds();
         check(mpm_sort(gpu, work, &m));
         check(gpu_wait(gpu));
-        sorted = fmin(sorted, now() - begin);
+        sorted = fmin(sorted, clock_seconds() - begin);
     }
     printf(
         "a step of 1 M points   device %7.1f ms   plain C %7.1f ms   ratio %5.2f (goal 1.6)   after %d steps "

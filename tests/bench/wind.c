@@ -5,19 +5,13 @@
 #include <stdlib.h>
 #include <time.h>
 
+#include "base/clock.h"
 #include "gpu/primitives.h"
 #include "particles/particles.h"
 #include "scene/scene.h"
 #include "wind/flow.h"
 
 enum { STEPS = 12, REPEATS = 7 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void check(status st)
 {
@@ -97,14 +91,14 @@ static void relax(struct gpu *gpu, const struct flow *f)
         check(fail(E_MEMORY, "no memory for %zu pressures", n));
     for (int r = 0; r < REPEATS; r++) {
         check(gpu_upload(gpu, f->divergence_pressure[0], 0, before, n));
-        double start = now();
+        double start = clock_seconds();
         GPU_RUN(gpu, wind_flow_relax, n, k, f->of_step, f->list, f->position[0], f->push,
                 f->divergence_pressure[0]);
         check(gpu_wait(gpu));
-        seconds = fmin(seconds, now() - start);
-        start = now();
+        seconds = fmin(seconds, clock_seconds() - start);
+        start = clock_seconds();
         relax_in_c(&twin);
-        plain = fmin(plain, now() - start);
+        plain = fmin(plain, clock_seconds() - start);
     }
     device = copy(gpu, f->divergence_pressure[0], n);
     for (size_t i = 0; i < n; i++) {
@@ -145,9 +139,9 @@ int main(int argc, char **argv)
     check(flow_run(gpu, &flow, &particles, direction, 4)); /* compiles, and takes more iterations at first */
     gpu_times_reset(gpu);
     for (int r = 0; r < 3; r++) {
-        double start = now();
+        double start = clock_seconds();
         check(flow_run(gpu, &flow, &particles, direction, STEPS));
-        best = fmin(best, (now() - start) / STEPS);
+        best = fmin(best, (clock_seconds() - start) / STEPS);
     }
     double per = 1e5 / (double)flow.state.n;
     printf("wind: a step of %u particles (%d + %d iterations): %.1f ms, %.1f ms per 100,000\n",

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "base/lock.h"
 #include "base/process.h"
 
@@ -31,13 +32,6 @@ int clock_gettime(clockid_t clock, struct timespec *out)
 }
 
 static const struct lock_patience quick = {.beat_s = 0.1, .watch_s = 0.6};
-
-static double seconds_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static bool there(const char *path)
 {
@@ -73,13 +67,13 @@ static void a_living_holder_keeps_others_out(void **state)
     struct lock *lock = NULL;
     char number[32];
     pid_t pid = holder("a.lock");
-    double start = seconds_now();
+    double start = clock_seconds();
     assert_int_equal(lock_take("a.lock", "x", quick, NULL, &lock), E_OUTPUT);
     assert_null(lock);
     snprintf(number, sizeof number, "process %d", (int)pid);
     assert_non_null(strstr(status_message(), number));
     assert_non_null(strstr(status_message(), "simulates frames 1-9 here"));
-    assert_true(seconds_now() - start < 0.3); /* known at once on one machine */
+    assert_true(clock_seconds() - start < 0.3); /* known at once on one machine */
     end(pid);
 }
 
@@ -89,9 +83,9 @@ static void a_killed_holders_lock_is_taken_over_at_once(void **state)
     struct lock *lock = NULL;
     end(holder("b.lock"));
     assert_true(there("b.lock"));
-    double start = seconds_now();
+    double start = clock_seconds();
     assert_ok(lock_take("b.lock", "x", quick, NULL, &lock));
-    assert_true(seconds_now() - start < 0.3);
+    assert_true(clock_seconds() - start < 0.3);
     assert_ok(lock_check(lock));
     lock_release(&lock);
     assert_false(there("b.lock"));
@@ -115,9 +109,9 @@ static void a_lock_from_elsewhere_is_watched(void **state)
     (void)state;
     struct lock *lock = NULL;
     write_lock("c.lock", "elsewhere", 7, "t");
-    double start = seconds_now();
+    double start = clock_seconds();
     assert_ok(lock_take("c.lock", "x", quick, NULL, &lock));
-    double took = seconds_now() - start;
+    double took = clock_seconds() - start;
     assert_true(took >= 0.5 && took < 3);
     lock_release(&lock);
 

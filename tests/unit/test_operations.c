@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/random.h"
 #include "stacks/operations.h"
 #include "stacks/stabilise.h"
@@ -377,13 +377,6 @@ static void test_noise(void **state)
 
 /* ---- Table 1 */
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static double share(uint32_t seed, uint32_t a, uint32_t b)
 {
     return (double)random_float(random_hash(seed, a, b, 31));
@@ -405,7 +398,7 @@ static void test_memory(void **state)
     for (uint32_t k = 0; k < 3; k++) {
         /* A voxel of an eighth of a stack's width; stacks are finer still. */
         struct stacks s = block(scenes[k].nx, scenes[k].ny, scenes[k].height / 8, 0.6 * scenes[k].height / 8);
-        double size = 0.12 * scenes[k].ny, t0 = now(), h = scenes[k].height / 8;
+        double size = 0.12 * scenes[k].ny, t0 = clock_seconds(), h = scenes[k].height / 8;
         int lo[2], hi[2];
         struct job_operation rough = tool(TOOL_NOISE, NULL, 0);
         apply(&s, &rough, 1, lo, hi);
@@ -456,7 +449,7 @@ static void test_memory(void **state)
             "# %s, %d x %d x %.0f: %.1f MB (the paper's %.0f); %zu layers, up to %zu in a stack, %zu "
             "ceilings over %d stacks; made in %.1f s\n",
             scenes[k].name, s.n[0], s.n[1], scenes[k].height, megabytes, scenes[k].megabytes,
-            stacks_layers(&s), most, overhangs, s.n[0] * s.n[1], now() - t0);
+            stacks_layers(&s), most, overhangs, s.n[0] * s.n[1], clock_seconds() - t0);
         assert_true(megabytes <= scenes[k].megabytes);
         assert_true(overhangs > (size_t)(s.n[0] * s.n[1]) / 16);
         stacks_destroy(&s);
