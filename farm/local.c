@@ -1,6 +1,5 @@
 #include "farm/local.h"
 
-#include <sched.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,6 +8,7 @@
 
 #include "base/child.h"
 #include "base/clock.h"
+#include "base/cores.h"
 #include "base/memory.h"
 #include "farm/command.h"
 #include "gpu/gpu.h"
@@ -17,13 +17,6 @@ enum { PAUSE_S = 1 };
 
 /* How long a stop may go unnoticed where its signal came to another thread, and a pause may overrun. */
 static const double LOOK_S = 0.1;
-
-static int cores(void)
-{
-    cpu_set_t set;
-    int n = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
-    return n > 0 ? n : 1;
-}
 
 /* ---- workers */
 

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/cores.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "render/report.h"
@@ -214,11 +215,9 @@ status report_pictures(struct report *r)
     status st = OK;
     struct children children;
     struct path path;
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
     TRY(path_join(&path, r->root, "log"));
     TRY(folder_make(path.text));
-    children_begin(&children, r->root, "log/report.log", "ffmpeg and openimageio-tools",
-                   cores > 0 ? (int)cores : 1);
+    children_begin(&children, r->root, "log/report.log", "ffmpeg and openimageio-tools", cores());
     st = copy_video(r);
     if (st == OK)
         st = make_views(r, &children);

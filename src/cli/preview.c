@@ -1,5 +1,4 @@
 /* hoodoo preview OUT: POV-Ray stills of frames, and the turntable of one. */
-#include <sched.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/cores.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -141,13 +141,6 @@ static void sweep_all(const char *root)
 }
 
 /* Those a scheduler left us, not the machine's. */
-static int cores(void)
-{
-    cpu_set_t set;
-    int n = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
-    return n > 0 ? n : 1;
-}
-
 /* The sheet across the wedges of a farm's folder. */
 static status wedges(struct preview *p)
 {

@@ -1,0 +1,15 @@
+/* How much work is worth starting side by side. */
+#ifndef HOODOO_CORES_H
+#define HOODOO_CORES_H
+
+#include <sched.h>
+
+/* The cores this process may use, at least 1: a scheduler gives a job fewer than the machine has. */
+static inline int cores(void)
+{
+    cpu_set_t set;
+    int n = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 0;
+    return n > 0 ? n : 1;
+}
+
+#endif
