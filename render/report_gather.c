@@ -43,16 +43,6 @@ static bool there(const struct report *r, const char *path)
     return path_join(&full, r->root, path) == OK && access(full.text, R_OK) == 0;
 }
 
-static bool lists(const struct report_frame *f, const char *folder, const char *ending)
-{
-    for (size_t i = 0; i < f->manifest.n_files; i++) {
-        const char *path = f->manifest.file[i].path, *dot = strrchr(path, '.');
-        if (strncmp(path, folder, strlen(folder)) == 0 && dot && strcmp(dot, ending) == 0)
-            return true;
-    }
-    return false;
-}
-
 static void find_still(const struct report *r, struct report_frame *f)
 {
     if (folder_name(&f->source, r->name, FILE_STILL, f->manifest.frame, NULL) != OK ||
@@ -79,7 +69,7 @@ static void find_sources(struct report *r)
         if (!r->frame[i].damaged) {
             find_still(r, &r->frame[i]);
             n_stills += *r->frame[i].source.text != '\0';
-            n_others += lists(&r->frame[i], "aov/", ".exr");
+            n_others += manifest_lists(&r->frame[i].manifest, "aov/", ".exr");
         }
     r->stills = n_stills >= 2 || (n_stills == 1 && n_others < 2);
     for (size_t i = 0; !r->stills && i < r->n_frames; i++)
@@ -104,7 +94,7 @@ static status add_frame(struct report *r, int frame)
     r->n_sound += !f->damaged;
     for (size_t i = 0; i < f->manifest.n_files; i++)
         r->disk += f->manifest.file[i].size;
-    f->has_volumes = lists(f, "volumes/", ".vdb");
+    f->has_volumes = manifest_lists(&f->manifest, "volumes/", ".vdb");
     return OK;
 }
 
@@ -211,7 +201,7 @@ static status read_points(struct report *r, const struct report_frame *f, bool s
     struct path path;
     struct rock rock = {0};
     const bool all = r->job->output.vdb.points == VDB_POINTS_ALL;
-    if (lists(f, "points/", ".vdb")) {
+    if (manifest_lists(&f->manifest, "points/", ".vdb")) {
         TRY(folder_path(&path, r->root, r->name, FILE_POINTS, f->manifest.frame, NULL));
         TRY(vdb_points_read(path.text, &rock));
         if (all && !r->layer)

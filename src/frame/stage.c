@@ -28,16 +28,6 @@ struct stage {
 
 /* ---- frames */
 
-static bool lists(const struct manifest *m, const char *folder, const char *extension)
-{
-    for (size_t i = 0; i < m->n_files; i++) {
-        const char *path = m->file[i].path, *dot = strrchr(path, '.');
-        if (strncmp(path, folder, strlen(folder)) == 0 && dot && strcmp(dot, extension) == 0)
-            return true;
-    }
-    return false;
-}
-
 /* *sound: the frame is done, and of this job. */
 static status read_frame(const struct stage *s, uint64_t job_hash, int number, struct stage_frame *out,
                          bool *sound)
@@ -51,9 +41,9 @@ static status read_frame(const struct stage *s, uint64_t job_hash, int number, s
     TRY(manifest_check(s->root, &m, false, &bad));
     *sound = !*bad && m.job_hash == job_hash && range_holds(s->job->frames, number);
     *out = (struct stage_frame){.number = number,
-                                .volumes = lists(&m, "volumes/", ".vdb"),
-                                .points = lists(&m, "points/", ".usdc"),
-                                .rocks = lists(&m, "rocks/", ".usdc")};
+                                .volumes = manifest_lists(&m, "volumes/", ".vdb"),
+                                .points = manifest_lists(&m, "points/", ".usdc"),
+                                .rocks = manifest_lists(&m, "rocks/", ".usdc")};
 done:
     manifest_free(&m);
     return st;

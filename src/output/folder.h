@@ -86,6 +86,9 @@ MUST_USE status manifest_write(const char *root, const char *name, const struct 
 MUST_USE status manifest_read(const char *root, const char *name, int frame, struct manifest *out);
 void manifest_free(struct manifest *manifest);
 
+/* Is a file of that folder ("points/") and extension (".vdb") among its files? */
+bool manifest_lists(const struct manifest *manifest, const char *folder, const char *extension);
+
 /* Does every file the manifest lists stand there with its size (and, if `deep`, its hash)? *bad names the
  * first that does not (a text in the manifest, or "" if all are well); status_message() then says what is
  * wrong with it. OK either way. */

@@ -220,6 +220,16 @@ done:
     return st;
 }
 
+bool manifest_lists(const struct manifest *m, const char *folder, const char *extension)
+{
+    for (size_t i = 0; i < m->n_files; i++) {
+        const char *path = m->file[i].path, *dot = strrchr(path, '.');
+        if (strncmp(path, folder, strlen(folder)) == 0 && dot && strcmp(dot, extension) == 0)
+            return true;
+    }
+    return false;
+}
+
 void manifest_free(struct manifest *manifest)
 {
     free(manifest->file);
