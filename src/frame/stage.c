@@ -12,6 +12,7 @@
 #include "field/camera.h"
 #include "frame/rocks.h"
 #include "job/palette.h"
+#include "output/axes.h"
 #include "output/folder.h"
 #include "output/usd.h"
 
@@ -171,13 +172,6 @@ done:
 
 /* ---- cameras */
 
-static void to_file(const double sim[3], int up, double out[4])
-{
-    out[0] = sim[0];
-    out[1] = up == OUTPUT_UP_Y ? sim[2] : sim[1];
-    out[2] = up == OUTPUT_UP_Y ? 0 - sim[1] : sim[2];
-}
-
 /* USD's camera looks along its -z. */
 static void to_world(const struct camera *c, int up, double m[16])
 {
@@ -193,8 +187,8 @@ static void to_world(const struct camera *c, int up, double m[16])
     }
     memset(m, 0, 16 * sizeof *m);
     for (int r = 0; r < 3; r++)
-        to_file(row[r], up, m + 4 * r);
-    to_file(c->eye, up, m + 12);
+        axes_turn_exact(row[r], up, m + 4 * r);
+    axes_turn_exact(c->eye, up, m + 12);
     m[15] = 1;
 }
 

@@ -4,14 +4,7 @@
 #include <string.h>
 
 #include "job/job.h"
-
-/* To the file's up axis. */
-static void turn(const float from[3], int up, float to[3])
-{
-    to[0] = from[0];
-    to[1] = up == OUTPUT_UP_Y ? from[2] : from[1];
-    to[2] = up == OUTPUT_UP_Y ? 0 - from[1] : from[2]; /* not -y: no negative zeros */
-}
+#include "output/axes.h"
 
 /* IEC 61966-2-1 */
 static double srgb(float linear)
@@ -37,8 +30,8 @@ void mesh_file_ply(const struct mesh_file *f, struct text *out)
         float place[6];
         int32_t layer = (int32_t)f->layer[i];
         uint8_t color[3];
-        turn(f->vertex + 3 * i, f->up, place);
-        turn(f->normal + 3 * i, f->up, place + 3);
+        axes_turn(f->vertex + 3 * i, f->up, place);
+        axes_turn(f->normal + 3 * i, f->up, place + 3);
         text_add_bytes(out, place, sizeof place);
         for (size_t v = 0; v < f->n_values; v++)
             text_add_bytes(out, &f->value[v * f->n_vertices + i], sizeof *f->value);
@@ -58,13 +51,13 @@ void mesh_file_obj(const struct mesh_file *f, struct text *out)
     text_add(out, "# %s\no %s\n", f->comment, f->name);
     for (size_t i = 0; i < f->n_vertices; i++) {
         float at[3];
-        turn(f->vertex + 3 * i, f->up, at);
+        axes_turn(f->vertex + 3 * i, f->up, at);
         text_add(out, "v %.9g %.9g %.9g %.4g %.4g %.4g\n", (double)at[0], (double)at[1], (double)at[2],
                  srgb(f->color[i][0]), srgb(f->color[i][1]), srgb(f->color[i][2]));
     }
     for (size_t i = 0; i < f->n_vertices; i++) {
         float n[3];
-        turn(f->normal + 3 * i, f->up, n);
+        axes_turn(f->normal + 3 * i, f->up, n);
         text_add(out, "vn %.4g %.4g %.4g\n", (double)n[0], (double)n[1], (double)n[2]);
     }
     for (size_t i = 0; i < f->n_triangles; i++) {

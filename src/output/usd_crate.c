@@ -306,11 +306,3 @@ done:
     text_free(&c.bytes);
     return st;
 }
-
-/* To the files' axes; 0 - y: no negative zeros. */
-void usd_turn(const float from[3], int up, float to[3])
-{
-    to[0] = from[0];
-    to[1] = up == OUTPUT_UP_Y ? from[2] : from[1];
-    to[2] = up == OUTPUT_UP_Y ? 0 - from[1] : from[2];
-}

@@ -51,7 +51,4 @@ struct usd_items {
 MUST_USE status usd_crate(const struct usd_prim *prim, const struct usd_items *items, int up, int frame,
                           double fps, struct vdb_bytes *out);
 
-/* From the simulator's axes to the files'. */
-void usd_turn(const float from[3], int up, float to[3]);
-
 #endif

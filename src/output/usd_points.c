@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "output/axes.h"
 #include "output/usd.h"
 #include "output/usd_crate.h"
 
@@ -56,8 +57,8 @@ static void take(const struct rock *rock, const struct vdb_options *o, size_t i,
 {
     static const float grey[3] = {0.5F, 0.5F, 0.5F};
     const bool colored = rock->layer && o->color && rock->layer[i] < o->n_colors;
-    usd_turn(rock->P + 4 * i, o->up, s->points + 3 * k);
-    usd_turn(rock->N + 4 * i, o->up, s->normals + 3 * k);
+    axes_turn(rock->P + 4 * i, o->up, s->points + 3 * k);
+    axes_turn(rock->N + 4 * i, o->up, s->normals + 3 * k);
     memcpy(s->color + 3 * k, colored ? o->color[rock->layer[i]] : grey, 3 * sizeof(float));
     s->stress[k] = rock->stress ? rock->stress[i] : 0;
     s->von_mises[k] = rock->von_mises ? rock->von_mises[i] : 0;

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "output/axes.h"
 #include "output/usd.h"
 #include "output/usd_crate.h"
 
@@ -35,14 +36,14 @@ struct piles {
 static void take(const struct frame_rocks *rocks, const struct vdb_options *o, size_t i, struct piles *p)
 {
     const struct rock *at = &rocks->at;
-    usd_turn(at->P + 4 * i, o->up, p->position + 3 * i);
+    axes_turn(at->P + 4 * i, o->up, p->position + 3 * i);
     p->orient[i] = NO_TURN;
     p->shape[i] = (int32_t)at->layer[i];
     p->id[i] = (int64_t)at->id[i];
     /* Turned, corners are corners of the turned box, not its lowest and highest. */
     for (int corner = 0; corner < 2; corner++) {
         float turned[3];
-        usd_turn(rocks->box[at->layer[i]][corner], o->up, turned);
+        axes_turn(rocks->box[at->layer[i]][corner], o->up, turned);
         for (size_t a = 0; a < 3; a++) {
             const float x = p->position[3 * i + a] + turned[a];
             const bool first = i == 0 && corner == 0;
@@ -86,7 +87,7 @@ static void add_vectors(struct text *t, const char *type_and_name, const float *
     text_add(t, "        %s = [", type_and_name);
     for (size_t i = 0; i < n; i++) {
         float turned[3];
-        usd_turn(v + 3 * i, up, turned);
+        axes_turn(v + 3 * i, up, turned);
         text_add(t, "%s(%.6g, %.6g, %.6g)", i ? ", " : "", (double)turned[0], (double)turned[1],
                  (double)turned[2]);
     }
