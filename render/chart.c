@@ -5,30 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- text */
+#include "base/utf8.h"
 
-/* How many bytes of a well-formed UTF-8 character stand at p; 0 if none does. */
-static size_t utf8(const unsigned char *p)
-{
-    size_t n = *p < 0x80                 ? 1
-               : *p >= 0xc2 && *p < 0xe0 ? 2
-               : *p >= 0xe0 && *p < 0xf0 ? 3
-               : *p >= 0xf0 && *p < 0xf5 ? 4
-                                         : 0;
-    for (size_t i = 1; i < n; i++)
-        if ((p[i] & 0xc0) != 0x80)
-            return 0;
-    if (n == 3 && ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] >= 0xa0)))
-        return 0;
-    if (n == 4 && ((p[0] == 0xf0 && p[1] < 0x90) || (p[0] == 0xf4 && p[1] >= 0x90)))
-        return 0;
-    return n;
-}
+/* ---- text */
 
 void html_text(struct text *t, const char *value)
 {
     for (const unsigned char *p = (const unsigned char *)value; *p;) {
-        const size_t n = utf8(p);
+        const size_t n = utf8_length(p, 4); /* the NUL ends it */
         if (*p == '&')
             text_add(t, "&amp;");
         else if (*p == '<')

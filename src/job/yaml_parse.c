@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/utf8.h"
 #include "job/yaml.h"
 
 struct reading {
@@ -27,25 +28,6 @@ static status fail_at(const struct yaml_source *source, int line, int column, co
     return yaml_fail(&at, NULL, "%s", what);
 }
 
-/* Bytes of the UTF-8 character at s, of at most n; 0 if invalid. */
-static size_t utf8_length(const unsigned char *s, size_t n)
-{
-    uint32_t c = s[0];
-    size_t length = c < 0x80 ? 1 : c < 0xc2 ? 0 : c < 0xe0 ? 2 : c < 0xf0 ? 3 : c < 0xf5 ? 4 : 0;
-    if (length == 0 || length > n)
-        return 0;
-    if (length == 1)
-        return 1;
-    c &= 0x7fU >> length;
-    for (size_t i = 1; i < length; i++) {
-        if ((s[i] & 0xc0) != 0x80)
-            return 0;
-        c = c << 6 | (s[i] & 0x3fU);
-    }
-    bool overlong = (length == 3 && c < 0x800) || (length == 4 && c < 0x10000);
-    return overlong || (c >= 0xd800 && c < 0xe000) || c > 0x10ffff ? 0 : length;
-}
-
 /* What would make the scanner stumble or take minutes: bad bytes, and brackets nobody closes. */
 static status check_bytes(const char *bytes, size_t n, const struct yaml_source *source)
 {
@@ -54,7 +36,7 @@ static status check_bytes(const char *bytes, size_t n, const struct yaml_source 
     if (n > YAML_BYTES)
         return fail_at(source, 1, 1, "larger than 4 MiB");
     for (size_t i = 0, length; i < n; i += length) {
-        length = utf8_length((const unsigned char *)bytes + i, n - i);
+        length = utf8_length(bytes + i, n - i);
         if (length == 0)
             return fail_at(source, line, column, "not UTF-8 text");
         if (bytes[i] == '\0')
@@ -86,7 +68,7 @@ static status copy_scalar(struct reading *r, struct fy_token *token, int line, i
     if (memchr(text, '\0', n))
         return fail_at(r->source, line, column, "a NUL character in a text");
     for (size_t i = 0, length; i < n; i += length)
-        if ((length = utf8_length((const unsigned char *)text + i, n - i)) == 0)
+        if ((length = utf8_length(text + i, n - i)) == 0)
             return fail_at(r->source, line, column, "an escape that is not a character");
     return yaml_copy(r->tree, text, n, out);
 }
