@@ -112,6 +112,7 @@ status read_default_layer(const struct yaml *root, struct job *job)
 {
     if (job->n_strata)
         return OK;
+    free(job->strata); /* an empty list has memory too */
     status st = memory_alloc(1, sizeof *job->strata, "a layer", &job->strata);
     if (st != OK)
         return st;
