@@ -32,7 +32,7 @@ struct picture {
 
 const char *picture_part(const struct preview *p)
 {
-    return p->show == SHOW_ROCK ? NULL : show_name(p->show);
+    return p->show == VALUE_NONE ? NULL : value_table[p->show].name;
 }
 
 status picture_still_path(const struct preview *p, int frame, struct path *out)
@@ -96,8 +96,8 @@ static void tag_of(const struct preview *p, int width, int height, int view, int
     static const char *const presets[] = {CHOICE_LIST(PRESET_CHOICE)};
     const struct job_camera *camera = chosen_camera(p);
     bool slate = !p->no_slate && height >= SLATE_LEAST_HEIGHT;
-    int n = snprintf(out, PNG_TAG, "show=%s", p->show == SHOW_ROCK ? "rock" : show_name(p->show));
-    if (p->show != SHOW_ROCK)
+    int n = snprintf(out, PNG_TAG, "show=%s", p->show == VALUE_NONE ? "rock" : value_table[p->show].name);
+    if (p->show != VALUE_NONE)
         n += snprintf(out + n, PNG_TAG - (size_t)n, " %g:%g", p->range.low, p->range.high);
     n += snprintf(out + n, PNG_TAG - (size_t)n, "; size=%dx%d; preset=%s; camera=%.64s; slate=%s", width,
                   height, presets[p->preset], camera ? camera->name : "", slate ? "yes" : "no");
@@ -130,13 +130,14 @@ static status read_from_points(const struct preview *p, int frame, struct vdb_me
     float *value = NULL;
     TRY(folder_path(&path, p->root, p->job->name, FILE_POINTS, frame, NULL));
     TRY(vdb_points_read(path.text, &rock));
-    if (!rock.erodibility) {
-        st = fail(E_INPUT, "%s: its points have no %s", path.text, show_name(p->show));
+    const float *const field = rock.field[value_field[p->show]];
+    if (!field) {
+        st = fail(E_INPUT, "%s: its points have no %s", path.text, value_table[p->show].name);
         goto done;
     }
     TRY(memory_alloc(mesh->n_vertices + 1, sizeof *value, "values", &value));
-    TRY(closest_values(mesh->vertex, mesh->n_vertices, rock.P, rock.erodibility, rock.n,
-                       2.5 * p->job->domain.spacing_m, value));
+    TRY(closest_values(mesh->vertex, mesh->n_vertices, rock.P, field, rock.n, 2.5 * p->job->domain.spacing_m,
+                       value));
     mesh->value = value;
     value = NULL;
 done:
@@ -149,17 +150,19 @@ static status read_mesh(const struct preview *p, int frame, struct vdb_mesh *mes
 {
     status st = OK;
     struct path full;
-    const char *const value = show_name(p->show);
+    const char *value[SCENE_VALUES] = {value_table[p->show].name};
     TRY(folder_path(&full, p->root, p->job->name, FILE_VOLUMES, frame, NULL));
-    if (p->show == SHOW_ERODIBILITY) {
+    if (p->show != VALUE_NONE && !(value_table[p->show].where & IN_VOLUMES)) {
         TRY(vdb_mesh_read(full.text, 0, NULL, 0, 0, mesh));
         TRY(read_from_points(p, frame, mesh));
         goto done;
     }
-    if (p->show != SHOW_ROCK)
-        return vdb_mesh_read(full.text, 0, &value, 1, 0, mesh);
+    if (p->show != VALUE_NONE)
+        return vdb_mesh_read(full.text, 0, value, 1, 0, mesh);
     double adaptivity = job_model(p->job)->terrain ? 0 : ADAPTIVITY;
-    TRY(vdb_mesh_read(full.text, adaptivity, scene_values, SCENE_VALUES, SCENE_VALUES, mesh));
+    for (int i = 0; i < SCENE_VALUES; i++)
+        value[i] = value_table[scene_values[i]].name;
+    TRY(vdb_mesh_read(full.text, adaptivity, value, SCENE_VALUES, SCENE_VALUES, mesh));
 done:
     return st;
 }
@@ -305,7 +308,7 @@ static status picture_rendered(void *user)
     if (!slate_draws(&picture->slate))
         return picture_place(picture, picture->rendered.text);
     TRY(atomic_file_temporary(picture->path.text, ".png", &picture->drawn));
-    if (p->show != SHOW_ROCK) {
+    if (p->show != VALUE_NONE) {
         TRY(atomic_file_temporary(picture->path.text, ".ppm", &picture->bar));
         TRY(path_join(&full, p->root, picture->bar.text));
         TRY(slate_write_bar(&picture->slate, full.text));
@@ -366,7 +369,7 @@ static void describe(const struct preview *p, int frame, const char *seen_from, 
         snprintf(s->right, sizeof s->right, "%s%shoodoo %.40s", seen_from, *seen_from ? "   " : "",
                  hoodoo_version);
     }
-    if (p->show != SHOW_STRESS || job->n_strata == 0)
+    if (p->show != VALUE_stress || job->n_strata == 0)
         return;
     s->n_marks = 2;
     s->mark_name = "interlock";

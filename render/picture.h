@@ -31,7 +31,7 @@ struct preview {
     const char *camera; /* of the job, or NULL: its first, or an orbit if it has none */
     bool keep_scenes;
     bool no_slate;
-    enum show show;
+    enum value_id show;        /* VALUE_NONE: the rock as it looks */
     struct show_range range;   /* of what is shown */
     struct picture *under_way; /* pictures that are being made */
 };

@@ -15,10 +15,10 @@
 #include "job/palette.h"
 #include "render/scene_parts.h"
 
-const char *const scene_values[SCENE_VALUES] = {[SCENE_VEGETATION] = "vegetation",
-                                                [SCENE_DEPOSIT] = "deposit",
-                                                [SCENE_BEDROCK] = "bedrock",
-                                                [SCENE_SAND] = "sand"};
+const enum value_id scene_values[SCENE_VALUES] = {[SCENE_VEGETATION] = VALUE_vegetation,
+                                                  [SCENE_DEPOSIT] = VALUE_deposit,
+                                                  [SCENE_BEDROCK] = VALUE_bedrock,
+                                                  [SCENE_SAND] = VALUE_sand};
 
 status scene_bounds(struct scene *s)
 {
@@ -154,7 +154,7 @@ static void add_heat(struct text *out, const struct scene *s)
     const struct vdb_mesh *m = s->mesh;
     text_add(out, "}\nuv_vectors { %zu", m->n_vertices);
     for (size_t i = 0; i < m->n_vertices; i++) {
-        double t = show_position(s->show, s->range, (double)m->value[i] * show_scale(s->show));
+        double t = show_position(s->show, s->range, (double)m->value[i] * value_table[s->show].legend.scale);
         /* A gradient begins again at 1. */
         text_add(out, ",\n<%.4f,0>", 0.001 + 0.998 * t);
     }
@@ -172,7 +172,7 @@ static void add_heat_colors(struct text *out, const struct scene *s)
     text_add(out,
              "// %s from %g to %g %s\n#declare Heat = texture {\n    pigment {\n        gradient x\n        "
              "color_map {\n",
-             show_name(s->show), s->range.low, s->range.high, show_unit(s->show));
+             value_table[s->show].name, s->range.low, s->range.high, value_table[s->show].legend.unit);
     for (int i = 0; i <= STOPS; i++) {
         unsigned char rgb[3];
         show_color(s->show, s->range, (double)i / STOPS, rgb);
@@ -199,7 +199,7 @@ static void add_mesh(struct text *out, const struct scene *s)
         const float *v = m->normal + 3 * i;
         text_add(out, ",\n<%.3f,%.3f,%.3f>", (double)v[0], (double)v[1], (double)v[2]);
     }
-    if (s->show != SHOW_ROCK) {
+    if (s->show != VALUE_NONE) {
         add_heat(out, s);
         return;
     }
@@ -300,7 +300,7 @@ status scene_write(const struct scene *s, struct text *out)
     text_add(out, "#declare High = <%.9g, %.9g, %.9g>;\n", s->high[0], s->high[1], s->high[2]);
     text_add(out, "#declare Center = (Low + High) / 2;\n#declare Size = %.9g;\n", size);
     add_part(out, scene_camera);
-    if (s->show != SHOW_ROCK) {
+    if (s->show != VALUE_NONE) {
         add_part(out, scene_heat);
         add_heat_colors(out, s);
         text_add(out, "#declare Rubble = texture { pigment { rgb 0.3 } finish { Even } }\n");

@@ -21,13 +21,13 @@ struct scene_rocks {
 /* The values the mesh comes with, 0 where a job has none, if the rock is shown as it looks; else it comes with the value
  * that is shown alone. */
 enum { SCENE_VEGETATION, SCENE_DEPOSIT, SCENE_BEDROCK, SCENE_SAND, SCENE_VALUES };
-extern const char *const scene_values[SCENE_VALUES];
+extern const enum value_id scene_values[SCENE_VALUES];
 
 struct scene {
     const struct job *job;
     int frame;
     const struct vdb_mesh *mesh;
-    enum show show; /* SHOW_ROCK: as it looks, in the sun; else a value as colour, in even light */
+    enum value_id show; /* VALUE_NONE: as it looks, in the sun; else a value as colour, in even light */
     struct show_range range;
     struct scene_rocks rocks;    /* tile NULL: none */
     double low[3], high[3];      /* m: the mesh's bounds */

@@ -5,34 +5,38 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct {
-    const char *unit;
-    double scale;
-    bool logarithmic, diverging;
-} table[SHOWS] = {
-    [SHOW_ROCK] = {"", 1, false, false},
-    [SHOW_STRESS] = {"MPa", 1e-6, false, true},
-    [SHOW_VON_MISES] = {"MPa", 1e-6, false, false},
-    [SHOW_VIABILITY] = {"", 1, false, false},
-    [SHOW_DISCHARGE] = {"m3/yr", 1, true, false},
-    [SHOW_VEGETATION] = {"", 1, false, false},
-    [SHOW_DEPOSIT] = {"", 1, false, false},
-    [SHOW_ERODIBILITY] = {"m/kyr", 1, true, false},
-};
-
-const char *show_name(enum show show)
+static const struct value_legend *legend(enum value_id show)
 {
-    return show == SHOW_ROCK ? "" : surface_value_names[show - 1];
+    return &value_table[show].legend;
 }
 
-const char *show_unit(enum show show)
+static bool logarithmic(enum value_id show)
 {
-    return table[show].unit;
+    return legend(show)->axis == AXIS_LOG;
 }
 
-double show_scale(enum show show)
+static bool diverging(enum value_id show)
 {
-    return table[show].scale;
+    return legend(show)->axis == AXIS_DIVERGING;
+}
+
+const char *show_words(char out[SHOW_WORDS])
+{
+    const char *name[VALUES];
+    const size_t n = value_names(IN_SHOW, name);
+    strcpy(out, "rock");
+    for (size_t i = 0; i < n; i++) {
+        strcat(out, "|");
+        strcat(out, name[i]);
+    }
+    return out;
+}
+
+enum value_id show_of_word(int word)
+{
+    const char *name[VALUES];
+    const size_t n = value_names(IN_SHOW, name);
+    return word > 0 && (size_t)word <= n ? value_of_name(name[word - 1]) : VALUE_NONE;
 }
 
 /* ---- ranges */
@@ -67,29 +71,30 @@ static struct show_range rates(const struct job *job)
     return (struct show_range){low, fmax(high, 10 * low)};
 }
 
-struct show_range show_job_range(enum show show, const struct job *job)
+struct show_range show_job_range(enum value_id show, const struct job *job)
 {
     double weight_MPa = job->rock.density_kg_m3 * job->rock.gravity_m_s2 * job->domain.size_m[2] * 1e-6;
     double water = job->domain.size_m[0] * job->domain.size_m[1] * curve_max(&job->rain.m_per_yr);
     if (!(weight_MPa > 0))
         weight_MPa = 1;
-    switch (show) {
-    case SHOW_STRESS: {
+    switch (legend(show)->span) {
+    case SPAN_STRESS: {
         /* Compression gathers at the feet; rock in tension does not last. */
         double most = two_digits(1.5 * weight_MPa, true);
         return (struct show_range){-0.2 * most, most};
     }
-    case SHOW_VON_MISES:
+    case SPAN_WEIGHT:
         return (struct show_range){0, two_digits(weight_MPa, true)};
-    case SHOW_DISCHARGE:
+    case SPAN_WATER:
         for (size_t i = 0; i < job->n_sources; i++)
             water += curve_max(&job->sources[i].m3_per_yr);
         return (struct show_range){1, fmax(10, pow(10, ceil(log10(fmax(water, 1)) - 1e-9)))};
-    case SHOW_ERODIBILITY:
+    case SPAN_RATES:
         return rates(job);
-    default:
-        return (struct show_range){0, 1};
+    case SPAN_FIXED:
+        break;
     }
+    return (struct show_range){legend(show)->low, legend(show)->high};
 }
 
 static int ascending(const void *a, const void *b)
@@ -98,29 +103,29 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-struct show_range show_data_range(enum show show, float *values, size_t n)
+struct show_range show_data_range(enum value_id show, float *values, size_t n)
 {
     struct show_range r = {0, 1};
     size_t first = 0;
     qsort(values, n, sizeof *values, ascending);
     /* Most of a surface is dry: of a logarithm, only what there is counts. */
-    while (table[show].logarithmic && first < n && values[first] < 1e-6F)
+    while (logarithmic(show) && first < n && values[first] < 1e-6F)
         first++;
     if (first < n) {
         size_t count = n - first;
-        r.low = two_digits((double)values[first + count / 100] * table[show].scale, false);
-        r.high = two_digits((double)values[n - 1 - count / 100] * table[show].scale, true);
+        r.low = two_digits((double)values[first + count / 100] * legend(show)->scale, false);
+        r.high = two_digits((double)values[n - 1 - count / 100] * legend(show)->scale, true);
     }
-    if (table[show].diverging) /* zero is always on it */
+    if (diverging(show)) /* zero is always on it */
         r = (struct show_range){fmin(r.low, 0), fmax(r.high, 0)};
-    if (table[show].logarithmic)
+    if (logarithmic(show))
         r.low = fmax(r.low, 1e-6);
     if (!(r.high > r.low))
-        r.high = r.low + (table[show].logarithmic ? 9 * r.low : 1);
+        r.high = r.low + (logarithmic(show) ? 9 * r.low : 1);
     return r;
 }
 
-status show_parse_range(enum show show, const char *text, struct show_range *out)
+status show_parse_range(enum value_id show, const char *text, struct show_range *out)
 {
     char *end = NULL;
     struct show_range r;
@@ -133,20 +138,20 @@ status show_parse_range(enum show show, const char *text, struct show_range *out
         fabs(r.high) > 1e12 || r.high - r.low < 1e-9)
         return fail(E_USAGE,
                     "--range %.40s: write LO:HI%s%s, LO less than HI, such as 0:1.5; or job, or data", text,
-                    *table[show].unit ? " in " : "", table[show].unit);
-    if (table[show].logarithmic && r.low <= 0)
+                    *legend(show)->unit ? " in " : "", legend(show)->unit);
+    if (logarithmic(show) && r.low <= 0)
         return fail(E_USAGE, "--range %.40s: %s is shown by its logarithm, LO must be above 0", text,
-                    show_name(show));
+                    value_table[show].name);
     *out = r;
     return OK;
 }
 
 /* ---- colours */
 
-double show_position(enum show show, struct show_range r, double value)
+double show_position(enum value_id show, struct show_range r, double value)
 {
     double t;
-    if (table[show].logarithmic)
+    if (logarithmic(show))
         t = value > r.low ? log(value / r.low) / log(r.high / r.low) : 0;
     else
         t = (value - r.low) / (r.high - r.low);
@@ -161,7 +166,7 @@ static void between(const unsigned char (*stop)[3], int n, double t, unsigned ch
         rgb[k] = (unsigned char)lrint(stop[i][k] + (x - i) * (stop[i + 1][k] - stop[i][k]));
 }
 
-void show_color(enum show show, struct show_range r, double position, unsigned char rgb[3])
+void show_color(enum value_id show, struct show_range r, double position, unsigned char rgb[3])
 {
     /* viridis (van der Walt and Smith), and Moreland's cool to warm. */
     static const unsigned char
@@ -169,7 +174,7 @@ void show_color(enum show show, struct show_range r, double position, unsigned c
                         {31, 158, 137}, {53, 183, 121}, {109, 205, 89}, {180, 222, 44}, {253, 231, 37}},
         cool[][3] = {{221, 221, 221}, {184, 208, 249}, {141, 176, 254}, {98, 130, 234}, {59, 76, 192}},
         warm[][3] = {{221, 221, 221}, {245, 196, 173}, {244, 154, 123}, {222, 96, 77}, {180, 4, 38}};
-    if (!table[show].diverging) {
+    if (!diverging(show)) {
         between(viridis, 10, position, rgb);
         return;
     }
@@ -207,10 +212,10 @@ static size_t decades(struct show_range r, struct show_tick tick[SHOW_TICKS])
     return n;
 }
 
-size_t show_ticks(enum show show, struct show_range r, struct show_tick tick[SHOW_TICKS])
+size_t show_ticks(enum value_id show, struct show_range r, struct show_tick tick[SHOW_TICKS])
 {
     size_t n = 0;
-    if (table[show].logarithmic && r.high >= 10 * r.low)
+    if (logarithmic(show) && r.high >= 10 * r.low)
         return decades(r, tick);
     double span = r.high - r.low, step = pow(10, floor(log10(span / 3)));
     step *= span / step > 12 ? 5 : span / step > 6 ? 2 : 1;

@@ -35,7 +35,7 @@ static struct panel panel_of(const struct slate *s)
     p.left = s->width - (int)ceil((letters * LETTER + 1.2) * p.font);
     p.top = (int)lrint(0.08 * s->height);
     p.bar_x = p.left + (int)lrint(0.6 * p.font);
-    p.bar_y = p.top + (int)lrint((s->show == SHOW_STRESS ? 4.5 : 3.4) * p.font);
+    p.bar_y = p.top + (int)lrint((*value_table[s->show].legend.above ? 4.5 : 3.4) * p.font);
     p.text_x = p.bar_x + p.bar_w + (int)lrint(0.6 * p.font);
     p.bottom = p.bar_y + p.bar_h + (int)lrint(2.0 * p.font);
     return p;
@@ -43,7 +43,7 @@ static struct panel panel_of(const struct slate *s)
 
 bool slate_draws(const struct slate *s)
 {
-    return s->height >= SLATE_LEAST_HEIGHT && (*s->left || *s->right || s->show != SHOW_ROCK);
+    return s->height >= SLATE_LEAST_HEIGHT && (*s->left || *s->right || s->show != VALUE_NONE);
 }
 
 status slate_write_bar(const struct slate *s, const char *path)
@@ -124,22 +124,23 @@ static void add_marks(struct slate_command *c, const struct slate *s, const stru
 
 static void add_legend(struct slate_command *c, const struct slate *s)
 {
+    const struct value_legend *legend = &value_table[s->show].legend;
     struct panel p = panel_of(s);
     struct show_tick tick[SHOW_TICKS];
     char name[48], *under;
     int marked[2];
     size_t n_marked;
-    snprintf(name, sizeof name, "%s", show_name(s->show));
+    snprintf(name, sizeof name, "%s", value_table[s->show].name);
     while ((under = strchr(name, '_')))
         *under = ' ';
     add_text(c, p.bar_x, p.top + (int)lrint(1.4 * p.font), p.font, name);
-    if (*show_unit(s->show))
-        add_text(c, p.bar_x, p.top + (int)lrint(2.6 * p.font), p.font, show_unit(s->show));
-    if (s->show == SHOW_STRESS) {
+    if (*legend->unit)
+        add_text(c, p.bar_x, p.top + (int)lrint(2.6 * p.font), p.font, legend->unit);
+    if (*legend->above) {
         int small = (int)lrint(0.85 * p.font);
-        add_text(c, p.bar_x, p.bar_y - (int)lrint(0.6 * p.font), small, "compression");
+        add_text(c, p.bar_x, p.bar_y - (int)lrint(0.6 * p.font), small, legend->above);
         if (s->range.low < 0)
-            add_text(c, p.bar_x, p.bar_y + p.bar_h + (int)lrint(1.3 * p.font), small, "tension");
+            add_text(c, p.bar_x, p.bar_y + p.bar_h + (int)lrint(1.3 * p.font), small, legend->below);
     }
     add_marks(c, s, &p, marked, &n_marked);
     size_t n = show_ticks(s->show, s->range, tick);
@@ -178,10 +179,10 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
 {
     c->n = c->n_own = 0;
     word(c, "oiiotool");
-    if (s->show != SHOW_ROCK)
+    if (s->show != VALUE_NONE)
         word(c, bar);
     word(c, from);
-    if (s->show != SHOW_ROCK) {
+    if (s->show != VALUE_NONE) {
         struct panel p = panel_of(s);
         word(c, "--paste");
         made(c, "+%d+%d", p.bar_x, p.bar_y);

@@ -11,7 +11,7 @@ enum { SLATE_LEAST_HEIGHT = 120 };
 struct slate {
     int width, height;
     char left[200], right[160]; /* the strip's; both "": no strip */
-    enum show show;             /* SHOW_ROCK: no legend */
+    enum value_id show;         /* VALUE_NONE: no legend */
     struct show_range range;
     size_t n_marks; /* values that the legend names */
     double mark[2];

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // What lies under each pixel: the fields there, and the stone's colour under sun and sky. Of several samples,
 // the last of which comes first, the colour is the mean; all else is sample 0's.
-// fields = (stress, von Mises, viability, erodibility); color = linear RGB and alpha; ids = layer, phase and
+// fields = the means there (stress, von Mises, viability, deposits); color = linear RGB and alpha; ids = layer, phase and
 // number of the nearest particle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -14,12 +14,11 @@ READ_V(3, position)
 READ_U(4, start)
 READ_U(5, layer)
 READ_U(6, phase)
-READ_F(7, erodibility)
-READ_F(8, vegetation)
-READ_V(9, palette)
-WRITE_V(10, color)
-WRITE_V(11, fields)
-WRITE_U(12, ids)
+READ_F(7, vegetation)
+READ_V(8, palette)
+WRITE_V(9, color)
+WRITE_V(10, fields)
+WRITE_U(11, ids)
 PARAMS(shade_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
@@ -85,7 +84,7 @@ void main()
         stone = mix(stone, SAND, 0.6);
     stone = mix(stone, GREEN, LOAD_F(vegetation, found));
     AT(color, i) += vec4(stone * light, 1.0) / float(k.rays);
-    AT(fields, i) = vec4(sum.xyz, LOAD_F(erodibility, found));
+    AT(fields, i) = sum;
     AT(ids, 3u * i) = strata;
     AT(ids, 3u * i + 1u) = LOAD_U(phase, found);
     AT(ids, 3u * i + 2u) = found;

@@ -380,13 +380,13 @@ struct shade_params {
 SHARED_SIZE(shade_params, 68)
 
 /* The lattice of the wind; one sample of it, alone, is the same everywhere. */
-struct pixel_weather_params {
+struct pixel_air_params {
     uint n;
     uint ax, ay, az;
     float cell;
     float origin_x, origin_y, origin_z; /* m: sample 0 */
 };
-SHARED_SIZE(pixel_weather_params, 32)
+SHARED_SIZE(pixel_air_params, 32)
 
 /* ---- voxels: a bit a voxel, in words of 32 along x, with a margin of M rows and slabs around the domain and
  * one word of air between rows. A voxel's number is its bit's. See voxels/voxels.h. */

@@ -48,7 +48,7 @@ static status check(struct wanted *w, struct preview *p)
     if (w->which.first < 0 || w->which.last >= w->views)
         return fail(E_USAGE, "--view %d-%d: the views are 0 to %d (--views %d)", w->which.first,
                     w->which.last, w->views - 1, w->views);
-    if (w->range && w->show == SHOW_ROCK)
+    if (w->range && w->show == 0)
         return fail(E_USAGE, "--range %.40s: only values have one; say which with --show", w->range);
     w->turntable |= w->only == ONLY_VIEWS || w->only == ONLY_VIDEO;
     if (w->turntable && (w->only == ONLY_STILLS || w->only == ONLY_SHEET))
@@ -57,7 +57,7 @@ static status check(struct wanted *w, struct preview *p)
     p->preset = (enum preset)w->preset;
     p->keep_scenes = w->keep_scenes;
     p->no_slate = w->no_slate;
-    p->show = (enum show)w->show;
+    p->show = show_of_word(w->show);
     p->range = show_job_range(p->show, p->job);
     if (w->range && strcmp(w->range, "job") != 0 && strcmp(w->range, "data") != 0)
         return show_parse_range(p->show, w->range, &p->range);
@@ -186,6 +186,7 @@ status cli_preview(int argc, char **argv)
     size_t n;
     struct path root, path;
     char name[256];
+    char shown[SHOW_WORDS];
     bool help = false;
     const struct option options[] = {
         OPTION_FRAMES(&w.common),
@@ -195,8 +196,8 @@ status cli_preview(int argc, char **argv)
         {"view", "RANGE", OPTION_RANGE, &w.which,
          "these of the views alone, such as 0-11 (default: all); with --only views, so that several machines "
          "can share an orbit"},
-        {"show", "rock|stress|von_mises|viability|discharge|vegetation|deposit|erodibility", OPTION_CHOICE,
-         &w.show, "a value of the surface as colours, with a legend (default rock: as it looks)"},
+        {"show", show_words(shown), OPTION_CHOICE, &w.show,
+         "a value of the surface as colours, with a legend (default rock: as it looks)"},
         {"range", "job|data|LO:HI", OPTION_TEXT, &w.range,
          "what the colours span: job (default), the same for all pictures of a job (stress from the weight "
          "of "

@@ -46,7 +46,7 @@ size_t aov_pixels(const struct job *job)
 
 uint64_t aov_bytes(size_t n_pixels)
 {
-    return (uint64_t)n_pixels * (5 * 16 + 12);
+    return (uint64_t)n_pixels * (4 * 16 + 12 + 4);
 }
 
 uint64_t aov_picture_bytes(const struct job *job)
@@ -62,9 +62,9 @@ status aov_create(struct gpu *gpu, const struct job *job, size_t n_pixels, struc
     TRY(gpu_buffer_create(gpu, "ray hits", n_pixels, 16, &a->hit));
     TRY(gpu_buffer_create(gpu, "ray normals", n_pixels, 16, &a->facing));
     TRY(gpu_buffer_create(gpu, "picture", n_pixels, 16, &a->color));
-    TRY(gpu_buffer_create(gpu, "picture fields", n_pixels, 16, &a->fields));
-    TRY(gpu_buffer_create(gpu, "picture weather", n_pixels, 16, &a->weather));
+    TRY(gpu_buffer_create(gpu, "picture means", n_pixels, 16, &a->means));
     TRY(gpu_buffer_create(gpu, "picture ids", 3 * n_pixels, 4, &a->ids));
+    TRY(gpu_buffer_create(gpu, "picture values", n_pixels, 4, &a->pixel));
     TRY(gpu_buffer_create(gpu, "still air", 1, 16, &a->still));
     TRY(gpu_buffer_create(gpu, "palette", palette_size(job), 16, &a->palette));
     TRY(memory_alloc(palette_size(job), sizeof *palette, "the palette", &palette));
@@ -83,9 +83,9 @@ void aov_destroy(struct gpu *gpu, struct aov *a)
     gpu_buffer_destroy(gpu, &a->hit);
     gpu_buffer_destroy(gpu, &a->facing);
     gpu_buffer_destroy(gpu, &a->color);
-    gpu_buffer_destroy(gpu, &a->fields);
-    gpu_buffer_destroy(gpu, &a->weather);
+    gpu_buffer_destroy(gpu, &a->means);
     gpu_buffer_destroy(gpu, &a->ids);
+    gpu_buffer_destroy(gpu, &a->pixel);
     gpu_buffer_destroy(gpu, &a->still);
     gpu_buffer_destroy(gpu, &a->palette);
 }
@@ -143,25 +143,8 @@ static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c
     };
     GPU_RUN(gpu, field_march, march.n, march, f->distance, a->hit, a->facing);
     GPU_RUN(gpu, field_shade, shade.n, shade, a->hit, a->facing, f->means, p->field[ROCK_P], p->start,
-            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_erodibility], p->field[ROCK_vegetation],
-            a->palette, a->color, a->fields, a->ids);
-}
-
-/* What wind, water and plants do where sample 0 met the rock. */
-static void record_weather(struct gpu *gpu, struct aov *a, size_t n, const struct particles *p,
-                           const struct aov_air *air)
-{
-    const struct grid_lattice still = {{1, 1, 1}, 1, {0}}, *l = air ? &air->lattice : &still;
-    struct pixel_weather_params weather = {
-        .n = (uint)n,
-        .ax = (uint)l->n[0],
-        .ay = (uint)l->n[1],
-        .az = (uint)l->n[2],
-        .cell = (float)l->voxel,
-    };
-    put3(&weather.origin_x, &weather.origin_y, &weather.origin_z, l->origin);
-    GPU_RUN(gpu, field_weather, weather.n, weather, a->hit, a->facing, a->ids, p->field[ROCK_discharge],
-            p->field[ROCK_vegetation], air ? air->velocity : a->still, a->weather);
+            p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_vegetation], a->palette, a->color,
+            a->means, a->ids);
 }
 
 /* The samples, the pixel's middle last; each is counted into the mattes. */
@@ -218,6 +201,32 @@ done:
     return st;
 }
 
+static void seen_free(struct seen *s)
+{
+    free(s->hit);
+    free(s->facing);
+    free(s->color);
+    free(s->means);
+    free(s->motion);
+    free(s->ids);
+}
+
+static status download_seen(struct gpu *gpu, const struct aov *a, size_t n, struct seen *s)
+{
+    status st = OK;
+    TRY(gpu_download(gpu, a->ids, 0, s->ids, 3 * n));
+    const struct {
+        struct gpu_buffer *from;
+        float **to;
+    } each[] = {{a->hit, &s->hit}, {a->facing, &s->facing}, {a->color, &s->color}, {a->means, &s->means}};
+    for (size_t i = 0; i < sizeof each / sizeof *each; i++) {
+        TRY(memory_alloc(n, 4 * sizeof(float), "a picture", each[i].to));
+        TRY(gpu_download(gpu, each[i].from, 0, *each[i].to, n));
+    }
+done:
+    return st;
+}
+
 status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const struct job_camera *camera,
                   int frame, const struct field *f, const struct particles *p, const struct aov_air *air,
                   struct aov_image *out)
@@ -228,32 +237,28 @@ status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const s
     overscan_of(camera, margin);
     const struct camera c = camera_overscan(view, margin);
     size_t n = (size_t)c.width * (size_t)c.height;
-    float *source[AOV_SOURCES] = {NULL};
-    uint32_t *ids = NULL;
+    struct seen seen = {0};
     struct mattes *mattes = NULL;
-    struct gpu_buffer *from[FROM_MOTION] = {a->hit, a->facing, a->color, a->fields, a->weather};
     *out = (struct aov_image){
         .camera = camera->name, .width = c.width, .height = c.height, .margin = {margin[0], margin[1]}};
-    TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &ids));
+    TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &seen.ids));
     if (job->output.aov.cryptomatte)
         TRY(mattes_create(job, n, &mattes));
-    TRY(sample(gpu, a, job, &c, f, p, mattes, ids));
-    record_weather(gpu, a, n, p, air);
-    for (int s = 0; s < FROM_MOTION; s++) {
-        TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &source[s]));
-        TRY(gpu_download(gpu, from[s], 0, source[s], n));
+    TRY(sample(gpu, a, job, &c, f, p, mattes, seen.ids));
+    TRY(download_seen(gpu, a, n, &seen));
+    if (job->clock.seconds_per_frame > 0 && job_wants_layer(job, value_table[VALUE_motion].layer)) {
+        TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &seen.motion));
+        TRY(find_motion(gpu, job, camera, frame, p, seen.hit, seen.ids, seen.motion));
     }
-    TRY(gpu_download(gpu, a->ids, 0, ids, 3 * n));
-    if (job->clock.seconds_per_frame > 0 && job_wants_layer(job, AOV_motion)) {
-        TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &source[FROM_MOTION]));
-        TRY(find_motion(gpu, job, camera, frame, p, source[FROM_HIT], ids, source[FROM_MOTION]));
-    }
-    TRY(aov_channels(job, source, ids, mattes, out));
+    TRY(channels_begin(job, out));
+    for (int v = 1; v < VALUES; v++)
+        if (value_table[v].channel[0] && job_wants_layer(job, value_table[v].layer))
+            TRY(channels_add(gpu, a, job, p, air, &seen, (enum value_id)v, out));
+    if (mattes)
+        TRY(channels_mattes(job, mattes, out));
     camera_matrices(&view, job->output.up, out->world_to_camera, out->world_to_ndc);
 done:
-    for (int s = 0; s < AOV_SOURCES; s++)
-        free(source[s]);
-    free(ids);
+    seen_free(&seen);
     mattes_destroy(&mattes);
     if (st != OK)
         aov_image_free(out);

@@ -12,11 +12,11 @@
 /* Buffers for pictures of up to n_pixels, and the strata's colours. */
 struct aov {
     size_t n_pixels;
-    struct gpu_buffer *hit, *facing, *color, *fields; /* vec4 [n_pixels] */
-    struct gpu_buffer *weather;                       /* vec4 [n_pixels] */
-    struct gpu_buffer *ids;                           /* uint [n_pixels][3] */
-    struct gpu_buffer *palette;                       /* vec4 [layers] */
-    struct gpu_buffer *still;                         /* vec4 [1]: no wind */
+    struct gpu_buffer *hit, *facing, *color, *means; /* vec4 [n_pixels] */
+    struct gpu_buffer *ids;                          /* uint [n_pixels][3] */
+    struct gpu_buffer *pixel;                        /* a word [n_pixels]: of one value after the other */
+    struct gpu_buffer *palette;                      /* vec4 [layers] */
+    struct gpu_buffer *still;                        /* vec4 [1]: no wind */
 };
 
 /* The wind as pictures see it: velocities on a lattice. Without `velocity` there is none. */

@@ -1,102 +1,125 @@
 #include "field/channels.h"
 
-#include <string.h>
-
 #include "base/memory.h"
-
-/* From which of the sources, and which component, each channel comes; vectors are turned to the files' up
- * axis. */
-enum { FROM_IDS = AOV_SOURCES };
-static const struct {
-    enum aov_layer layer;
-    const char *name;
-    int from, component, vector, half;
-} table[] = {
-    {AOV_rgba, "R", FROM_COLOR, 0, 0, 1},
-    {AOV_rgba, "G", FROM_COLOR, 1, 0, 1},
-    {AOV_rgba, "B", FROM_COLOR, 2, 0, 1},
-    {AOV_rgba, "A", FROM_COLOR, 3, 0, 1},
-    {AOV_depth, "Z", FROM_HIT, 3, 0, 0},
-    {AOV_N, "N.X", FROM_FACING, 0, 1, 0},
-    {AOV_N, "N.Y", FROM_FACING, 1, 1, 0},
-    {AOV_N, "N.Z", FROM_FACING, 2, 1, 0},
-    {AOV_P, "P.X", FROM_HIT, 0, 1, 0},
-    {AOV_P, "P.Y", FROM_HIT, 1, 1, 0},
-    {AOV_P, "P.Z", FROM_HIT, 2, 1, 0},
-    {AOV_stress, "stress.trace", FROM_FIELDS, 0, 0, 0},
-    {AOV_stress, "stress.von_mises", FROM_FIELDS, 1, 0, 0},
-    {AOV_viability, "viability.Y", FROM_FIELDS, 2, 0, 0},
-    {AOV_erodibility, "erodibility.Y", FROM_FIELDS, 3, 0, 0},
-    {AOV_discharge, "discharge.Y", FROM_WEATHER, 0, 0, 0},
-    {AOV_wind, "wind.speed", FROM_WEATHER, 1, 0, 0},
-    {AOV_vegetation, "vegetation.Y", FROM_WEATHER, 2, 0, 0},
-    {AOV_layer, "layer.id", FROM_IDS, 0, 0, 0},
-    {AOV_phase, "phase.id", FROM_IDS, 1, 0, 0},
-    {AOV_motion, "motion.X", FROM_MOTION, 0, 0, 0},
-    {AOV_motion, "motion.Y", FROM_MOTION, 1, 0, 0},
-};
-enum { TABLE = sizeof table / sizeof *table };
 
 /* Depth of pixels without rock: farther than anything. */
 static const float NOTHING = 1e10f;
 
-static void fill_ids(uint32_t *plane, size_t n, const uint32_t *ids, size_t component)
+static size_t pixels_of(const struct aov_image *image)
 {
-    for (size_t i = 0; i < n; i++)
-        plane[i] = ids[3 * i + component];
-}
-
-static void fill_values(float *plane, size_t n, float *const source[AOV_SOURCES], size_t row, int up)
-{
-    const float *from = source[table[row].from], *hit = source[FROM_HIT];
-    size_t component = (size_t)table[row].component;
-    float sign = 1, nothing = table[row].layer == AOV_depth ? NOTHING : 0;
-    if (table[row].vector && up == OUTPUT_UP_Y && component > 0) { /* (x, z, -y) */
-        sign = component == 2 ? -1.0f : 1.0f;
-        component = 3 - component;
-    }
-    for (size_t i = 0; i < n; i++) /* the colour is of all samples, the rest of the middle's */
-        plane[i] =
-            hit[4 * i + 3] >= 0 || table[row].from == FROM_COLOR ? sign * from[4 * i + component] : nothing;
+    return (size_t)image->width * (size_t)image->height;
 }
 
 size_t aov_channel_count(const struct job *job)
 {
     size_t n = job->output.aov.cryptomatte ? MATTE_CHANNELS : 0;
-    for (size_t row = 0; row < TABLE; row++)
-        n += job_wants_layer(job, table[row].layer);
+    for (int v = 1; v < VALUES; v++)
+        for (int c = 0; c < VALUE_CHANNELS && value_table[v].channel[c]; c++)
+            n += job_wants_layer(job, value_table[v].layer);
     return n;
 }
 
-status aov_channels(const struct job *job, float *const source[AOV_SOURCES], const uint32_t *ids,
-                    const struct mattes *mattes, struct aov_image *out)
+status channels_begin(const struct job *job, struct aov_image *out)
 {
     status st = OK;
-    size_t n = (size_t)out->width * (size_t)out->height, n_mattes = mattes ? MATTE_CHANNELS : 0;
-    TRY(memory_alloc(TABLE + n_mattes, sizeof *out->channel, "channels", &out->channel));
-    TRY(memory_alloc(n * (TABLE + n_mattes), sizeof(float), "a picture", &out->memory));
-    float *plane = out->memory;
-    for (size_t row = 0; row < TABLE; row++) {
-        if (!job_wants_layer(job, table[row].layer) ||
-            (table[row].from < FROM_IDS && !source[table[row].from]))
-            continue;
-        struct aov_channel *c = &out->channel[out->n_channels++];
-        *c = (struct aov_channel){
-            .part = aov_layer_names[table[row].layer], .name = table[row].name, .half = table[row].half};
-        if (table[row].from == FROM_IDS) {
-            fill_ids((uint32_t *)plane, n, ids, (size_t)table[row].component);
-            c->id = (uint32_t *)plane;
-        } else {
-            fill_values(plane, n, source, row, job->output.up);
-            c->value = plane;
-        }
-        plane += n;
-    }
-    if (mattes) {
-        mattes_channels(mattes, (int)job->output.aov.samples, plane, out->channel + out->n_channels);
-        out->n_channels += MATTE_CHANNELS;
-        TRY(mattes_notes(mattes, out));
-    }
+    const size_t count = aov_channel_count(job);
+    TRY(memory_alloc(count, sizeof *out->channel, "channels", &out->channel));
+    TRY(memory_alloc(pixels_of(out) * count, sizeof(float), "a picture", &out->memory));
 done:
     return st;
+}
+
+/* The value's next plane, to be filled: float, or uint32_t for KIND_ID. */
+static void *plane_of(struct aov_image *out, enum value_id value, int channel)
+{
+    const struct value *v = &value_table[value];
+    float *plane = (float *)out->memory + out->n_channels * pixels_of(out);
+    struct aov_channel *c = &out->channel[out->n_channels++];
+    *c = (struct aov_channel){.part = v->layer, .name = v->channel[channel], .half = v->from == FROM_COLOR};
+    if (v->kind == KIND_ID)
+        c->id = (uint32_t *)(void *)plane;
+    else
+        c->value = plane;
+    return plane;
+}
+
+/* All channels from vectors, from their component `first` on. */
+static void fill(const struct job *job, struct aov_image *out, enum value_id value, const float *from,
+                 int first, const float *hit)
+{
+    const struct value *v = &value_table[value];
+    const size_t n = pixels_of(out);
+    const float nothing = v->from == FROM_DEPTH ? NOTHING : 0;
+    for (int channel = 0; channel < VALUE_CHANNELS && v->channel[channel]; channel++) {
+        float *plane = plane_of(out, value, channel), sign = 1;
+        int component = first + channel;
+        if (v->kind == KIND_VECTOR && job->output.up == OUTPUT_UP_Y && component > 0) { /* (x, z, -y) */
+            sign = component == 2 ? -1.0f : 1.0f;
+            component = 3 - component;
+        }
+        for (size_t i = 0; i < n; i++) /* the colour is of all samples, the rest of the middle's */
+            plane[i] = hit[4 * i + 3] >= 0 || v->from == FROM_COLOR ? sign * from[4 * i + (size_t)component]
+                                                                    : nothing;
+    }
+}
+
+/* How fast the wind is where sample 0 met the rock. */
+static void record_air(struct gpu *gpu, struct aov *a, size_t n, const struct aov_air *air)
+{
+    const struct grid_lattice still = {{1, 1, 1}, 1, {0}}, *l = air ? &air->lattice : &still;
+    struct pixel_air_params k = {
+        .n = (uint)n,
+        .ax = (uint)l->n[0],
+        .ay = (uint)l->n[1],
+        .az = (uint)l->n[2],
+        .cell = (float)l->voxel,
+        .origin_x = (float)l->origin[0],
+        .origin_y = (float)l->origin[1],
+        .origin_z = (float)l->origin[2],
+    };
+
+    GPU_RUN(gpu, field_air, k.n, k, a->hit, a->facing, air ? air->velocity : a->still, a->pixel);
+}
+
+status channels_add(struct gpu *gpu, struct aov *a, const struct job *job, const struct particles *p,
+                    const struct aov_air *air, const struct seen *seen, enum value_id value,
+                    struct aov_image *out)
+{
+    const size_t n = (size_t)out->width * (size_t)out->height;
+    const struct count_params count = {.n = (uint)n};
+    switch (value_table[value].from) {
+    case FROM_COLOR:
+        fill(job, out, value, seen->color, 0, seen->hit);
+        return OK;
+    case FROM_DEPTH:
+        fill(job, out, value, seen->hit, 3, seen->hit);
+        return OK;
+    case FROM_PLACE:
+        fill(job, out, value, seen->hit, 0, seen->hit);
+        return OK;
+    case FROM_FACING:
+        fill(job, out, value, seen->facing, 0, seen->hit);
+        return OK;
+    case FROM_MEANS:
+        fill(job, out, value, seen->means, field_mean(value), seen->hit);
+        return OK;
+    case FROM_MOTION:
+        if (seen->motion)
+            fill(job, out, value, seen->motion, 0, seen->hit);
+        return OK;
+    case FROM_AIR:
+        record_air(gpu, a, n, air);
+        break;
+    default:
+        GPU_RUN(gpu, field_pixel, n, count, a->hit, a->ids, p->field[value_field[value]], a->pixel);
+    }
+    return gpu_download(gpu, a->pixel, 0, plane_of(out, value, 0), n);
+}
+
+status channels_mattes(const struct job *job, const struct mattes *mattes, struct aov_image *out)
+{
+    float *plane = (float *)out->memory + out->n_channels * pixels_of(out);
+    mattes_channels(mattes, (int)job->output.aov.samples, plane, out->channel + out->n_channels);
+    out->n_channels += MATTE_CHANNELS;
+    return mattes_notes(mattes, out);
 }

@@ -65,6 +65,18 @@ static struct field_params params_of(const struct field *f, const struct particl
     };
 }
 
+/* What finish() takes the means of, in their order. */
+enum { MEANS = 4 };
+static const enum value_id means_of[MEANS] = {VALUE_stress, VALUE_von_mises, VALUE_viability, VALUE_deposit};
+
+int field_mean(enum value_id value)
+{
+    for (int c = 0; c < MEANS; c++)
+        if (means_of[c] == value)
+            return c;
+    return -1;
+}
+
 /* Means and distance, from the share. */
 static void finish(struct gpu *gpu, struct field *f, struct particles *p)
 {
@@ -95,65 +107,68 @@ status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, 
     return st;
 }
 
-/* `other` is free once the distances are there. */
-static status download_skin(struct gpu *gpu, struct field *f, struct particles *p, enum rock_field which,
-                            struct frame_grid *out)
+/* Means over the surface's particles. `other` is free once the distances are there. */
+static status download_skin(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which,
+                            float *out)
 {
     const struct field_params k = params_of(f, p);
+    GPU_RUN(gpu, field_skin, k.n, k, p->start, p->field[ROCK_N], p->field[value_field[which]], f->share,
+            f->other);
+    return gpu_download(gpu, f->other, 0, out, k.n);
+}
+
+static status download_value(struct gpu *gpu, struct field *f, struct particles *p, const float *means,
+                             enum value_id which, float *out)
+{
     status st = OK;
-    *out = (struct frame_grid){
-        .name = rock_field_table[which].name, .unit = rock_field_table[which].unit, .kind = GRID_PLAIN};
-    TRY(memory_alloc(k.n, sizeof(float), out->name, &out->value));
-    GPU_RUN(gpu, field_skin, k.n, k, p->start, p->field[ROCK_N], p->field[which], f->share, f->other);
-    TRY(gpu_download(gpu, f->other, 0, out->value, k.n));
+    const size_t n = sample_count(f);
+    const int component = field_mean(which);
+    switch (value_table[which].from) {
+    case FROM_DISTANCE:
+        return gpu_download(gpu, f->distance, 0, out, n);
+    case FROM_SHARE:
+        TRY(gpu_download(gpu, f->share, 0, out, n));
+        for (size_t i = 0; i < n; i++)
+            out[i] = fminf(out[i], 1);
+        break;
+    case FROM_MEANS:
+        for (size_t i = 0; component >= 0 && i < n; i++)
+            out[i] = means[4 * i + (size_t)component];
+        break;
+    default:
+        return download_skin(gpu, f, p, which, out);
+    }
 done:
     return st;
 }
 
-status field_download(struct gpu *gpu, struct field *f, struct particles *p, const enum rock_field *skin,
-                      size_t n_skin, struct frame_grids *out)
+/* Whether it is the field's to make: wind and terrain are added by whoever has them. */
+static bool makes(enum value_id which, unsigned has)
 {
-    static const struct frame_grid kinds[] = {
-        {.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET},
-        {.name = "density", .unit = "", .kind = GRID_FOG},
-        {.name = "stress", .unit = "Pa", .kind = GRID_PLAIN},
-        {.name = "von_mises", .unit = "Pa", .kind = GRID_PLAIN},
-        {.name = "viability", .unit = "", .kind = GRID_PLAIN},
-    };
+    const struct value *v = &value_table[which];
+    return (v->where & IN_VOLUMES) && (v->has & has) && v->from != FROM_AIR && v->from != FROM_TERRAIN;
+}
+
+status field_download(struct gpu *gpu, struct field *f, struct particles *p, unsigned has,
+                      struct frame_grids *out)
+{
     status st = OK;
     size_t n = sample_count(f);
     float *means = NULL;
-    *out = (struct frame_grids){.voxel = f->voxel, .n_grids = sizeof kinds / sizeof *kinds};
+    *out = (struct frame_grids){.voxel = f->voxel};
     for (int a = 0; a < 3; a++) {
         out->n[a] = f->n[a];
         out->origin[a] = f->origin[a];
     }
-    for (size_t g = 0; g < out->n_grids; g++) {
-        out->grid[g] = kinds[g];
-        TRY(memory_alloc(n, sizeof(float), kinds[g].name, &out->grid[g].value));
-    }
     TRY(memory_alloc(4 * n, sizeof(float), "field means", &means));
-    TRY(gpu_download(gpu, f->distance, 0, out->grid[0].value, n));
-    TRY(gpu_download(gpu, f->share, 0, out->grid[1].value, n));
     TRY(gpu_download(gpu, f->means, 0, means, n));
-    float *density = out->grid[1].value, *stress = out->grid[2].value, *mises = out->grid[3].value,
-          *viability = out->grid[4].value;
-    for (size_t i = 0; i < n; i++) {
-        density[i] = fminf(density[i], 1);
-        stress[i] = means[4 * i];
-        mises[i] = means[4 * i + 1];
-        viability[i] = means[4 * i + 2];
-    }
-    for (size_t s = 0; s < n_skin; s++) {
-        struct frame_grid *grid = &out->grid[out->n_grids++];
-        if (skin[s] != ROCK_phase) {
-            TRY(download_skin(gpu, f, p, skin[s], grid));
+    for (int v = 1; v < VALUES; v++) {
+        struct frame_grid *grid;
+        if (!makes((enum value_id)v, has))
             continue;
-        }
-        *grid = (struct frame_grid){.name = "deposit", .unit = "", .kind = GRID_PLAIN};
+        TRY(frame_grids_add(out, (enum value_id)v, &grid));
         TRY(memory_alloc(n, sizeof(float), grid->name, &grid->value));
-        for (size_t i = 0; i < n; i++)
-            grid->value[i] = means[4 * i + 3];
+        TRY(download_value(gpu, f, p, means, (enum value_id)v, grid->value));
     }
 done:
     free(means);
@@ -172,8 +187,7 @@ static const float *grid_named(const struct frame_grids *grids, const char *name
 
 status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids)
 {
-    static const char *const names[4] = {"stress", "von_mises", "viability", "deposit"};
-    const float *surface = grid_named(grids, "surface");
+    const float *surface = grid_named(grids, value_table[VALUE_surface].name);
     size_t n = sample_count(f);
     float *means = NULL;
     status st = OK;
@@ -184,8 +198,8 @@ status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *
             return fail(E_INPUT, "its grids have %d x %d x %d voxels, and the job's %d x %d x %d",
                         grids->n[0], grids->n[1], grids->n[2], f->n[0], f->n[1], f->n[2]);
     TRY(memory_alloc(4 * n, sizeof *means, "field means", &means));
-    for (size_t c = 0; c < 4; c++) {
-        const float *from = grid_named(grids, names[c]);
+    for (size_t c = 0; c < MEANS; c++) {
+        const float *from = grid_named(grids, value_table[means_of[c]].name);
         for (size_t i = 0; from && i < n; i++)
             means[4 * i + c] = from[i];
     }

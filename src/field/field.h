@@ -40,10 +40,13 @@ MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct parti
  * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
 MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);
 
-/* The grids surface, density, stress, von_mises and viability, and one for each field of `skin`: means of what
- * only the surface's particles have, such as discharge; for ROCK_phase the share of deposits, as `deposit`. Freed with field_grids_free(). Waits. */
-MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p,
-                               const enum rock_field *skin, size_t n_skin, struct frame_grids *out);
+/* Which of the means' four components a value is; -1 if it is none. */
+int field_mean(enum value_id value);
+
+/* The grids of the volumes that come of the particles, of a frame that `has` (HAS_*) what they need (values.def). Freed with
+ * field_grids_free(). Waits. */
+MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p, unsigned has,
+                               struct frame_grids *out);
 void field_grids_free(struct frame_grids *grids);
 
 #endif

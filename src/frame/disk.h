@@ -16,6 +16,8 @@ struct disk_frame {
  * surface, exact and with blosc; of a channel of a picture's pixel where rock is. */
 struct disk_particle {
     double inside, bare, volumes_inside, volumes_bare, channel;
+    unsigned
+        has; /* HAS_*, but HAS_ALWAYS: what the job has, whose volumes then have more grids than those measured */
 };
 
 /* What a frame of `size` takes. size->point says how much of the pictures is rock; without any all of it is. */

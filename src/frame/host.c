@@ -33,27 +33,28 @@ static uint64_t most(uint64_t a, uint64_t b)
  * channels of a picture are. */
 static uint64_t making(const struct job *job, const int voxels[3])
 {
-    enum { VECTOR = 16, IDS = 12, SOURCES = 5 };
+    enum { VECTOR = 16, IDS = 12, SOURCES = 4 };
     const uint64_t moving = job->clock.seconds_per_frame > 0;
     return most(samples(voxels) * VECTOR, aov_pixels(job) * ((SOURCES + moving) * VECTOR + IDS));
 }
 
 /* The same while it is written, file by file. Points: an order of eight bytes, and what is not alike in a whole leaf
  * of the file's tree: six numbers and a position inside, a normal and more on the surface. Volumes: two grids are
- * full, and of all five the leaves that the surface runs through, each six times as large as what is in it.
+ * full, and of all of them the leaves that the surface runs through, each six times as large as what is in it.
  * Pictures: their packed rows, and the file these are put together in. */
 static uint64_t writing(const struct job *job, const struct scene_size *size, const struct disk_frame *files)
 {
     const uint64_t n = size->n_particles, bare = size->n_surface, cameras = job->output.aov.n_cameras;
     const uint64_t points = files->points ? n * (8 + 32) + bare * 32 + files->points : 0;
-    const uint64_t volumes = n * 2 * 4 + bare * 5 * 6 * 4 + files->volumes;
+    const uint64_t volumes = n * 2 * 4 + bare * value_grids(HAS_ALWAYS) * 6 * 4 + files->volumes;
     return most(points, most(volumes, most(2 * files->usd, cameras ? 2 * files->pictures / cameras : 0)));
 }
 
 uint64_t host_frames_bytes(const struct job *job, const int voxels[3], const struct scene_size *size,
                            uint64_t own, const struct disk_frame *files)
 {
-    const uint64_t one = host_rock_bytes(size->n_particles) + 5 * host_grid_bytes(voxels) + own +
+    const uint64_t one = host_rock_bytes(size->n_particles) +
+                         value_grids(HAS_ALWAYS) * host_grid_bytes(voxels) + own +
                          aov_picture_bytes(job) * job->output.aov.n_cameras;
     return 2 * one + making(job, voxels) + writing(job, size, files);
 }

@@ -17,16 +17,29 @@
 #include "output/mesh_file.h"
 #include "output/vdb.h"
 #include "particles/layers.h"
+#include "stacks/material.h"
 
-/* A job without water, plants or deposits has no such grids: 0. Only terrains have the last ones: the share of
- * each material around. */
-static const char *const values[] = {"stress",  "von_mises", "viability", "discharge", "vegetation",
-                                     "deposit", "bedrock",   "rock",      "sand",      "water"};
-enum { BEDROCK = 6, ROCK, SAND, WATER, VALUES = sizeof values / sizeof *values, OPTIONAL = 7 };
+/* What vertices carry. A job without water, plants or deposits has no such grids: 0. */
+struct carried {
+    enum value_id id[VALUES];
+    const char *name[VALUES];
+    size_t n, n_optional; /* the last n_optional may be missing */
+};
 
-static size_t value_count(const struct job *job)
+static struct carried carried_by(const struct job *job)
 {
-    return job_model(job)->terrain ? VALUES : BEDROCK;
+    struct carried c = {0};
+    for (int optional = 0; optional < 2; optional++)
+        for (int v = 1; v < VALUES; v++) {
+            const struct value *a = &value_table[v];
+            if (!(a->where & IN_MESHES) || (a->has != HAS_ALWAYS) != optional ||
+                (a->has == HAS_TERRAIN && !job_model(job)->terrain))
+                continue;
+            c.id[c.n] = (enum value_id)v;
+            c.name[c.n++] = a->name;
+            c.n_optional += (size_t)optional;
+        }
+    return c;
 }
 
 /* ---- layers and colours */
@@ -48,17 +61,23 @@ static status set_labels(void *user, const float (*vertex)[3], size_t n, uint32_
 }
 
 /* The layer's; on terrain mixed by the materials' shares, the rest being the layer's. */
-static void color_of(const struct job *job, const struct vdb_mesh *m, size_t i, float rgb[3])
+static void color_of(const struct job *job, const struct carried *carried, const struct vdb_mesh *m, size_t i,
+                     float rgb[3])
 {
+    double rest = 1, sum[3] = {0};
     palette_color(job, m->label[i], rgb);
     if (!job_model(job)->terrain)
         return;
-    double height = (double)m->vertex[3 * i + 2], rest = 1, sum[3] = {0};
-    const size_t color[] = {job_layer_at(job, height), job->n_strata + 1, job->n_strata, job->n_strata + 2};
-    for (size_t k = BEDROCK; k < VALUES; k++) {
+    const size_t bedrock = job_layer_at(job, (double)m->vertex[3 * i + 2]);
+    for (size_t k = 0; k < carried->n; k++) {
+        const int material = value_material[carried->id[k]];
         float own[3];
+        if (material == MATERIAL_AIR)
+            continue;
         double share = (double)m->value[k * m->n_vertices + i];
-        palette_color(job, color[k - BEDROCK], own);
+        palette_color(
+            job, material == MATERIAL_BEDROCK ? bedrock : job->n_strata + (size_t)(material - MATERIAL_SAND),
+            own);
         for (int c = 0; c < 3; c++)
             sum[c] += share * (double)own[c];
         rest -= share;
@@ -109,6 +128,7 @@ static status write_surface(const struct meshes *m, int frame)
     struct labels labels = {.job = m->job};
     struct vdb_mesh mesh = {0};
     float(*color)[3] = NULL;
+    const struct carried carried = carried_by(m->job);
     TRY(folder_path(&path, m->root, m->job->name, FILE_POINTS, frame, NULL));
     if (access(path.text, R_OK) == 0) {
         TRY(vdb_points_read(path.text, &rock));
@@ -119,9 +139,9 @@ static status write_surface(const struct meshes *m, int frame)
     }
     const struct vdb_mesh_options options = {.adaptivity = m->adaptivity,
                                              .smooth = m->smooth,
-                                             .values = values,
-                                             .n_values = value_count(m->job),
-                                             .n_optional = value_count(m->job) - (VALUES - OPTIONAL),
+                                             .values = carried.name,
+                                             .n_values = carried.n,
+                                             .n_optional = carried.n_optional,
                                              .label = set_labels,
                                              .user = &labels};
     TRY(folder_path(&path, m->root, m->job->name, FILE_VOLUMES, frame, NULL));
@@ -129,15 +149,15 @@ static status write_surface(const struct meshes *m, int frame)
     TRY(memory_alloc(mesh.n_vertices, sizeof *color, "colours", &color));
 #pragma omp parallel for
     for (size_t i = 0; i < mesh.n_vertices; i++)
-        color_of(m->job, &mesh, i, color[i]);
+        color_of(m->job, &carried, &mesh, i, color[i]);
     TRY(write_both(m, false, frame,
                    &(struct mesh_file){.n_vertices = mesh.n_vertices,
                                        .n_triangles = mesh.n_triangles,
                                        .vertex = mesh.vertex,
                                        .normal = mesh.normal,
                                        .triangle = mesh.triangle,
-                                       .n_values = value_count(m->job),
-                                       .value_name = values,
+                                       .n_values = carried.n,
+                                       .value_name = carried.name,
                                        .value = mesh.value,
                                        .layer = mesh.label,
                                        .color = (const float(*)[3])color}));

@@ -16,7 +16,7 @@
 #include "output/folder.h"
 #include "output/usd.h"
 
-enum { MAX_FIELDS = 32 };
+enum { MAX_FIELDS = VALUES };
 
 struct stage {
     const struct job *job;
@@ -318,7 +318,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
     s.sequence.points_frame = s.points;
     s.sequence.rocks_frame = s.rocks;
     if (s.sequence.n_points)
-        TRY(put_clips(&s, &usd_points_prim));
+        TRY(put_clips(&s, usd_points_prim()));
     if (s.sequence.n_rocks) {
         TRY(put_clips(&s, &usd_rocks_prim));
         TRY(put_shapes(&s));

@@ -4,6 +4,7 @@
 
 #include "base/nearest.h"
 #include "job/parse.h"
+#include "job/values.h"
 
 /* Each may be a job of its own. */
 enum { EDITS = 256 };
@@ -207,43 +208,48 @@ static status check_farm_cameras(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+/* Whether `word` is among the n that there are; else the message names the one nearest to it. */
+static status check_word(const struct yaml *at, const char *what, const char *word, const char *const *known,
+                         size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(word, known[i]) == 0)
+            return OK;
+    const char *near = nearest_word(word, known, n);
+    return yaml_fail(at, NULL, "no %s '%s'%s%s", what, word,
+                     near ? "; did you mean " : " (see jobs/README.md)", near ? near : "");
+}
+
 static status check_farm_show(const struct yaml *root, const struct job *job)
 {
+    status st = OK;
     const struct yaml *farm = yaml_get(root, "farm"), *list = farm ? yaml_get(farm, "show") : NULL;
+    const char *known[VALUES];
+    size_t n = value_names(IN_SHOW, known);
     for (size_t i = 0; i < job->farm.n_show; i++) {
         const char *name = job->farm.show[i];
-        bool found = false;
-        for (size_t k = 0; k < SURFACE_VALUE_COUNT; k++)
-            found |= strcmp(name, surface_value_names[k]) == 0;
-        if (!found) {
-            const char *near = nearest_word(name, surface_value_names, SURFACE_VALUE_COUNT);
-            return yaml_fail(yaml_item(list, i), NULL, "no value '%s'%s%s", name,
-                             near ? "; did you mean " : " (see jobs/README.md)", near ? near : "");
-        }
+        TRY(check_word(yaml_item(list, i), "value", name, known, n));
         for (size_t k = 0; k < i; k++)
             if (strcmp(name, job->farm.show[k]) == 0)
                 return yaml_fail(yaml_item(list, i), NULL, "value '%s' is listed twice", name);
     }
-    return OK;
+done:
+    return st;
 }
 
 static status check_aov_layers(const struct yaml *root, const struct job *job)
 {
+    status st = OK;
     const struct job_aov *aov = &job->output.aov;
+    const char *known[VALUES];
+    size_t n = value_layers(known);
     if (aov->n_layers == 0)
         return OK;
     const struct yaml *list = yaml_get(yaml_get(yaml_get(root, "output"), "aov"), "layers");
-    for (size_t i = 0; i < aov->n_layers; i++) {
-        bool found = false;
-        for (size_t k = 0; k < AOV_LAYER_COUNT; k++)
-            found |= strcmp(aov->layers[i], aov_layer_names[k]) == 0;
-        if (!found) {
-            const char *near = nearest_word(aov->layers[i], aov_layer_names, AOV_LAYER_COUNT);
-            return yaml_fail(yaml_item(list, i), NULL, "no layer '%s'%s%s", aov->layers[i],
-                             near ? "; did you mean " : " (see jobs/README.md)", near ? near : "");
-        }
-    }
-    return OK;
+    for (size_t i = 0; i < aov->n_layers; i++)
+        TRY(check_word(yaml_item(list, i), "layer", aov->layers[i], known, n));
+done:
+    return st;
 }
 
 static status check_aov_cameras(const struct yaml *root, const struct job *job)

@@ -162,20 +162,11 @@ double job_years(const struct job *job, int from, int to)
     return years + (to - from) * job_at(job, to)->clock.years_per_frame;
 }
 
-const char *const surface_value_names[SURFACE_VALUE_COUNT] = {
-    "stress", "von_mises", "viability", "discharge", "vegetation", "deposit", "erodibility"};
-
-const char *const aov_layer_names[AOV_LAYER_COUNT] = {
-#define AOV_LAYER(name) #name,
-    AOV_LAYERS(AOV_LAYER)
-#undef AOV_LAYER
-};
-
-bool job_wants_layer(const struct job *job, enum aov_layer layer)
+bool job_wants_layer(const struct job *job, const char *layer)
 {
     const struct job_aov *a = &job->output.aov;
     for (size_t i = 0; i < a->n_layers; i++)
-        if (strcmp(a->layers[i], aov_layer_names[layer]) == 0)
+        if (strcmp(a->layers[i], layer) == 0)
             return true;
     return a->n_layers == 0;
 }

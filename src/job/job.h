@@ -117,35 +117,8 @@ struct job_node {
 #define CHOICE(section, key, use, preset, choices, meaning, source) enum { CHOICE_CONSTANTS(choices) };
 #include "job/keys.def"
 
-/* The layers of an AOV picture (DESIGN 2), by name; output.aov.layers chooses among them. */
-#define AOV_LAYERS(X)                                                                                        \
-    X(rgba)                                                                                                  \
-    X(depth)                                                                                                 \
-    X(N)                                                                                                     \
-    X(P)                                                                                                     \
-    X(stress)                                                                                                \
-    X(viability)                                                                                             \
-    X(erodibility)                                                                                           \
-    X(discharge)                                                                                             \
-    X(wind)                                                                                                  \
-    X(vegetation)                                                                                            \
-    X(layer)                                                                                                 \
-    X(phase)                                                                                                 \
-    X(motion)
-enum aov_layer {
-#define AOV_LAYER(name) AOV_##name,
-    AOV_LAYERS(AOV_LAYER)
-#undef AOV_LAYER
-        AOV_LAYER_COUNT
-};
-extern const char *const aov_layer_names[AOV_LAYER_COUNT];
-
-/* Values of the surface that previews show as colours: preview --show, farm.show. */
-enum { SURFACE_VALUE_COUNT = 7 };
-extern const char *const surface_value_names[SURFACE_VALUE_COUNT];
-
-/* Whether the job wants a layer. */
-bool job_wants_layer(const struct job *job, enum aov_layer layer);
+/* Whether the job wants this layer of pictures (values.h). */
+bool job_wants_layer(const struct job *job, const char *layer);
 
 /* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside
  * are made absolute against the job file's folder. E_INPUT: the file cannot be read. E_USAGE: it is wrong;

@@ -2,11 +2,12 @@
 #include <string.h>
 
 #include "job/table.h"
+#include "job/values.h"
 
 static const char intro[] =
     "# Job files\n"
     "\n"
-    "This page is made from the table in `src/job/keys.def`; do not edit it.\n"
+    "This page is made from the tables in `src/job/keys.def` and `src/job/values.def`; do not edit it.\n"
     "\n"
     "A job file is YAML 1.2 (JSON is YAML too). The unit of a number is the end of its key. Unknown and "
     "duplicate keys,\n"
@@ -228,5 +229,6 @@ status job_reference(struct text *out)
     }
     put_table(out, SECTION_group, "Every shape and operator", true, false);
     text_add(out, "\nThese stand inside a shape's mapping, or beside an operator's list.\n");
+    value_reference(out);
     return text_status(out);
 }

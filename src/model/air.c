@@ -37,12 +37,14 @@ status air_add(struct gpu *gpu, const struct wind *w, const struct job *job, int
                struct frame_grids *grids)
 {
     struct wind_lattice air;
-    struct frame_grid *out = &grids->grid[grids->n_grids];
+    struct frame_grid *out;
+    status st = OK;
     if (!wind_lattice(w, job, frame, &air))
         return OK;
-    *out = (struct frame_grid){.name = "vel", .unit = "m/s", .kind = GRID_PLAIN, .components = 3};
-    grids->n_grids++;
-    return flow_grid(gpu, &air, out);
+    TRY(frame_grids_add(grids, VALUE_vel, &out));
+    TRY(flow_grid(gpu, &air, out));
+done:
+    return st;
 }
 
 static status upload(struct gpu *gpu, const float *velocity, size_t n, struct aov_air *out)
@@ -73,7 +75,8 @@ status air_upload(struct gpu *gpu, const struct frame_grids *grids, const struct
     *out = (struct aov_air){0};
     for (size_t g = 0; g < grids->n_grids; g++) {
         const struct frame_grid *grid = &grids->grid[g];
-        if (strcmp(grid->name, "vel") != 0 || grid->own.n[0] == 0 || grid->components != 3)
+        if (strcmp(grid->name, value_table[VALUE_vel].name) != 0 || grid->own.n[0] == 0 ||
+            grid->components != 3)
             continue;
         size_t n = samples(&grid->own);
         TRY(memory_alloc(n, 4 * sizeof *velocity, "the wind", &velocity));

@@ -139,14 +139,21 @@ static status step(struct model *m)
 
 /* ---- what a frame shows */
 
-static void add_ratios(struct terrain_view *v, struct frame_grids *grids)
+static status add_ratios(struct terrain_view *v, struct frame_grids *grids)
 {
-    static const char *const names[4] = {"bedrock", "sand", "rock", "water"};
-    for (int r = 0; r < 4; r++) {
-        grids->grid[grids->n_grids++] =
-            (struct frame_grid){.name = names[r], .unit = "", .kind = GRID_PLAIN, .value = v->ratio[r]};
-        v->ratio[r] = NULL; /* the frame's now */
-    }
+    status st = OK;
+    for (int m = MATERIAL_BEDROCK; m < MATERIALS_OWN; m++)
+        for (int value = 1; value < VALUES; value++) {
+            float **ratio = &v->ratio[m - MATERIAL_BEDROCK];
+            struct frame_grid *grid;
+            if (value_material[value] != m)
+                continue;
+            TRY(frame_grids_add(grids, (enum value_id)value, &grid));
+            grid->value = *ratio;
+            *ratio = NULL; /* the frame's now */
+        }
+done:
+    return st;
 }
 
 static status show(struct arches *t, struct terrain_view *v, struct particles *p, struct frame *out)
@@ -156,8 +163,8 @@ static status show(struct arches *t, struct terrain_view *v, struct particles *p
     gpu_stage(t->m.gpu, "field");
     TRY(field_build_share(t->m.gpu, &t->m.field, p, v->share));
     TRY(particles_download(t->m.gpu, p, DERIVED, &out->rock));
-    TRY(field_download(t->m.gpu, &t->m.field, p, NULL, 0, &out->grids));
-    add_ratios(v, &out->grids);
+    TRY(field_download(t->m.gpu, &t->m.field, p, HAS_ALWAYS, &out->grids));
+    TRY(add_ratios(v, &out->grids));
     gpu_stage(t->m.gpu, "pictures");
     TRY(aov_render_all(t->m.gpu, &t->m.aov, job, &t->m.field, p, NULL, out));
     if (job->arches.maps) {
@@ -309,7 +316,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
     /* The surface alone, on a lattice. */
     needs->size.n_surface = needs->size.n_particles;
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
-    needs->frame_bytes = 4 * host_grid_bytes(n); /* the shares of materials */
+    needs->frame_bytes = value_grids(HAS_TERRAIN) * host_grid_bytes(n);
     /* The stacks, and what frames are made from. */
     needs->host_bytes =
         (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) + host_grid_bytes(n);

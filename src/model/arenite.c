@@ -328,26 +328,11 @@ done:
     return st;
 }
 
-/* Which values of the surface this job can have. */
-static size_t skin_fields(const struct arenite *a, enum rock_field out[3])
-{
-    const struct job *job = a->m.job;
-    size_t n = 0;
-    if (water_ever_flows(job))
-        out[n++] = ROCK_discharge;
-    if (a->plants)
-        out[n++] = ROCK_vegetation;
-    if (a->deposits)
-        out[n++] = ROCK_phase;
-    return n;
-}
-
 static status output(struct model *m, struct frame *out)
 {
     status st = OK;
     struct arenite *a = arenite_of(m);
-    enum rock_field skin[3];
-    size_t n_skin = skin_fields(a, skin);
+    const unsigned has = arenite_has(water_ever_flows(m->job), a->plants, a->deposits);
     struct aov_air air = {0};
     out->stress_iterations = a->elastic.iterations;
     TRY(show_water(a));
@@ -356,7 +341,7 @@ static status output(struct model *m, struct frame *out)
     TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
     TRY(measure(a, out));
     TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
-    TRY(field_download(m->gpu, &m->field, &a->particles, skin, n_skin, &out->grids));
+    TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
     TRY(air_add(m->gpu, &a->wind, m->job, m->frame, &out->grids));
     gpu_stage(m->gpu, "pictures");
     TRY(air_upload(m->gpu, &out->grids, m->job, m->frame, &air));

@@ -69,4 +69,7 @@ MUST_USE status arenite_restore(struct model *m, const struct checkpoint *from);
 MUST_USE status arenite_save(struct model *m, struct checkpoint *out);
 void arenite_destroy(struct model *m);
 
+/* Which values frames have (HAS_* of values.h) with these. The wind adds its own. */
+unsigned arenite_has(bool water, bool plants, bool deposits);
+
 #endif

@@ -46,22 +46,24 @@ static double steps(const struct job *job)
     return sum;
 }
 
+unsigned arenite_has(bool water, bool plants, bool deposits)
+{
+    return HAS_ALWAYS | (water ? HAS_WATER : 0U) | (plants ? HAS_PLANTS : 0U) |
+           (deposits ? HAS_DEPOSITS : 0U);
+}
+
 status arenite_estimate(const struct job *job, struct model_needs *needs)
 {
     status st = OK;
     TRY(scene_estimate(job, &needs->size));
     TRY(wind_check(job, needs->voxels));
     const size_t n = needs->size.n_particles;
-    const int volumes =
-        water_ever_flows(job) + (plants_wanted(job) || edits_plant(job)) + arenite_ever(job, deposit_wanted);
+    const unsigned has = arenite_has(water_ever_flows(job), plants_wanted(job) || edits_plant(job),
+                                     arenite_ever(job, deposit_wanted));
     needs->device_bytes = device_bytes(job, needs->voxels, n);
-    /* Water, plants and deposits have volumes of their own. */
-    needs->frame_bytes = (uint64_t)volumes * host_grid_bytes(needs->voxels);
-    needs->disk = (struct disk_particle){.inside = 15.5,
-                                         .bare = 45,
-                                         .volumes_inside = 2.2,
-                                         .volumes_bare = 88 * (1 + 0.1 * volumes),
-                                         .channel = 1.9};
+    needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * host_grid_bytes(needs->voxels);
+    needs->disk = (struct disk_particle){
+        .inside = 15.5, .bare = 45, .volumes_inside = 2.2, .volumes_bare = 88, .channel = 1.9, .has = has};
     needs->checkpoint_bytes = 15 * (uint64_t)n +
                               (uint64_t)(0.3 * (double)wind_checkpoint_bytes(job, needs->voxels)) +
                               collapse_checkpoint_bytes(job, n);

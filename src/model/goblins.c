@@ -145,7 +145,7 @@ static status show(struct goblins *g, struct particles *p, struct frame *out)
     gpu_stage(g->m.gpu, "field");
     field_build(g->m.gpu, &g->m.field, p);
     TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
-    TRY(field_download(g->m.gpu, &g->m.field, p, NULL, 0, &out->grids));
+    TRY(field_download(g->m.gpu, &g->m.field, p, HAS_ALWAYS, &out->grids));
     gpu_stage(g->m.gpu, "pictures");
     TRY(aov_render_all(g->m.gpu, &g->m.aov, job, &g->m.field, p, NULL, out));
 done:

@@ -20,6 +20,8 @@ MUST_USE status terrain_begin(const struct job *job, const struct material *tabl
 void terrain_ledger(const struct stacks *s, const struct material *table, int n_materials, uint64_t *solid,
                     uint64_t *loose);
 
+enum { TERRAIN_RATIOS = MATERIALS_OWN - MATERIAL_BEDROCK };
+
 /* What of a frame is sampled from the stacks, on the lattice that the surface field has (field.h): n samples
  * on each axis from `origin`, `voxel` apart. */
 struct terrain_view {
@@ -28,9 +30,10 @@ struct terrain_view {
     int n_materials;
     int n[3];
     double origin[3], voxel;
-    float *share;     /* [samples]: of ground, 1/2 on the surface */
-    float *ratio[4];  /* [samples]: bedrock, sand, rock, water in what shows there */
-    struct rock rock; /* one particle for every voxel at the surface */
+    float *share; /* [samples]: of ground, 1/2 on the surface */
+    float *
+        ratio[TERRAIN_RATIOS]; /* [samples]: of each material from MATERIAL_BEDROCK on, in what shows there */
+    struct rock rock;          /* one particle for every voxel at the surface */
 };
 
 /* Fills share, ratio and rock; the caller frees them with terrain_view_free(). */

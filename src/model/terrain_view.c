@@ -7,9 +7,6 @@
 #include "model/terrain.h"
 #include "stacks/surface.h"
 
-enum { RATIOS = 4 };
-static const uint32_t ratio_of[RATIOS] = {MATERIAL_BEDROCK, MATERIAL_SAND, MATERIAL_ROCK, MATERIAL_WATER};
-
 static size_t sample_count(const struct terrain_view *v)
 {
     return (size_t)v->n[0] * (size_t)v->n[1] * (size_t)v->n[2];
@@ -42,7 +39,8 @@ static void cut_sides(const struct terrain_view *v)
 }
 
 /* Shares of what shows around p; deep inside, or in the air, of what p is in. Returns the largest. */
-static uint32_t materials_at(const struct surface *s, const double p[3], bool band, float ratio[RATIOS])
+static uint32_t materials_at(const struct surface *s, const double p[3], bool band,
+                             float ratio[TERRAIN_RATIOS])
 {
     double area[MATERIALS_MAX] = {0}, sum = 0;
     uint32_t most = MATERIAL_BEDROCK;
@@ -61,8 +59,8 @@ static uint32_t materials_at(const struct surface *s, const double p[3], bool ba
     }
     for (int m = MATERIAL_BEDROCK; m < MATERIALS_MAX; m++)
         most = area[m] > area[most] ? (uint32_t)m : most;
-    for (int r = 0; r < RATIOS; r++)
-        ratio[r] = (float)(area[ratio_of[r]] / sum);
+    for (int r = 0; r < TERRAIN_RATIOS; r++)
+        ratio[r] = (float)(area[MATERIAL_BEDROCK + r] / sum);
     return most;
 }
 
@@ -75,7 +73,7 @@ struct found {
 static void look_at(const struct terrain_view *v, const struct surface *s, const int x[3], struct found *out)
 {
     size_t at = ((size_t)x[2] * (size_t)v->n[1] + (size_t)x[1]) * (size_t)v->n[0] + (size_t)x[0];
-    float ratio[RATIOS];
+    float ratio[TERRAIN_RATIOS];
     double p[3];
     bool side = false;
     for (int a = 0; a < 3; a++) {
@@ -87,7 +85,7 @@ static void look_at(const struct terrain_view *v, const struct surface *s, const
         return;
     bool band = v->share[at] < 1;
     out->material = materials_at(s, p, band, ratio);
-    for (int r = 0; r < RATIOS; r++)
+    for (int r = 0; r < TERRAIN_RATIOS; r++)
         v->ratio[r][at] = ratio[r];
     out->is_one = band || side;
 }
@@ -126,7 +124,7 @@ status terrain_look(struct terrain_view *v)
     struct found *found = NULL;
     size_t n = sample_count(v), count = 0, *first = NULL;
     TRY(memory_alloc(n, sizeof *v->share, "the surface", &v->share));
-    for (int r = 0; r < RATIOS; r++)
+    for (int r = 0; r < TERRAIN_RATIOS; r++)
         TRY(memory_alloc(n, sizeof *v->ratio[r], "material ratios", &v->ratio[r]));
     TRY(memory_alloc(n, sizeof *found, "the surface", &found));
     TRY(memory_alloc((size_t)v->n[2] + 1, sizeof *first, "the surface", &first));
@@ -165,7 +163,7 @@ void terrain_view_free(struct terrain_view *v)
 {
     free(v->share);
     v->share = NULL;
-    for (int r = 0; r < RATIOS; r++) {
+    for (int r = 0; r < TERRAIN_RATIOS; r++) {
         free(v->ratio[r]);
         v->ratio[r] = NULL;
     }

@@ -61,8 +61,8 @@ struct usd_sequence {
 void usd_stage(const struct usd_sequence *s, struct text *out);
 void usd_clips(const struct usd_sequence *s, const struct usd_prim *prim, struct text *out);
 
-/* The particles with a normal: positions, normals, widths, ids, the layer's colour, and as primvars stress,
- * von_mises, viability and layer. out->bytes is freed with free(). E_OUTPUT: more than a file can number. */
+/* The particles with a normal: positions, normals, widths, ids, the layer's colour, and as primvars the values
+ * that are fields (IN_USD of values.def). out->bytes is freed with free(). E_OUTPUT: more than a file can number. */
 MUST_USE status usd_points(const struct rock *rock, const struct vdb_options *options, double fps,
                            struct vdb_bytes *out);
 

@@ -13,7 +13,11 @@ enum value_type { TOKEN_VECTOR = 41, SPECIFIER = 42, TIME_SAMPLES = 46, DOUBLE_V
 enum spec_type { SPEC_ATTRIBUTE = 1, SPEC_PRIM = 6, SPEC_ROOT = 7 };
 static const uint64_t ARRAY = 1ULL << 63, INLINED = 1ULL << 62;
 
-enum { MAX_TOKENS = 64, MAX_FIELDS = 64, MAX_SPECS = 2 + USD_ATTRIBUTES_MAX };
+enum {
+    MAX_TOKENS = 32 + 2 * USD_ATTRIBUTES_MAX,
+    MAX_FIELDS = 32 + 3 * USD_ATTRIBUTES_MAX,
+    MAX_SPECS = 2 + USD_ATTRIBUTES_MAX
+};
 
 struct crate {
     const struct usd_prim *prim;

@@ -28,7 +28,7 @@ struct usd_attribute {
     const char *interpolation;
 };
 
-enum { USD_ATTRIBUTES_MAX = 10 };
+enum { USD_ATTRIBUTES_MAX = 10 + VALUES };
 
 struct usd_prim {
     const char *name, *type;
@@ -37,7 +37,7 @@ struct usd_prim {
     struct usd_attribute attribute[USD_ATTRIBUTES_MAX]; /* by name */
 };
 
-extern const struct usd_prim usd_points_prim; /* usd_points.c */
+const struct usd_prim *usd_points_prim(void); /* usd_points.c */
 extern const struct usd_prim usd_rocks_prim;  /* usd_rocks.c */
 
 /* An attribute's array. */

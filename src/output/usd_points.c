@@ -1,4 +1,5 @@
 /* The rock's surface as USD points. */
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,31 +8,64 @@
 #include "output/usd.h"
 #include "output/usd_crate.h"
 
-enum { EXTENT, IDS, NORMALS, POINTS, COLOR, LAYER, STRESS, VIABILITY, VON_MISES, WIDTHS, ATTRIBUTES };
+/* What every point has; values of values.def follow. */
+enum { EXTENT, IDS, NORMALS, POINTS, COLOR, WIDTHS, OWN };
+static const struct usd_attribute own[OWN] = {
+    [EXTENT] = {"extent", "float3[]", USD_VEC3F, 12, ""},
+    [IDS] = {"ids", "int64[]", USD_INT64, 8, ""},
+    [NORMALS] = {"normals", "normal3f[]", USD_VEC3F, 12, "vertex"},
+    [POINTS] = {"points", "point3f[]", USD_VEC3F, 12, ""},
+    [COLOR] = {"primvars:displayColor", "color3f[]", USD_VEC3F, 12, "vertex"},
+    [WIDTHS] = {"widths", "float[]", USD_FLOAT, 4, "constant"}};
 
-const struct usd_prim usd_points_prim = {
-    .name = "points",
-    .type = "Points",
-    .folder = "points",
-    .n = ATTRIBUTES,
-    .attribute = {[EXTENT] = {"extent", "float3[]", USD_VEC3F, 12, ""},
-                  [IDS] = {"ids", "int64[]", USD_INT64, 8, ""},
-                  [NORMALS] = {"normals", "normal3f[]", USD_VEC3F, 12, "vertex"},
-                  [POINTS] = {"points", "point3f[]", USD_VEC3F, 12, ""},
-                  [COLOR] = {"primvars:displayColor", "color3f[]", USD_VEC3F, 12, "vertex"},
-                  [LAYER] = {"primvars:layer", "int[]", USD_INT, 4, "vertex"},
-                  [STRESS] = {"primvars:stress", "float[]", USD_FLOAT, 4, "vertex"},
-                  [VIABILITY] = {"primvars:viability", "float[]", USD_FLOAT, 4, "vertex"},
-                  [VON_MISES] = {"primvars:von_mises", "float[]", USD_FLOAT, 4, "vertex"},
-                  [WIDTHS] = {"widths", "float[]", USD_FLOAT, 4, "constant"}}};
+static const char *const primvar[VALUES] = {
+    "",
+#define VALUE(name, unit, symbol, of, from, kind, has, where, bits, layer, channels, legend, meaning)        \
+    "primvars:" #name,
+#include "job/values.def"
+};
+
+/* The prim, and for each of its attributes which of `own` it is, or OWN and the value. */
+static struct usd_prim prim = {.name = "points", .type = "Points", .folder = "points"};
+static int which[USD_ATTRIBUTES_MAX];
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+/* In by name: a crate's readers look for attributes in that order. */
+static void insert(struct usd_attribute attribute, int is)
+{
+    size_t i = prim.n++;
+    for (; i > 0 && strcmp(prim.attribute[i - 1].name, attribute.name) > 0; i--) {
+        prim.attribute[i] = prim.attribute[i - 1];
+        which[i] = which[i - 1];
+    }
+    prim.attribute[i] = attribute;
+    which[i] = is;
+}
+
+static void make_prim(void)
+{
+    for (int i = 0; i < OWN; i++)
+        insert(own[i], i);
+    for (int v = 1; v < VALUES; v++)
+        if (value_table[v].where & IN_USD)
+            insert(value_table[v].kind == KIND_ID
+                       ? (struct usd_attribute){primvar[v], "int[]", USD_INT, 4, "vertex"}
+                       : (struct usd_attribute){primvar[v], "float[]", USD_FLOAT, 4, "vertex"},
+                   OWN + v);
+}
+
+const struct usd_prim *usd_points_prim(void)
+{
+    pthread_once(&once, make_prim);
+    return &prim;
+}
 
 /* Values of the surface's particles, as the file has them. */
 struct skin {
     size_t n;
     float *points, *normals, *color; /* [n][3] */
-    float *stress, *von_mises, *viability;
-    int32_t *layer;
     int64_t *ids;
+    uint32_t *value[VALUES]; /* [n] words, of those that are IN_USD */
     float extent[2][3], width;
 };
 
@@ -40,11 +74,9 @@ static void skin_free(struct skin *s)
     free(s->points);
     free(s->normals);
     free(s->color);
-    free(s->stress);
-    free(s->von_mises);
-    free(s->viability);
-    free(s->layer);
     free(s->ids);
+    for (int v = 0; v < VALUES; v++)
+        free(s->value[v]);
 }
 
 static bool on_surface(const struct rock *rock, size_t i)
@@ -60,10 +92,9 @@ static void take(const struct rock *rock, const struct vdb_options *o, size_t i,
     axes_turn(rock->P + 4 * i, o->up, s->points + 3 * k);
     axes_turn(rock->N + 4 * i, o->up, s->normals + 3 * k);
     memcpy(s->color + 3 * k, colored ? o->color[rock->layer[i]] : grey, 3 * sizeof(float));
-    s->stress[k] = rock->stress ? rock->stress[i] : 0;
-    s->von_mises[k] = rock->von_mises ? rock->von_mises[i] : 0;
-    s->viability[k] = rock->viability ? rock->viability[i] : 1;
-    s->layer[k] = rock->layer ? (int32_t)rock->layer[i] : 0;
+    for (int v = 1; v < VALUES; v++)
+        if (s->value[v] && rock->field[value_field[v]])
+            s->value[v][k] = ((const uint32_t *)rock->field[value_field[v]])[i];
     s->ids[k] = rock->id ? (int64_t)rock->id[i] : (int64_t)i;
     for (int a = 0; a < 3; a++) {
         const float x = s->points[3 * k + (size_t)a], r = s->width / 2;
@@ -89,10 +120,9 @@ static status skin_of(const struct rock *rock, const struct vdb_options *o, stru
     TRY(memory_alloc(n, 3 * sizeof(float), what, &s->points));
     TRY(memory_alloc(n, 3 * sizeof(float), what, &s->normals));
     TRY(memory_alloc(n, 3 * sizeof(float), what, &s->color));
-    TRY(memory_alloc(n, sizeof(float), what, &s->stress));
-    TRY(memory_alloc(n, sizeof(float), what, &s->von_mises));
-    TRY(memory_alloc(n, sizeof(float), what, &s->viability));
-    TRY(memory_alloc(n, sizeof *s->layer, what, &s->layer));
+    for (int v = 1; v < VALUES; v++)
+        if (value_table[v].where & IN_USD)
+            TRY(memory_alloc(n, sizeof(uint32_t), what, &s->value[v]));
     TRY(memory_alloc(n, sizeof *s->ids, what, &s->ids));
     for (size_t i = 0; n && i < rock->n; i++)
         if (on_surface(rock, i))
@@ -106,16 +136,17 @@ status usd_points(const struct rock *rock, const struct vdb_options *options, do
 {
     status st = OK;
     struct skin s = {0};
+    struct usd_items items[USD_ATTRIBUTES_MAX];
     *out = (struct vdb_bytes){0};
     TRY(skin_of(rock, options, &s));
-    const struct usd_items items[ATTRIBUTES] = {
-        [EXTENT] = {s.extent, s.n ? 2 : 0}, [IDS] = {s.ids, s.n},
-        [NORMALS] = {s.normals, s.n},       [POINTS] = {s.points, s.n},
-        [COLOR] = {s.color, s.n},           [LAYER] = {s.layer, s.n},
-        [STRESS] = {s.stress, s.n},         [VIABILITY] = {s.viability, s.n},
-        [VON_MISES] = {s.von_mises, s.n},   [WIDTHS] = {&s.width, 1},
+    const struct usd_items mine[OWN] = {
+        [EXTENT] = {s.extent, s.n ? 2 : 0}, [IDS] = {s.ids, s.n},     [NORMALS] = {s.normals, s.n},
+        [POINTS] = {s.points, s.n},         [COLOR] = {s.color, s.n}, [WIDTHS] = {&s.width, 1},
     };
-    TRY(usd_crate(&usd_points_prim, items, options->up, options->frame, fps, out));
+    const struct usd_prim *const points = usd_points_prim();
+    for (size_t i = 0; i < points->n; i++)
+        items[i] = which[i] < OWN ? mine[which[i]] : (struct usd_items){s.value[which[i] - OWN], s.n};
+    TRY(usd_crate(points, items, options->up, options->frame, fps, out));
 done:
     skin_free(&s);
     return st;

@@ -23,7 +23,7 @@ extern "C" {
 struct vdb_options {
     int up;                  /* OUTPUT_UP_* */
     int codec;               /* VDB_CODEC_* */
-    bool half;               /* volumes only, but for stress and discharge, which may be beyond halves */
+    bool half;               /* volumes only, but for values that may be beyond halves (values.def) */
     int points;              /* VDB_POINTS_* */
     int precision;           /* VDB_PRECISION_*: of points; in 16 bits P is within voxel / 65535 / 2 */
     bool instances;          /* points: with `orient` (no turn) and `variant` (the layer), pscale 1 */

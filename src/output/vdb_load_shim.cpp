@@ -20,13 +20,6 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::points::PointDataGrid;
 
-const struct {
-    const char *name, *unit;
-} known[] = {{"surface", "m"},  {"density", ""},        {"stress", "Pa"},   {"von_mises", "Pa"},
-             {"viability", ""}, {"discharge", "m3/yr"}, {"vegetation", ""}, {"deposit", ""},
-             {"vel", "m/s"},    {"bedrock", ""},        {"sand", ""},       {"rock", ""},
-             {"water", ""}};
-
 /* A dense array's worth of voxels is more than a file of this size can mean. */
 void check_size(size_t voxels, size_t components)
 {
@@ -183,14 +176,17 @@ try {
     const size_t voxels = set_size(grids.n, size->value());
     const bool y_up = vdb::is_y_up(*file.getMetadata());
     const vdb::lattice l(grids.n, y_up);
-    for (const auto &k : known) {
-        if (!file.hasGrid(k.name))
+    for (int v = 1; v < VALUES; v++) {
+        if (!(value_table[v].where & IN_VOLUMES) || !file.hasGrid(value_table[v].name))
             continue;
-        const auto base = file.readGrid(k.name);
+        const auto base = file.readGrid(value_table[v].name);
         const Vec3d origin = vdb::sim_from_file(base->transform().indexToWorld(Vec3d(0)), y_up);
         const auto own = base->getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
-        frame_grid &g = grids.grid[grids.n_grids++];
-        g = frame_grid{k.name, k.unit, GRID_PLAIN, 1, nullptr, {}};
+        frame_grid *added = nullptr;
+        const status full = frame_grids_add(&grids, static_cast<enum value_id>(v), &added);
+        if (full != OK)
+            return full;
+        frame_grid &g = *added;
         (own ? g.own.voxel : grids.voxel) = base->voxelSize()[0];
         for (int a = 0; a < 3; a++)
             (own ? g.own.origin : grids.origin)[a] = origin[a];

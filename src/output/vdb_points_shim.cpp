@@ -1,8 +1,8 @@
 /* Particles to an OpenVDB PointDataGrid: sorted into voxels in two stable passes, so that the order is always
  * the same.
  *
- * In 16 bits a position is the nearest of 65,536 along each side of its voxel. What is a share (viability,
- * vegetation) is the nearest of as many from 0 to 1, with 0 and 1 exact and nothing else made 0; v and Cd are
+ * In 16 bits a position is the nearest of 65,536 along each side of its voxel. What is a share (BITS_SHARE of
+ * values.def) is the nearest of as many from 0 to 1, with 0 and 1 exact and nothing else made 0; v and Cd are
  * halves. Normals are unit vectors in two bytes where each particle has one, else halves, for OpenVDB's unit
  * vectors cannot be zero. Stresses, rates and numbers stay as they are. */
 #include "output/vdb_shim.hpp"
@@ -226,14 +226,22 @@ class leaf_maker
     }
 
   private:
-    /* In 16 bits. */
+    /* In 16 bits: as the values that are fields say; colours are halves. */
     coding coding_of(const std::string &name) const
     {
-        if (name == "N")
-            return options_.points == VDB_POINTS_SURFACE ? DIRECTION : HALF;
-        if (name == "viability" || name == "vegetation")
-            return SHARE;
-        return name == "v" || name == "Cd" ? HALF : EXACT;
+        for (int v = 1; v < VALUES; v++)
+            if (value_field[v] >= 0 && name == rock_field_table[value_field[v]].vdb)
+                switch (value_table[v].bits) {
+                case BITS_SHARE:
+                    return SHARE;
+                case BITS_HALF:
+                    return HALF;
+                case BITS_DIRECTION:
+                    return options_.points == VDB_POINTS_SURFACE ? DIRECTION : HALF;
+                case BITS_EXACT:
+                    return EXACT;
+                }
+        return name == "Cd" ? HALF : EXACT;
     }
 
     openvdb::NamePair type_of(const attribute &a) const
@@ -243,8 +251,9 @@ class leaf_maker
         if (a.kind == INT)
             return array_of<int32_t, exact>::attributeType();
         if (a.kind == FLOAT || a.from == &pscale_)
-            return a.how == SHARE ? array_of<float, share>::attributeType()
-                                  : array_of<float, exact>::attributeType();
+            return a.how == SHARE  ? array_of<float, share>::attributeType()
+                   : a.how == HALF ? array_of<float, half>::attributeType()
+                                   : array_of<float, exact>::attributeType();
         return a.how == HALF        ? array_of<Vec3f, half>::attributeType()
                : a.how == DIRECTION ? array_of<Vec3f, direction>::attributeType()
                                     : array_of<Vec3f, exact>::attributeType();
@@ -275,6 +284,8 @@ class leaf_maker
         case FLOAT:
             if (a.how == SHARE)
                 fill<float, share>(array, order, [real](uint32_t i) { return nearest_share(real[i]); });
+            else if (a.how == HALF)
+                fill<float, half>(array, order, [real](uint32_t i) { return real[i]; });
             else
                 fill<float>(array, order, [real](uint32_t i) { return real[i]; });
             break;

@@ -137,10 +137,11 @@ openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, 
     return grid;
 }
 
-/* Halves end at 65,504: pascals and m3/yr go beyond. */
+/* Halves end at 65,504: some values go beyond. */
 bool fits_half(const frame_grid &g)
 {
-    return !g.unit || (std::strcmp(g.unit, "Pa") != 0 && std::strcmp(g.unit, "m3/yr") != 0);
+    const enum value_id v = value_of_name(g.name);
+    return v == VALUE_NONE || value_table[v].bits != BITS_EXACT;
 }
 
 status check_lattice(const grid_lattice &l, int frame)

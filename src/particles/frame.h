@@ -32,11 +32,15 @@ struct frame_grids {
     int n[3];
     double voxel, origin[3]; /* m */
     size_t n_grids;
-    struct frame_grid grid[16];
+    struct frame_grid grid[VALUES];
 };
 /* In scalar grids, voxels where `density` is 0 are inactive, except in level sets, whose active voxels are
  * those with |value| < 3 voxels (the background). In vector grids (the wind is outside the rock) those with a
  * zero vector are. */
+
+/* One more grid, of this value, that is not sampled yet; *out stays where it is. E_OUTPUT: it is there already, or there are as
+ * many as there can be. */
+MUST_USE status frame_grids_add(struct frame_grids *grids, enum value_id value, struct frame_grid **out);
 
 /* One camera's picture: planes of width * height values, top row first. */
 struct aov_channel {

@@ -10,6 +10,15 @@ const struct rock_field_info rock_field_table[ROCK_FIELDS] = {
 #include "particles/particles.def"
 };
 
+#define OF_FIELD(field) ROCK_##field
+#define OF_MATERIAL(material) (-1)
+#define OF_NOTHING (-1)
+const int value_field[VALUES] = {
+    OF_NOTHING,
+#define VALUE(name, unit, symbol, of, from, kind, has, where, bits, layer, channels, legend, meaning) of,
+#include "job/values.def"
+};
+
 size_t rock_field_size(enum rock_field field)
 {
     return (size_t)rock_field_table[field].components * 4;

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "base/status.h"
+#include "job/values.h"
 
 enum { STATE, DERIVED };
 
@@ -23,6 +24,9 @@ struct rock_field_info {
 };
 
 extern const struct rock_field_info rock_field_table[ROCK_FIELDS];
+
+/* The field (enum rock_field) that a value of values.def is; -1 if it is none. */
+extern const int value_field[VALUES];
 
 /* n particles. Arrays have n * components items; a field nobody has filled yet is NULL. */
 struct rock {

@@ -9,8 +9,12 @@
 #include <stdint.h>
 
 #include "base/status.h"
+#include "job/values.h"
 
 enum { MATERIAL_AIR, MATERIAL_BEDROCK, MATERIAL_SAND, MATERIAL_ROCK, MATERIAL_WATER, MATERIALS_OWN };
+
+/* The material whose share a value of values.def is; MATERIAL_AIR: none's. */
+extern const int value_material[VALUES];
 
 struct material {
     char name[65];

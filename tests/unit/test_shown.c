@@ -16,28 +16,28 @@ static const struct show_range ranges[] = {{-0.34, 1.7},  {0, 1},      {1, 6e5},
                                            {999, 1000.5}, {1e-9, 1e-6}};
 enum { RANGES = sizeof ranges / sizeof *ranges };
 
-static bool fits(enum show show, struct show_range r)
+static bool fits(enum value_id show, struct show_range r)
 {
-    return r.low > 0 || (show != SHOW_DISCHARGE && show != SHOW_ERODIBILITY);
+    return value_table[show].legend.unit && (r.low > 0 || value_table[show].legend.axis != AXIS_LOG);
 }
 
 static void ticks_stand_where_their_values_are(void **state)
 {
     (void)state;
     size_t n_ticks = 0;
-    for (int show = SHOW_STRESS; show < SHOWS; show++)
+    for (int show = 1; show < VALUES; show++)
         for (int i = 0; i < RANGES; i++) {
             struct show_tick tick[SHOW_TICKS];
-            if (!fits((enum show)show, ranges[i]))
+            if (!fits((enum value_id)show, ranges[i]))
                 continue;
-            size_t n = show_ticks((enum show)show, ranges[i], tick);
+            size_t n = show_ticks((enum value_id)show, ranges[i], tick);
             assert_in_range(n, 1, SHOW_TICKS);
             n_ticks += n;
             for (size_t k = 0; k < n; k++) {
                 char *unit;
                 double value = strtod(tick[k].text, &unit);
                 value *= *unit == 'k' ? 1e3 : *unit == 'M' ? 1e6 : *unit == 'G' ? 1e9 : 1;
-                double at = show_position((enum show)show, ranges[i], value);
+                double at = show_position((enum value_id)show, ranges[i], value);
                 assert_true(fabs(at - tick[k].position) < 0.01);
                 assert_true(k == 0 || tick[k].position > tick[k - 1].position);
             }
@@ -57,25 +57,25 @@ static void colors_are_in_order(void **state)
     (void)state;
     enum { STEPS = 400 };
     const struct show_range stress = {-0.5, 2};
-    for (int show = SHOW_STRESS; show < SHOWS; show++) {
-        const struct show_range r = show == SHOW_STRESS ? stress : ranges[3];
+    for (int show = 1; show < VALUES; show++) {
+        const struct show_range r = show == VALUE_stress ? stress : ranges[3];
         double before = -1;
         for (int i = 0; i <= STEPS; i++) {
             unsigned char rgb[3];
-            double t = (double)i / STEPS, rising = show != SHOW_STRESS || t <= 0.2;
-            show_color((enum show)show, r, t, rgb);
-            if (i > 0 && show == SHOW_STRESS && fabs(t - 0.2) < 0.01)
+            double t = (double)i / STEPS, rising = show != VALUE_stress || t <= 0.2;
+            show_color((enum value_id)show, r, t, rgb);
+            if (i > 0 && show == VALUE_stress && fabs(t - 0.2) < 0.01)
                 before = lightness(rgb);
             assert_true(before < 0 ||
                         (rising != 0 ? lightness(rgb) >= before - 0.004 : lightness(rgb) <= before + 0.004));
             before = lightness(rgb);
         }
-        assert_true(show_position((enum show)show, r, r.low - 5) == 0);
-        assert_true(show_position((enum show)show, r, r.high + 5) == 1);
-        assert_true(show_position((enum show)show, r, NAN) == 0);
+        assert_true(show_position((enum value_id)show, r, r.low - 5) == 0);
+        assert_true(show_position((enum value_id)show, r, r.high + 5) == 1);
+        assert_true(show_position((enum value_id)show, r, NAN) == 0);
     }
     unsigned char zero[3];
-    show_color(SHOW_STRESS, stress, 0.2, zero);
+    show_color(VALUE_stress, stress, 0.2, zero);
     assert_true(zero[0] == 221 && zero[1] == 221 && zero[2] == 221);
 }
 
@@ -87,13 +87,13 @@ static void a_range_of_data_leaves_the_outermost_out(void **state)
         value[i] = i % 200 == 0   ? -1e12F
                    : i % 200 == 1 ? 1e12F
                                   : (float)(random_hash(i, 1, 2, 3) % 2000) * 1e3F;
-    struct show_range r = show_data_range(SHOW_VON_MISES, value, 10000);
+    struct show_range r = show_data_range(VALUE_von_mises, value, 10000);
     assert_true(r.low >= 0 && r.low < 0.1 && r.high > 1.9 && r.high < 2.1);
     memset(value, 0, sizeof value);
-    for (int show = SHOW_STRESS; show < SHOWS; show++) {
-        r = show_data_range((enum show)show, value, 10000);
+    for (int show = 1; show < VALUES; show++) {
+        r = show_data_range((enum value_id)show, value, 10000);
         assert_true(r.low < r.high);
-        r = show_data_range((enum show)show, value, 0);
+        r = show_data_range((enum value_id)show, value, 0);
         assert_true(r.low < r.high);
     }
 }
@@ -103,11 +103,13 @@ static void a_slate_has_few_words_in_any_size(void **state)
     (void)state;
     static struct slate_command c;
     const int size[][2] = {{8, 120}, {8, 16384}, {16384, 120}, {640, 360}, {200, 200}};
-    for (int show = SHOW_ROCK; show < SHOWS; show++)
+    for (int show = 0; show < VALUES; show++)
         for (size_t k = 0; k < 5; k++)
             for (int i = 0; i < RANGES; i++) {
-                struct slate s = {
-                    .width = size[k][0], .height = size[k][1], .show = (enum show)show, .range = ranges[i]};
+                struct slate s = {.width = size[k][0],
+                                  .height = size[k][1],
+                                  .show = (enum value_id)show,
+                                  .range = ranges[i]};
                 if (!fits(s.show, s.range))
                     continue;
                 memset(s.left, 'x', sizeof s.left - 1);
@@ -121,7 +123,7 @@ static void a_slate_has_few_words_in_any_size(void **state)
                 assert_in_range(c.n, 5, SLATE_WORDS - 2);
                 assert_null(c.argv[c.n]);
                 assert_string_equal(c.argv[c.n - 1], "to.png");
-                if (k == 3 && show != SHOW_ROCK)
+                if (k == 3 && show != VALUE_NONE)
                     assert_ok(slate_write_bar(&s, "bar.ppm"));
             }
 }

@@ -106,11 +106,11 @@ static void every_attribute_is_declared(void **state)
     (void)state;
     const struct usd_sequence s = {.name = "x", .first = 1, .last = 3, .fps = 24};
     struct text t = {0};
-    usd_clips(&s, &usd_points_prim, &t);
-    for (size_t i = 0; i < usd_points_prim.n; i++) {
+    const struct usd_prim *const prim = usd_points_prim();
+    usd_clips(&s, prim, &t);
+    for (size_t i = 0; i < prim->n; i++) {
         char line[80];
-        snprintf(line, sizeof line, "    %s %s", usd_points_prim.attribute[i].type,
-                 usd_points_prim.attribute[i].name);
+        snprintf(line, sizeof line, "    %s %s", prim->attribute[i].type, prim->attribute[i].name);
         assert_true(holds(&t, line));
     }
     assert_true(holds(&t, "float[] widths (interpolation = \"constant\")"));

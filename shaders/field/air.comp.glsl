@@ -1,19 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What wind, water and plants do under each pixel: weather = (discharge, wind speed, vegetation, 0). Water and
-// plants are those of the particle there; the wind is met one spacing of its lattice off the surface, as it is
-// still on the rock itself.
+// How fast the wind is over each pixel. It is met one spacing of its lattice off the surface, as it is still on the rock
+// itself.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_V(0, hit)
 READ_V(1, facing)
-READ_U(2, ids)
-READ_F(3, discharge)
-READ_F(4, vegetation)
-READ_V(5, velocity)
-WRITE_V(6, weather)
-PARAMS(pixel_weather_params)
+READ_V(2, velocity)
+WRITE_F(3, speed)
+PARAMS(pixel_air_params)
 
 vec3 velocity_at(vec3 x)
 {
@@ -35,12 +31,6 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    vec4 where = LOAD_V(hit, i), sum = vec4(0.0);
-    if (where.w >= 0.0) {
-        uint found = LOAD_U(ids, 3u * i + 2u);
-        sum.x = LOAD_F(discharge, found);
-        sum.y = length(velocity_at(where.xyz + k.cell * LOAD_V(facing, i).xyz));
-        sum.z = LOAD_F(vegetation, found);
-    }
-    AT(weather, i) = sum;
+    vec4 where = LOAD_V(hit, i);
+    AT(speed, i) = where.w >= 0.0 ? length(velocity_at(where.xyz + k.cell * LOAD_V(facing, i).xyz)) : 0.0;
 }
