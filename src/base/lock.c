@@ -91,7 +91,8 @@ static status look(const char *path, struct seen *s)
     s->unread = st != OK;
     if (st == OK && n > COUNT_DIGITS) {
         memcpy(s->count, bytes, COUNT_DIGITS);
-        if (json_read(path, bytes + COUNT_DIGITS, n - COUNT_DIGITS, &json) == OK) {
+        st = json_read(path, bytes + COUNT_DIGITS, n - COUNT_DIGITS, &json);
+        if (st == OK) {
             take_text(json, "token", s->token, sizeof s->token);
             take_text(json, "host", s->holder.host, sizeof s->holder.host);
             take_text(json, "boot", s->holder.boot, sizeof s->holder.boot);
@@ -106,18 +107,34 @@ static status look(const char *path, struct seen *s)
     }
     json_free(&json);
     free(bytes);
-    return OK;
+    return st == E_MEMORY ? st : OK;
+}
+
+enum whose { MINE, ANOTHERS, UNREAD };
+
+/* Takes no memory: the heart beats, and the lock is removed, when there is none too. */
+static enum whose whose(const struct lock *lock)
+{
+    char bytes[LOCK_BYTES];
+    int fd = open(lock->path.text, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    if (fd < 0)
+        return errno == ENOENT || errno == ELOOP ? ANOTHERS : UNREAD;
+    ssize_t n = pread(fd, bytes, sizeof bytes, 0);
+    close(fd);
+    if (n < 0)
+        return UNREAD;
+    return memmem(bytes, (size_t)n, lock->token, strlen(lock->token)) ? MINE : ANOTHERS;
 }
 
 /* ---- the heartbeat */
 
 static void beat(struct lock *lock)
 {
-    struct seen s;
     char count[32];
-    if (look(lock->path.text, &s) != OK || s.unread)
+    const enum whose now = whose(lock);
+    if (now == UNREAD)
         return; /* the disk is away for a moment; the next beat will tell */
-    if (!s.there || strcmp(s.token, lock->token) != 0) {
+    if (now == ANOTHERS) {
         atomic_store(&lock->lost, true);
         return;
     }
@@ -207,10 +224,11 @@ static status remove_stale(const char *path, const struct seen *stale)
     TRY(atomic_file_temporary(path, "", &aside));
     if (rename(path, aside.text) != 0)
         return errno == ENOENT ? OK : fail(E_OUTPUT, "%s: cannot be moved: %s", path, strerror(errno));
-    TRY(look(aside.text, &moved));
-    if (strcmp(moved.token, stale->token) != 0 && link(aside.text, path) != 0 && errno != EEXIST)
+    st = look(aside.text, &moved);
+    const bool judged = st == OK && strcmp(moved.token, stale->token) == 0;
+    if (!judged && link(aside.text, path) != 0 && errno != EEXIST)
         st = fail(E_OUTPUT, "%s: cannot be put back: %s", path, strerror(errno));
-    else if (strcmp(moved.token, stale->token) == 0)
+    else if (judged)
         log_warn("%s was left behind by process %ld on %s (%s, since %s); taking over", path,
                  stale->holder.pid, *stale->holder.host ? stale->holder.host : "an unknown machine",
                  *stale->what ? stale->what : "unknown", *stale->since ? stale->since : "an unknown time");
@@ -291,15 +309,16 @@ status lock_check(const struct lock *lock)
 void lock_sweep(const char *path)
 {
     struct seen s;
-    if (look(path, &s) == OK && s.there && process_fate(&s.holder) == PROCESS_GONE &&
-        remove_stale(path, &s) != OK)
+    status st = look(path, &s);
+    if (st == OK && s.there && process_fate(&s.holder) == PROCESS_GONE)
+        st = remove_stale(path, &s);
+    if (st != OK)
         log_warn("%s", status_message());
 }
 
 void lock_release(struct lock **handle)
 {
     struct lock *lock = *handle;
-    struct seen s;
     if (!lock)
         return;
     pthread_mutex_lock(&lock->guard);
@@ -309,7 +328,7 @@ void lock_release(struct lock **handle)
     pthread_join(lock->thread, NULL);
     pthread_cond_destroy(&lock->wake);
     pthread_mutex_destroy(&lock->guard);
-    if (look(lock->path.text, &s) == OK && s.there && strcmp(s.token, lock->token) == 0)
+    if (whose(lock) == MINE)
         unlink(lock->path.text);
     free(lock);
     *handle = NULL;

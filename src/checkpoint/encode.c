@@ -31,9 +31,13 @@ static status pack_section(const struct checkpoint_section *s, struct chunk *chu
 {
     bool out_of_memory = false;
     size_t n = section_chunks(s), raw = chunk_raw_size(s->item);
+    if (n == 0)
+        return OK;
 #pragma omp parallel if (n > 1) reduction(|| : out_of_memory)
     {
-        void *scratch = malloc(n ? section_chunk_raw(s, 0) : 1);
+        void *scratch = malloc(section_chunk_raw(s, 0));
+        /* Whether or not this thread gets a chunk, so that it does not depend on which thread lacks memory. */
+        out_of_memory = !scratch;
 #pragma omp for schedule(dynamic)
         for (size_t k = 0; k < n; k++) {
             const unsigned char *from = (const unsigned char *)s->data + k * raw;

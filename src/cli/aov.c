@@ -70,12 +70,13 @@ static status load(struct shot *s, int frame, struct loaded *l)
         st = fail(E_INPUT, "frame %d: no rock is left, there is nothing to show", frame);
         goto done;
     }
-    if (field_upload(s->gpu, &s->field, &l->grids) != OK) {
+    st = field_upload(s->gpu, &s->field, &l->grids);
+    if (st == E_INPUT) {
         char why[400];
         snprintf(why, sizeof why, "%.390s", status_message());
         st = fail(E_INPUT, "%s: %s", volumes.text, why);
-        goto done;
     }
+    TRY(st);
     TRY(particles_create(s->gpu, s->work, &l->rock, DERIVED, s->voxels, s->job->domain.spacing_m,
                          &l->particles));
     if (job_model(s->job)->wind)

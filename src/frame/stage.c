@@ -37,8 +37,9 @@ static status read_frame(const struct stage *s, uint64_t job_hash, int number, s
     const char *bad = "";
     struct manifest m = {0};
     *sound = false;
-    if (manifest_read(s->root, s->job->name, number, &m) != OK)
-        return OK;
+    st = manifest_read(s->root, s->job->name, number, &m);
+    if (st != OK)
+        return st == E_MEMORY ? st : OK; /* a damaged frame is not in the stage */
     TRY(manifest_check(s->root, &m, false, &bad));
     *sound = !*bad && m.job_hash == job_hash && range_holds(s->job->frames, number);
     *out = (struct stage_frame){.number = number,
@@ -155,11 +156,13 @@ static status find_fields(struct stage *s)
     st = vdb_describe_lattices(path.text, &t);
     if (st == OK)
         st = json_read(path.text, t.data, t.size, &json);
-    if (st != OK) { /* a run does not fail of a file that was sound once; `hoodoo verify` tells */
+    /* A run does not fail of a file that was sound once; `hoodoo verify` tells. */
+    if (st != OK && st != E_MEMORY) {
         log_warn("%s.usda: no volumes in it: %s", s->job->name, status_message());
         st = OK;
         goto done;
     }
+    TRY(st);
     const struct json *grids = json_member(json, "grids");
     for (const struct json *g = grids ? grids->first : NULL; g; g = g->next)
         add_field(s, g);

@@ -67,16 +67,16 @@ static status instance_create(VkInstance *out)
     return OK;
 }
 
+/* Into an array of fixed size: without memory a device would seem to have none. Devices have a few hundred at most. */
 static bool has_extension(VkPhysicalDevice physical, const char *name)
 {
-    uint32_t n = 0;
+    enum { MOST_EXTENSIONS = 1024 };
+    uint32_t n = MOST_EXTENSIONS;
     bool found = false;
-    vkEnumerateDeviceExtensionProperties(physical, NULL, &n, NULL);
-    VkExtensionProperties *list = calloc(n ? n : 1, sizeof *list);
-    if (list && vkEnumerateDeviceExtensionProperties(physical, NULL, &n, list) == VK_SUCCESS)
-        for (uint32_t i = 0; i < n && !found; i++)
-            found = strcmp(list[i].extensionName, name) == 0;
-    free(list);
+    VkExtensionProperties list[MOST_EXTENSIONS];
+    VkResult result = vkEnumerateDeviceExtensionProperties(physical, NULL, &n, list);
+    for (uint32_t i = 0; (result == VK_SUCCESS || result == VK_INCOMPLETE) && i < n && !found; i++)
+        found = strcmp(list[i].extensionName, name) == 0;
     return found;
 }
 

@@ -18,6 +18,7 @@ struct sink {
     char *bytes;
     size_t size, capacity;
     char message[256];
+    bool out_of_memory; /* to the library it is one of many failures to write */
 };
 
 static int64_t sink_write(exr_const_context_t exr, void *user, const void *bytes, uint64_t n, uint64_t at,
@@ -25,6 +26,7 @@ static int64_t sink_write(exr_const_context_t exr, void *user, const void *bytes
 {
     struct sink *s = user;
     if (memory_grow(&s->bytes, &s->capacity, (size_t)(at + n), 1, "an EXR file") != OK) {
+        s->out_of_memory = true;
         error(exr, EXR_ERR_OUT_OF_MEMORY, "out of memory at %llu bytes", (unsigned long long)(at + n));
         return -1;
     }
@@ -46,7 +48,7 @@ static status exr_status(exr_result_t code, const struct sink *s)
 {
     if (code == EXR_ERR_SUCCESS)
         return OK;
-    return fail(code == EXR_ERR_OUT_OF_MEMORY ? E_MEMORY : E_OUTPUT, "EXR: %s%s%s",
+    return fail(code == EXR_ERR_OUT_OF_MEMORY || s->out_of_memory ? E_MEMORY : E_OUTPUT, "EXR: %s%s%s",
                 exr_get_default_error_message(code), *s->message ? ": " : "", s->message);
 }
 

@@ -83,6 +83,8 @@ status branch_from(struct job *job, const char *text, const char *root)
         st = folder_path(&path, out.text, name, FILE_CHECKPOINT, frame, NULL);
     if (st == OK && access(path.text, F_OK) != 0)
         st = no_checkpoint(out.text, name, frame);
+    if (st == E_MEMORY)
+        return st;
     if (st != OK) {
         char message[1024];
         snprintf(message, sizeof message, "%s", status_message());

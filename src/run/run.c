@@ -125,8 +125,14 @@ static status check_owner(struct run *r)
     TRY(path_join(&path, r->options->root, "job.yaml"));
     if (access(path.text, F_OK) != 0)
         return OK;
-    if (job_load(path.text, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, r->options->root) != OK ||
-        job_hash(theirs, &hash) != OK) {
+    st = job_load(path.text, NULL, 0, &theirs);
+    if (st == OK)
+        st = branch_prepare_own(theirs, r->options->root);
+    if (st == OK)
+        st = job_hash(theirs, &hash);
+    if (st == E_MEMORY)
+        goto done;
+    if (st != OK) {
         st = fail(E_CHECKPOINT,
                   "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
                   "--resume never to start over",
@@ -389,6 +395,7 @@ status run_job(struct job *job, const struct run_options *options)
 {
     status st = OK;
     const double started = clock_seconds();
+    char message[2048];
     struct run r = {.job = job, .options = options, .frames = options->frames};
     TRY(branch_prepare(job, options->root));
     if (r.frames.step == 0)
@@ -421,12 +428,11 @@ status run_job(struct job *job, const struct run_options *options)
     TRY(begin(&r));
     TRY(simulate(&r));
 done:
+    snprintf(message, sizeof message, "%s", status_message());
     if (r.model)
         timing_write(options->root, r.gpu, r.began, model_frame(r.model), started);
-    if (st != OK && r.writer) {
+    if (st != OK) {
         /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
-        char message[2048];
-        snprintf(message, sizeof message, "%s", status_message());
         if (writer_finish(&r.writer) != OK && strcmp(status_message(), message) != 0)
             log_warn("%s", status_message());
         fail(st, "%s", message);

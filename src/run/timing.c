@@ -60,8 +60,10 @@ void timing_write(const char *root, const struct gpu *gpu, int first, int last, 
     struct text t = {0};
     int file = -1;
     describe(gpu, first, last, started, &t);
-    if (text_status(&t) != OK || path_join(&path, root, "log/timing.jsonl") != OK)
+    if (text_status(&t) != OK || path_join(&path, root, "log/timing.jsonl") != OK) {
+        log_note("log/timing.jsonl: %s", status_message());
         goto done;
+    }
     /* The writer breaks lines between members only: texts hold none. */
     for (size_t i = 0; i + 1 < t.size; i++)
         if (t.data[i] == '\n')

@@ -80,10 +80,10 @@ status stacks_read(const char *path, struct stacks *out, uint32_t *solid)
     }
     const uint32_t *count = (const uint32_t *)(void *)((char *)bytes + sizeof head);
     TRY(stacks_create(head.n, head.cell, head.quantum * STACK_TOP, out));
-    if (stacks_unpack(out, count, count + (size_t)head.n[0] * (size_t)head.n[1], head.n_layers) != OK) {
+    st = stacks_unpack(out, count, count + (size_t)head.n[0] * (size_t)head.n[1], head.n_layers);
+    if (st == E_INPUT)
         st = fail(E_INPUT, "%s: holds damaged stacks", path);
-        goto done;
-    }
+    TRY(st);
     *solid = head.solid;
 done:
     free(bytes);
