@@ -42,6 +42,7 @@ TEST_SRC = $(wildcard tests/*/test_*.c)
 TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
 BENCH_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/*.c)) $(BUILD)/tests/bench/surface
 TEST_HELP = $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/ref/*.c))
+KEEP = $(if $(SANITIZE),$(BUILD)/tests/sanitized/keep_libraries.o)
 
 ## all: build build/hoodoo (installs what is missing when root)
 all: $(BUILD)/hoodoo
@@ -64,7 +65,7 @@ $(BUILD)/.deps-peers: Makefile $(BUILD)/.deps-test
 $(BUILD)/venv-usd/.done: Makefile $(BUILD)/.deps-peers
 	$(Q)/usr/bin/python3 -m venv $(@D) && $(@D)/bin/pip install --quiet $(PEER_WHEELS) && touch $@
 
-$(BUILD)/hoodoo: $(BUILD)/src/main.o $(BUILD)/libhoodoo.a
+$(BUILD)/hoodoo: $(BUILD)/src/main.o $(KEEP) $(BUILD)/libhoodoo.a
 	@echo "link $@"
 	$(Q)$(CC) $(CFLAGS) -o $@ $^ $(LDLIBS)
 
@@ -127,9 +128,9 @@ $(BUILD)/gen/render/scene_parts.o: $(SHARE)/gen/render/scene_parts.c render/scen
 demo: $(BUILD)/hoodoo
 	$(Q)sh jobs/demo.sh $(BUILD)/hoodoo
 
-$(BUILD)/tests/%: tests/%.c $(BUILD)/libhoodoo.a $(TEST_HELP) | $(BUILD)/.deps-test
+$(BUILD)/tests/%: tests/%.c $(BUILD)/libhoodoo.a $(TEST_HELP) $(KEEP) | $(BUILD)/.deps-test
 	@echo "test $<"
-	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) -Itests $(CFLAGS) $(EXR_FLAGS) -MMD -MP -o $@ $< $(TEST_HELP) $(BUILD)/libhoodoo.a \
+	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) -Itests $(CFLAGS) $(EXR_FLAGS) -MMD -MP -o $@ $< $(TEST_HELP) $(KEEP) $(BUILD)/libhoodoo.a \
 		-lcmocka $(LDLIBS)
 
 # CGAL judges meshes. It is not part of hoodoo, nor linked with it: its licence is the GPL.
@@ -177,9 +178,10 @@ test-asan: $(SHARED)
 		SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer'
 
 ## test-tsan: the unit and gpu tests under the thread sanitizer
-# by clang, whose OpenMP library tells the sanitizer what waits for what; under gcc's every parallel loop looks like a race
-test-tsan: $(SHARED)
-	$(Q)TSAN_OPTIONS=suppressions=$(CURDIR)/tests/tsan.supp:print_suppressions=0 \
+# By clang, whose OpenMP library tells the sanitizer what waits for what; under gcc's every parallel loop looks like a race.
+# By what the threads of libraries wait for each other (Mesa's, TBB's, OpenMP's own) it cannot see: what libraries do is theirs.
+test-tsan: $(BUILD)/.deps-dev $(SHARED)
+	$(Q)TSAN_OPTIONS=suppressions=$(CURDIR)/tests/tsan.supp:print_suppressions=0:ignore_noninstrumented_modules=1 \
 		$(MAKE) BUILD=build-tsan SHARE=$(SHARE) CC=clang OPT='-O1 -g' test-sanitized SANITIZE=-fsanitize=thread
 
 test-sanitized: $(BUILD)/hoodoo $(BUILD)/.deps-test $(filter $(BUILD)/tests/unit/% $(BUILD)/tests/gpu/%,$(TEST_BIN))
