@@ -23,21 +23,46 @@ static double probe(int i, int a)
     return ((i * step[a]) % COVERAGE_FULL + 0.5) / COVERAGE_FULL;
 }
 
-unsigned coverage_of_voxel(const struct solid *solid, double h, int i, int j, int k)
+/* What of a box, in whole voxels, the solid holds: probes lie off the faces. */
+static enum solid_share in_voxels(const struct solid *solid, double h, const double at[3], double side)
+{
+    double min[3], max[3];
+    for (int a = 0; a < 3; a++) {
+        min[a] = at[a] * side * h;
+        max[a] = (at[a] + 1) * side * h;
+    }
+    return solid_in_box(solid, min, max);
+}
+
+/* Probes found in rock; no more than `enough` of them are looked for. */
+static unsigned count_probes(const struct solid *solid, double h, int i, int j, int k, unsigned enough)
 {
     const double corner[3] = {i * h, j * h, k * h};
     const double middle[3] = {(i + 0.5) * h, (j + 0.5) * h, (k + 0.5) * h};
     double d = solid_at(solid, middle).distance;
     if (fabs(d) > 0.8661 * h) /* half the voxel's diagonal */
-        return d < 0 ? COVERAGE_FULL : 0;
+        return d < 0 ? enough : 0;
+    enum solid_share share = in_voxels(solid, h, (const double[]){i, j, k}, 1);
+    if (share != SOLID_SOME)
+        return share == SOLID_ALL ? enough : 0;
     unsigned inside = 0;
-    for (int p = 0; p < COVERAGE_FULL; p++) {
+    for (int p = 0; p < COVERAGE_FULL && inside < enough; p++) {
         double x[3];
         for (int a = 0; a < 3; a++)
             x[a] = corner[a] + probe(p, a) * h;
         inside += solid_at(solid, x).distance <= 0;
     }
     return inside;
+}
+
+unsigned coverage_of_voxel(const struct solid *solid, double h, int i, int j, int k)
+{
+    return count_probes(solid, h, i, j, k, COVERAGE_FULL);
+}
+
+bool coverage_holds_rock(const struct solid *solid, double h, int i, int j, int k)
+{
+    return count_probes(solid, h, i, j, k, 1) > 0;
 }
 
 static void fill_brick(const struct solid *solid, double h, const int n[3], const size_t at[3],
@@ -57,7 +82,11 @@ static uint32_t classify(const struct solid *solid, double h, const size_t at[3]
     for (int a = 0; a < 3; a++)
         middle[a] = ((double)at[a] + 0.5) * BRICK * h;
     double d = solid_at(solid, middle).distance;
-    return fabs(d) < 0.8661 * BRICK * h ? MIXED : d < 0 ? FULL : EMPTY;
+    if (fabs(d) >= 0.8661 * BRICK * h)
+        return d < 0 ? FULL : EMPTY;
+    const double brick[3] = {(double)at[0], (double)at[1], (double)at[2]};
+    enum solid_share share = in_voxels(solid, h, brick, BRICK);
+    return share == SOLID_SOME ? MIXED : share == SOLID_ALL ? FULL : EMPTY;
 }
 
 status coverage_create(const struct solid *solid, const int n[3], double h, struct coverage **out)

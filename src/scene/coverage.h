@@ -7,6 +7,7 @@
 #ifndef HOODOO_COVERAGE_H
 #define HOODOO_COVERAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -29,5 +30,8 @@ unsigned coverage_at(const struct coverage *coverage, int i, int j, int k);
 
 /* The same for one voxel, straight from the solid. */
 unsigned coverage_of_voxel(const struct solid *solid, double h, int i, int j, int k);
+
+/* coverage_of_voxel() > 0, without counting on. */
+bool coverage_holds_rock(const struct solid *solid, double h, int i, int j, int k);
 
 #endif

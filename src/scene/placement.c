@@ -103,17 +103,29 @@ struct placement placement_below(const struct placement *parent, const struct jo
     return p;
 }
 
+/* Widens min..max by the box lo..hi, seen through m. */
+static void widen(const double m[3][4], const double lo[3], const double hi[3], double min[3], double max[3])
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double x[3], seen[3];
+        for (int a = 0; a < 3; a++)
+            x[a] = corner >> a & 1 ? hi[a] : lo[a];
+        placement_apply(m, x, seen);
+        for (int a = 0; a < 3; a++) {
+            min[a] = fmin(min[a], seen[a]);
+            max[a] = fmax(max[a], seen[a]);
+        }
+    }
+}
+
 void placement_box(const struct placement *place, const double lo[3], const double hi[3], double min[3],
                    double max[3])
 {
-    for (int corner = 0; corner < 8; corner++) {
-        double x[3], world[3];
-        for (int a = 0; a < 3; a++)
-            x[a] = corner >> a & 1 ? hi[a] : lo[a];
-        placement_apply(place->world_from_local, x, world);
-        for (int a = 0; a < 3; a++) {
-            min[a] = fmin(min[a], world[a]);
-            max[a] = fmax(max[a], world[a]);
-        }
-    }
+    widen(place->world_from_local, lo, hi, min, max);
+}
+
+void placement_box_local(const struct placement *place, const double min[3], const double max[3],
+                         double lo[3], double hi[3])
+{
+    widen(place->local_from_world, min, max, lo, hi);
 }

@@ -23,4 +23,8 @@ void placement_apply(const double m[3][4], const double x[3], double out[3]);
 void placement_box(const struct placement *place, const double lo[3], const double hi[3], double min[3],
                    double max[3]);
 
+/* Widens lo..hi of local space by the world's box min..max. */
+void placement_box_local(const struct placement *place, const double min[3], const double max[3],
+                         double lo[3], double hi[3]);
+
 #endif

@@ -297,7 +297,7 @@ static bool is_bare(const struct sampler *s, const int voxel[3])
             continue;
         if (v[a] < 0 || v[a] >= s->n[a])
             return true;
-        if (!deep && coverage_of_voxel(s->solid, s->h, v[0], v[1], v[2]) == 0)
+        if (!deep && !coverage_holds_rock(s->solid, s->h, v[0], v[1], v[2]))
             return true;
     }
     return false;
@@ -328,7 +328,7 @@ static status estimate(const struct sampler *s, struct scene_size *out)
             voxel[a] = (int)at[a] * side + (int)offset;
             inside &= voxel[a] < s->n[a];
         }
-        if (!inside || coverage_of_voxel(s->solid, s->h, voxel[0], voxel[1], voxel[2]) == 0)
+        if (!inside || !coverage_holds_rock(s->solid, s->h, voxel[0], voxel[1], voxel[2]))
             continue;
         bare += is_bare(s, voxel);
 #pragma omp atomic capture

@@ -36,6 +36,11 @@ struct solid_point {
 };
 struct solid_point solid_at(const struct solid *solid, const double x[3]);
 
+/* What a box of the world, min to max in m, holds of a solid, by the extents of its shapes alone: SOLID_SOME where
+ * they do not say. Good for points between the box's faces, at least a billionth of its size off them. */
+enum solid_share { SOLID_NONE, SOLID_ALL, SOLID_SOME };
+enum solid_share solid_in_box(const struct solid *solid, const double min[3], const double max[3]);
+
 /* Samples the scene: STATE fields only, particles in voxel order, ids in that order, layers by height, noise
  * and paint applied. A voxel of which less than 1/64 is rock gets nothing. Equal jobs give equal bits,
  * whatever the threads.

@@ -85,6 +85,18 @@ double shape_distance(const struct shape *shape, const double x[3])
     return d * shape->place.shrink;
 }
 
+bool shape_holds_box(const struct shape *shape, const double min[3], const double max[3])
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    if (shape->kind != SHAPE_BOX)
+        return false;
+    placement_box_local(&shape->place, min, max, lo, hi);
+    for (int a = 0; a < 3; a++)
+        if (!(lo[a] >= shape->u.box.min_m[a] && hi[a] <= shape->u.box.max_m[a]))
+            return false;
+    return true;
+}
+
 bool shape_loose(const struct shape *shape, const double x[3])
 {
     double p[3];

@@ -38,6 +38,9 @@ void shape_deinit(struct shape *shape);
 /* m, negative inside; the sign is exact, the size exact or less. */
 double shape_distance(const struct shape *shape, const double x[3]);
 
+/* Are all points of the world's box min..max in the shape? False where that takes more than its extents to tell. */
+bool shape_holds_box(const struct shape *shape, const double min[3], const double max[3]);
+
 /* Is the shape loose material at x? */
 bool shape_loose(const struct shape *shape, const double x[3]);
 

@@ -105,6 +105,38 @@ static int beyond(const struct solid *s, const double x[3], double distance)
     return square > distance * distance;
 }
 
+/* The surfaces of meshes and stacks are interpolated in single precision, and not trusted to end with their
+ * extents. */
+static enum solid_share shape_in_box(const struct solid *s, const double min[3], const double max[3])
+{
+    if (s->shape.kind == SHAPE_MESH || s->shape.kind == SHAPE_STACKS)
+        return SOLID_SOME;
+    for (int a = 0; a < 3; a++)
+        if (min[a] >= s->max[a] || max[a] <= s->min[a])
+            return SOLID_NONE;
+    return shape_holds_box(&s->shape, min, max) ? SOLID_ALL : SOLID_SOME;
+}
+
+/* For a union a child that fills the box settles it, for the other two one that leaves it empty; what a difference
+ * takes away counts as the opposite of what it is. */
+enum solid_share solid_in_box(const struct solid *s, const double min[3], const double max[3])
+{
+    if (s->kind == NODE_SHAPE)
+        return shape_in_box(s, min, max);
+    const enum solid_share settles = s->kind == NODE_UNION ? SOLID_ALL : SOLID_NONE;
+    enum solid_share share = s->kind == NODE_UNION ? SOLID_NONE : SOLID_ALL;
+    for (size_t i = 0; i < s->n_child; i++) {
+        enum solid_share c = solid_in_box(s->child[i], min, max);
+        if (s->kind == NODE_DIFFERENCE && i > 0 && c != SOLID_SOME)
+            c = c == SOLID_ALL ? SOLID_NONE : SOLID_ALL;
+        if (c == settles)
+            return settles;
+        if (c == SOLID_SOME)
+            share = SOLID_SOME;
+    }
+    return share;
+}
+
 static struct solid_point at_union(const struct solid *s, const double x[3])
 {
     struct solid_point p = solid_at(s->child[0], x);
