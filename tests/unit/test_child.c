@@ -97,7 +97,8 @@ static void variables_do_not_replace_the_users(void **state)
 }
 
 /* A handler and a mask of ours are not the child's. What whoever started this test ignores (a shell in the background
- * SIGINT and SIGQUIT) is not ours. */
+ * SIGINT and SIGQUIT) is not ours. Signals 32 and 33 are the C library's own: what make starts ignores them, and nobody
+ * can change that. */
 static void nothing(int number)
 {
     (void)number;
@@ -118,7 +119,7 @@ static void signals_have_their_defaults(void **state)
     sigprocmask(SIG_SETMASK, &all, &before);
     int how =
         run((struct child_options){.argv = SH("grep -q 'SigBlk:.*0000000000000000' /proc/self/status && "
-                                              "grep -q 'SigIgn:.*0000000000000000' /proc/self/status && "
+                                              "grep -qE 'SigIgn:.*0000000(00|18)0000000$' /proc/self/status && "
                                               "kill -TERM $$; exit 3")});
     sigprocmask(SIG_SETMASK, &before, NULL);
     signal(SIGTERM, SIG_DFL);
