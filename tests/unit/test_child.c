@@ -117,10 +117,10 @@ static void signals_have_their_defaults(void **state)
     signal(SIGPIPE, SIG_IGN);
     sigfillset(&all);
     sigprocmask(SIG_SETMASK, &all, &before);
-    int how =
-        run((struct child_options){.argv = SH("grep -q 'SigBlk:.*0000000000000000' /proc/self/status && "
-                                              "grep -qE 'SigIgn:.*0000000(00|18)0000000$' /proc/self/status && "
-                                              "kill -TERM $$; exit 3")});
+    int how = run(
+        (struct child_options){.argv = SH("grep -q 'SigBlk:.*0000000000000000' /proc/self/status && "
+                                          "grep -qE 'SigIgn:.*0000000(00|18)0000000$' /proc/self/status && "
+                                          "kill -TERM $$; exit 3")});
     sigprocmask(SIG_SETMASK, &before, NULL);
     signal(SIGTERM, SIG_DFL);
     signal(SIGPIPE, SIG_DFL);
