@@ -22,19 +22,19 @@ static void add_frame(int number)
     struct manifest_file file = {0};
     struct manifest m = {
         .frame = number, .job_hash = HASH, .n_files = 1, .file = &file, .start_volume_m3 = 1};
-    char path[PATH_BYTES];
+    struct path path;
     snprintf(file.path, sizeof file.path, "points/rock.%d.usdc", number);
-    snprintf(path, sizeof path, "out/%s", file.path);
-    assert_ok(atomic_file_write(path, "points", 6));
-    assert_ok(hash_file(path, &file.hash, &file.size));
+    assert_ok(path_format(&path, "out/%s", file.path));
+    assert_ok(atomic_file_write(path.text, "points", 6));
+    assert_ok(hash_file(path.text, &file.hash, &file.size));
     assert_ok(manifest_write("out", "rock", &m));
 }
 
 static void damage(int number)
 {
-    char path[PATH_BYTES];
-    assert_ok(folder_path(path, "out", "rock", FILE_MANIFEST, number, NULL));
-    FILE *f = fopen(path, "w");
+    struct path path;
+    assert_ok(folder_path(&path, "out", "rock", FILE_MANIFEST, number, NULL));
+    FILE *f = fopen(path.text, "w");
     assert_non_null(f);
     fputs("{", f);
     fclose(f);
@@ -57,7 +57,7 @@ static void known_frames_are_not_read_again(void **state)
     (void)state;
     struct job *job = NULL;
     struct stage_frames known = {0};
-    char path[PATH_BYTES];
+    struct path path;
     assert_ok(atomic_file_write("rock.yaml", yaml, sizeof yaml - 1));
     assert_ok(job_load("rock.yaml", NULL, 0, &job));
     assert_ok(folder_prepare("out"));
@@ -73,8 +73,8 @@ static void known_frames_are_not_read_again(void **state)
     add_frame(1002);
     add_frame(1004);
     damage(1003);
-    assert_ok(folder_path(path, "out", "rock", FILE_MANIFEST, 1001, NULL));
-    assert_int_equal(unlink(path), 0);
+    assert_ok(folder_path(&path, "out", "rock", FILE_MANIFEST, 1001, NULL));
+    assert_int_equal(unlink(path.text), 0);
     assert_ok(stage_write(job, HASH, "out", &known));
     assert_int_equal(known.n, 3);
     assert_true(!names(1001) && names(1002) && names(1003) && names(1004));
