@@ -2,7 +2,7 @@
 
 PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers \
 	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
-	libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
+	libseccomp-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
 	libcgal-dev libeigen3-dev
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
@@ -25,9 +25,10 @@ SANITIZE =
 COMMIT = $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)
 
 CPPFLAGS = -D_GNU_SOURCE -Isrc -Ishaders -I. -I$(SHARE)/gen
-CFLAGS = -std=c11 $(OPT) $(WARN) -fno-math-errno -ffp-contract=off -fopenmp $(SANITIZE)
-CXXFLAGS = -std=c++17 $(OPT) -Wall -Wextra -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
-LDLIBS = -lvulkan -lopenvdb -ltbb -lOpenEXRCore-3_1 -lImath-3_1 -lOpenImageIO -lOpenImageIO_Util -lfyaml -lzstd -lxxhash -lm -lpthread -lstdc++
+CFLAGS = -std=c11 $(OPT) $(PIC) $(WARN) -fno-math-errno -ffp-contract=off -fopenmp $(SANITIZE)
+CXXFLAGS = -std=c++17 $(OPT) $(PIC) -Wall -Wextra -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
+LDLIBS = -lvulkan -lOpenEXRCore-3_1 -lpng16 -lfyaml -lzstd -lxxhash -lm -lpthread
+VDB_LIBS = -lopenvdb -ltbb -lImath-3_1 -lxxhash -lstdc++
 EXR_FLAGS = -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
 
 Q = $(if $(V),,@)
@@ -36,7 +37,7 @@ SHIM = $(shell find src farm render -name '*_shim.cpp')
 SHADER = $(shell find shaders -name '*.comp.glsl')
 KERNEL = $(subst /,_,$(patsubst shaders/%.comp.glsl,%,$(SHADER)))
 SHIM_OBJ = $(SHIM:%.cpp=$(SHARE)/%.o)
-LIB_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out src/main.c,$(SRC))) $(SHIM_OBJ) \
+LIB_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out $(wildcard src/*.c),$(SRC))) $(SHIM_OBJ) \
 	$(BUILD)/gen/gpu/kernels.o $(BUILD)/gen/render/scene_parts.o
 TEST_SRC = $(wildcard tests/*/test_*.c)
 TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
@@ -80,6 +81,24 @@ $(BUILD)/%.o: %.c | $(BUILD)/.deps $(SHARE)/gen/gpu/kernels.h
 $(SHARE)/%_shim.o: %_shim.cpp | $(BUILD)/.deps
 	@echo "c++ $<"
 	$(Q)mkdir -p $(@D) && $(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
+
+# What opens other people's files, and what needs OpenVDB, stands beside hoodoo and is started or loaded when it is needed.
+BESIDE = $(addprefix $(BUILD)/,hoodoo-read hoodoo-read-image hoodoo-vdb.so)
+$(BUILD)/hoodoo: | $(BESIDE)
+$(BUILD)/hoodoo-read: $(BUILD)/src/read.o $(BUILD)/libhoodoo.a
+	@echo "link $@"
+	$(Q)$(CXX) $(OPT) $(SANITIZE) -o $@ $^ $(VDB_LIBS) -lOpenEXRCore-3_1 -lseccomp
+$(BUILD)/hoodoo-read-image: $(BUILD)/src/read_image.o $(BUILD)/libhoodoo.a
+	@echo "link $@"
+	$(Q)$(CXX) $(OPT) $(SANITIZE) -o $@ $^ -lOpenImageIO -lOpenImageIO_Util -lseccomp
+
+VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,output/vdb_bytes output/vdb_close output/vdb_points output/vdb_volumes scene/mesh_sdf) \
+	$(patsubst %,$(BUILD)/src/%.o,base/hash base/memory base/status base/version particles/rock)
+$(VDB_OBJ): private PIC = -fPIC
+$(VDB_OBJ): src/vdb.map
+$(BUILD)/hoodoo-vdb.so: $(VDB_OBJ) src/vdb.map
+	@echo "link $@"
+	$(Q)$(CXX) $(OPT) $(SANITIZE) -shared -Wl,--version-script=src/vdb.map -Wl,-Bsymbolic $(if $(SANITIZE),,-Wl,-z,defs) -o $@ $(VDB_OBJ) $(VDB_LIBS)
 
 # What is simulated and what is in a frame's files comes from these objects. Their hash tells builds apart that may give
 # other numbers: objects and not sources, since compiler and flags count and comments do not. Debug information, which
@@ -128,10 +147,10 @@ $(BUILD)/gen/render/scene_parts.o: $(SHARE)/gen/render/scene_parts.c render/scen
 demo: $(BUILD)/hoodoo
 	$(Q)sh jobs/demo.sh $(BUILD)/hoodoo
 
-$(BUILD)/tests/%: tests/%.c $(BUILD)/libhoodoo.a $(TEST_HELP) $(KEEP) | $(BUILD)/.deps-test
+$(BUILD)/tests/%: tests/%.c $(BUILD)/libhoodoo.a $(TEST_HELP) $(KEEP) | $(BESIDE) $(BUILD)/.deps-test
 	@echo "test $<"
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) -Itests $(CFLAGS) $(EXR_FLAGS) -MMD -MP -o $@ $< $(TEST_HELP) $(KEEP) $(BUILD)/libhoodoo.a \
-		-lcmocka $(LDLIBS)
+		-lcmocka $(LDLIBS) -lseccomp
 
 # CGAL judges meshes. It is not part of hoodoo, nor linked with it: its licence is the GPL.
 JUDGE = $(CXX) -std=c++17 -O2 -frounding-math -w -DCGAL_EIGEN3_ENABLED -isystem /usr/include/eigen3 -isystem /usr/include/Imath
@@ -187,10 +206,11 @@ test-tsan: $(BUILD)/.deps-dev $(SHARED)
 test-sanitized: $(BUILD)/hoodoo $(BUILD)/.deps-test $(filter $(BUILD)/tests/unit/% $(BUILD)/tests/gpu/%,$(TEST_BIN))
 	$(Q)sh tests/run.sh $(BUILD) unit gpu
 
-## install: copy hoodoo to PREFIX/bin (default /usr/local)
+## install: copy hoodoo to PREFIX/bin and its helpers to PREFIX/libexec/hoodoo (default /usr/local)
 PREFIX = /usr/local
 install: $(BUILD)/hoodoo
 	install -D -m 755 $(BUILD)/hoodoo $(DESTDIR)$(PREFIX)/bin/hoodoo
+	install -D -m 755 -t $(DESTDIR)$(PREFIX)/libexec/hoodoo $(BESIDE)
 
 ## clean: remove what was built (out/ stays)
 clean:

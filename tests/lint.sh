@@ -57,7 +57,7 @@ rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*
 # A folder may include those of lower rank, and itself.
 rank() {
     case $1 in
-    base) echo 0 ;; gpu | job | mesh) echo 1 ;; particles | stacks) echo 2 ;;
+    base) echo 0 ;; gpu | job | mesh | reader) echo 1 ;; particles | stacks) echo 2 ;;
     scene | stress | erosion | blocks | mpm | voxels | field | output | wind | water | deposit | plants | piles) echo 3 ;;
     frame | checkpoint) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; cli) echo 9 ;; *) echo 10 ;;
     esac

@@ -33,7 +33,7 @@ fi
 
 build=$(realpath "$1")
 shift
-export HOODOO="$build/hoodoo" HOODOO_TOP="$top" CMOCKA_MESSAGE_OUTPUT=tap
+export HOODOO="$build/hoodoo" HOODOO_LIBEXEC="$build" HOODOO_TOP="$top" CMOCKA_MESSAGE_OUTPUT=tap
 HOODOO_SCRATCH=$(mktemp -d "${TMPDIR:-/tmp}/hoodoo-test.XXXXXX")
 export HOODOO_SCRATCH
 trap 'rm -rf "$HOODOO_SCRATCH"' EXIT

@@ -1,5 +1,4 @@
-/* What an EXR file holds, and whether it is all there. Runs in a child process: these bytes may come from
- * anyone. */
+/* What an EXR file holds, and whether it is all there. Runs in hoodoo-read: these bytes may come from anyone. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -10,9 +9,9 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
-#include "output/exr.h"
+#include "output/describe.h"
 #include "output/exr_hash.h"
-#include "output/sandbox.h"
+#include "output/exr_serve.h"
 
 struct source {
     const char *path;
@@ -233,18 +232,19 @@ done:
     return st;
 }
 
-static status check_file(const char *path, struct text *out)
+status exr_serve_check(const struct serve_question *question, struct serve_answer *answer)
 {
-    (void)out;
-    return read_file(path, NULL);
+    (void)answer;
+    return read_file(question->path, NULL);
 }
 
-status exr_check(const char *path)
+status exr_serve_describe(const struct serve_question *question, struct serve_answer *answer)
 {
-    return sandbox_read(path, check_file, NULL);
-}
-
-status exr_describe(const char *path, struct text *out)
-{
-    return sandbox_read(path, read_file, out);
+    struct text text;
+    describe_begin(question, &text);
+    status st = read_file(question->path, &text);
+    if (st == OK)
+        return describe_end(&text, answer);
+    text_free(&text);
+    return st;
 }

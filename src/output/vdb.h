@@ -1,4 +1,5 @@
-/* OpenVDB files: volumes and points to bytes, and back. The only door to OpenVDB (vdb_*_shim.cpp).
+/* OpenVDB files: volumes and points to bytes, and back. The only door to OpenVDB, which is in hoodoo-vdb.so (base/library.h) for
+ * what is made and in hoodoo-read (reader/reader.h) for what is read.
  *
  * Axes      In memory everything is in the simulator's axes (z up). Files are in the job's output.up: for y,
  *           index and world (x, y, z) become (x, z, -y). Readers here turn it back, going by the file's
@@ -15,10 +16,6 @@
 
 #include "base/status.h"
 #include "particles/frame.h"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 struct vdb_options {
     int up;                  /* OUTPUT_UP_* */
@@ -44,13 +41,9 @@ MUST_USE status vdb_volumes(const struct frame_grids *grids, const struct vdb_op
                             struct vdb_bytes *out);
 MUST_USE status vdb_points(const struct rock *rock, const struct vdb_options *options, struct vdb_bytes *out);
 
-/* Ends the library's threads; its next use starts them again. A child process has only the thread that forked, and
- * what others had locked stays locked in it: sandbox.h. */
-void vdb_end_threads(void);
-
 /* What a file holds: grids (name, type, class, active voxels or points, bounds in m in the file's axes,
  * attributes) and file metadata, written into `out` as a JSON object's members. E_INPUT if it is missing or
- * damaged; never crashes on hostile bytes (it reads in a child process with limits on memory and time). */
+ * damaged; never crashes on hostile bytes (another program reads them: reader/reader.h). */
 struct text;
 MUST_USE status vdb_describe(const char *path, struct text *out);
 
@@ -103,7 +96,4 @@ MUST_USE status vdb_mesh_read(const char *path, double adaptivity, const char *c
                               size_t n_optional, struct vdb_mesh *out);
 void vdb_mesh_free(struct vdb_mesh *mesh);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

@@ -1,17 +1,17 @@
-/* Frames back from their files: volumes as dense grids, points as particles. */
+/* Frames back from their files: volumes as dense grids, points as particles. Runs in hoodoo-read. */
 #include "output/vdb_shim.hpp"
 
-#include <openvdb/io/File.h>
 #include <openvdb/points/AttributeArray.h>
 #include <openvdb/points/PointDataGrid.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+extern "C" {
+#include "output/vdb_serve.h"
+}
 
 namespace
 {
@@ -20,69 +20,89 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::points::PointDataGrid;
 
-/* A dense array's worth of voxels is more than a file of this size can mean. */
-void check_size(size_t voxels, size_t components)
+/* The answer cannot be given. */
+struct failure : std::exception {
+};
+void must(status st)
 {
-    if (voxels > memory_available() / sizeof(float) / components)
-        throw std::runtime_error("its grids are larger than this machine's memory");
+    if (st != OK)
+        throw failure();
 }
 
-/* The grid's voxels in the lattice: leaves voxel by voxel, tiles by their value. */
+/* The grid's voxels in the lattice, as layers of it from the ground up: leaves voxel by voxel, tiles by their value. What has
+ * one layer of leaves in memory at a time sends a grid that is much larger than its file. */
 template <class grid_type, class store_fn>
-void read_dense(const grid_type &grid, const vdb::lattice &l, const store_fn &store)
+void send_dense(const grid_type &grid, const vdb::lattice &l, size_t components, const store_fn &store,
+                struct serve_answer *answer)
 {
     constexpr int D = grid_type::TreeType::LeafNodeType::DIM;
-    const Coord first = l.lo & ~(D - 1);
-    const size_t my = size_t((l.hi[1] - first[1]) / D + 1), mz = size_t((l.hi[2] - first[2]) / D + 1);
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, my * mz), [&](const tbb::blocked_range<size_t> &range) {
-        auto at = grid.getConstAccessor();
-        for (size_t r = range.begin(); r < range.end(); r++)
-            for (Coord o = first.offsetBy(0, int(r % my) * D, int(r / my) * D); o[0] <= l.hi[0]; o[0] += D) {
-                const auto *leaf = at.probeConstLeaf(o);
-                const auto tile = leaf ? grid.background() : at.getValue(o);
-                const Coord b = Coord::maxComponent(o, l.lo),
-                            e = Coord::minComponent(o.offsetBy(D - 1), l.hi);
-                for (int y = b[1]; y <= e[1]; y++)
-                    for (int z = b[2]; z <= e[2]; z++)
-                        for (int x = b[0]; x <= e[0]; x++)
-                            store(l.at(x, y, z), leaf ? leaf->getValue(Coord(x, y, z)) : tile);
-            }
-    });
+    const int up = l.y_up ? 1 : 2; /* the file's axis along which the simulator's layers lie */
+    const ptrdiff_t layer = l.stride[up];
+    auto at = grid.getConstAccessor();
+    std::vector<float> slab;
+    must(serve_part(answer));
+    for (int base = l.lo[up] & ~(D - 1); base <= l.hi[up]; base += D) {
+        Coord lo = l.lo, hi = l.hi;
+        lo[up] = std::max(lo[up], base);
+        hi[up] = std::min(hi[up], base + D - 1);
+        slab.resize(size_t(hi[up] - lo[up] + 1) * size_t(layer) * components);
+        const ptrdiff_t first = ptrdiff_t(lo[up] - l.lo[up]) * layer;
+        const Coord begin = lo & ~(D - 1);
+        for (int oz = begin[2]; oz <= hi[2]; oz += D)
+            for (int oy = begin[1]; oy <= hi[1]; oy += D)
+                for (int ox = begin[0]; ox <= hi[0]; ox += D) {
+                    const Coord o(ox, oy, oz);
+                    const auto *leaf = at.probeConstLeaf(o);
+                    const auto tile = leaf ? grid.background() : at.getValue(o);
+                    const Coord b = Coord::maxComponent(o, lo),
+                                e = Coord::minComponent(o.offsetBy(D - 1), hi);
+                    for (int y = b[1]; y <= e[1]; y++)
+                        for (int z = b[2]; z <= e[2]; z++)
+                            for (int x = b[0]; x <= e[0]; x++)
+                                store(slab.data() + size_t(l.at(x, y, z) - first) * components,
+                                      leaf ? leaf->getValue(Coord(x, y, z)) : tile);
+                }
+        must(serve_add(answer, slab.data(), slab.size() * sizeof(float)));
+    }
 }
 
-void read_grid(const openvdb::GridBase &base, const vdb::lattice &l, frame_grid &g, size_t voxels)
+void send_grid(const openvdb::GridBase &base, const vdb::lattice &l, const std::string &name,
+               vdb_part_grid *part, struct serve_answer *answer)
 {
     const bool is_vector = base.isType<openvdb::Vec3SGrid>();
     if (!is_vector && !base.isType<openvdb::FloatGrid>())
-        throw std::runtime_error(std::string("grid '") + g.name + "' does not hold floats");
-    g.components = is_vector ? 3 : 1;
-    g.kind = base.getGridClass() == openvdb::GRID_LEVEL_SET    ? GRID_LEVEL_SET
-             : base.getGridClass() == openvdb::GRID_FOG_VOLUME ? GRID_FOG
-                                                               : GRID_PLAIN;
-    check_size(voxels, size_t(g.components));
-    g.value = static_cast<float *>(std::malloc(voxels * size_t(g.components) * sizeof(float)));
-    if (!g.value)
-        throw std::bad_alloc();
-    float *to = g.value;
+        throw std::runtime_error("grid '" + name + "' does not hold floats");
+    part->components = is_vector ? 3 : 1;
+    part->kind = base.getGridClass() == openvdb::GRID_LEVEL_SET    ? GRID_LEVEL_SET
+                 : base.getGridClass() == openvdb::GRID_FOG_VOLUME ? GRID_FOG
+                                                                   : GRID_PLAIN;
+    if (!answer)
+        return;
     if (is_vector)
-        read_dense(static_cast<const openvdb::Vec3SGrid &>(base), l, [&](ptrdiff_t i, const Vec3f &v) {
-            const Vec3f s = vdb::sim_from_file(v, l.y_up);
-            to[3 * i] = s[0], to[3 * i + 1] = s[1], to[3 * i + 2] = s[2];
-        });
+        send_dense(
+            static_cast<const openvdb::Vec3SGrid &>(base), l, 3,
+            [&](float *to, const Vec3f &v) {
+                const Vec3f s = vdb::sim_from_file(v, l.y_up);
+                to[0] = s[0], to[1] = s[1], to[2] = s[2];
+            },
+            answer);
     else
-        read_dense(static_cast<const openvdb::FloatGrid &>(base), l,
-                   [to](ptrdiff_t i, float v) { to[i] = v; });
+        send_dense(
+            static_cast<const openvdb::FloatGrid &>(base), l, 1, [](float *to, float v) { *to = v; }, answer);
 }
 
-/* A lattice's size as a file gives it, and how many voxels that is. */
-size_t set_size(int n[3], const openvdb::Vec3i &size)
+/* A lattice's size as a file gives it; of more voxels than memory holds it means nothing. */
+void set_size(int32_t n[3], const openvdb::Vec3i &size)
 {
+    double voxels = 1;
     for (int a = 0; a < 3; a++) {
         n[a] = size[a];
         if (n[a] < 1 || n[a] > 1 << 20)
             throw std::runtime_error("its grids have no sensible size");
+        voxels *= n[a];
     }
-    return size_t(n[0]) * size_t(n[1]) * size_t(n[2]);
+    if (voxels * sizeof(float) > double(memory_available()))
+        throw std::runtime_error("its grids are larger than this machine's memory");
 }
 
 /* A particle file being read: its leaves, and where each leaf's particles start. */
@@ -98,13 +118,14 @@ struct point_leaves {
             begin.push_back(begin.back() + l->getLastValue());
         }
     }
+    size_t n() const
+    {
+        return begin.back();
+    }
     template <class work_fn> void each(const work_fn &work) const
     {
-        tbb::parallel_for(tbb::blocked_range<size_t>(0, leaf.size()),
-                          [&](const tbb::blocked_range<size_t> &range) {
-                              for (size_t i = range.begin(); i < range.end(); i++)
-                                  work(*leaf[i], begin[i]);
-                          });
+        for (size_t i = 0; i < leaf.size(); i++)
+            work(*leaf[i], begin[i]);
     }
 };
 
@@ -118,27 +139,9 @@ void read_attribute(const point_leaves &leaves, const std::string &name, const s
     });
 }
 
-void read_field(const point_leaves &leaves, enum rock_field f, bool y_up, struct rock &rock)
+std::vector<float> positions(const point_leaves &leaves, const PointDataGrid &grid, bool y_up)
 {
-    const rock_field_info &info = rock_field_table[f];
-    rock.field[f] = std::calloc(rock.n + 1, rock_field_size(f));
-    if (!rock.field[f])
-        throw std::bad_alloc();
-    float *real = static_cast<float *>(rock.field[f]);
-    uint32_t *whole = static_cast<uint32_t *>(rock.field[f]);
-    if (info.components == 4)
-        read_attribute<Vec3f>(leaves, info.vdb, [real, y_up](size_t i, const Vec3f &v) {
-            const Vec3f s = vdb::sim_from_file(v, y_up);
-            real[4 * i] = s[0], real[4 * i + 1] = s[1], real[4 * i + 2] = s[2];
-        });
-    else if (info.is_float)
-        read_attribute<float>(leaves, info.vdb, [real](size_t i, float v) { real[i] = v; });
-    else
-        read_attribute<int32_t>(leaves, info.vdb, [whole](size_t i, int32_t v) { whole[i] = uint32_t(v); });
-}
-
-void read_positions(const point_leaves &leaves, const PointDataGrid &grid, bool y_up, float *P)
-{
+    std::vector<float> P(4 * leaves.n());
     const auto &transform = grid.transform();
     leaves.each([&](const auto &leaf, size_t begin) {
         const openvdb::points::AttributeHandle<Vec3f> handle(leaf.constAttributeArray("P"));
@@ -149,100 +152,103 @@ void read_positions(const point_leaves &leaves, const PointDataGrid &grid, bool 
                 P[4 * (begin + *i) + a] = float(s[int(a)]);
         }
     });
+    return P;
 }
-} // namespace
 
-extern "C" status vdb_volumes_read(const char *path, struct frame_grids *out)
-try {
-    *out = frame_grids{};
-    const status st = vdb_check(path);
-    if (st != OK)
-        return st;
-    vdb::start();
-    openvdb::io::File file(path);
-    file.open(/*delayLoad=*/false);
-    struct owner {
-        frame_grids grids{};
-        ~owner()
-        {
-            vdb_volumes_free(&grids);
-        }
-    } made;
-    frame_grids &grids = made.grids;
-    const auto size = file.getMetadata()->getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
+void send_field(const point_leaves &leaves, enum rock_field f, bool y_up, struct serve_answer *answer)
+{
+    const rock_field_info &info = rock_field_table[f];
+    if (info.components == 4) {
+        std::vector<float> out(4 * leaves.n());
+        read_attribute<Vec3f>(leaves, info.vdb, [&](size_t i, const Vec3f &v) {
+            const Vec3f s = vdb::sim_from_file(v, y_up);
+            out[4 * i] = s[0], out[4 * i + 1] = s[1], out[4 * i + 2] = s[2];
+        });
+        must(serve_put(answer, out.data(), out.size() * sizeof out[0]));
+    } else if (info.is_float) {
+        std::vector<float> out(leaves.n());
+        read_attribute<float>(leaves, info.vdb, [&](size_t i, float v) { out[i] = v; });
+        must(serve_put(answer, out.data(), out.size() * sizeof out[0]));
+    } else {
+        std::vector<uint32_t> out(leaves.n());
+        read_attribute<int32_t>(leaves, info.vdb, [&](size_t i, int32_t v) { out[i] = uint32_t(v); });
+        must(serve_put(answer, out.data(), out.size() * sizeof out[0]));
+    }
+}
+
+/* What the frame's lattice is, and each grid's; with an answer their values too. */
+vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *q,
+                            struct serve_answer *answer)
+{
+    vdb_part_volumes part{};
+    const auto size = file.metadata->getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
     if (!size)
         throw std::runtime_error(
             "not a volume file of hoodoo: it does not say how many voxels its grids have");
-    const size_t voxels = set_size(grids.n, size->value());
-    const bool y_up = vdb::is_y_up(*file.getMetadata());
-    const vdb::lattice l(grids.n, y_up);
-    for (int v = 1; v < VALUES; v++) {
-        if (!(value_table[v].where & IN_VOLUMES) || !file.hasGrid(value_table[v].name))
+    set_size(part.n, size->value());
+    for (size_t k = 0; k < q->n_words; k++) {
+        const auto base = file.grid(q->word[k]);
+        if (!base)
             continue;
-        const auto base = file.readGrid(value_table[v].name);
-        const Vec3d origin = vdb::sim_from_file(base->transform().indexToWorld(Vec3d(0)), y_up);
+        if (part.n_grids == VDB_PART_GRIDS)
+            throw std::runtime_error("it has more grids than a frame");
+        vdb_part_grid &g = part.grid[part.n_grids++];
+        const Vec3d origin = vdb::sim_from_file(base->transform().indexToWorld(Vec3d(0)), file.y_up);
         const auto own = base->getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
-        frame_grid *added = nullptr;
-        const status full = frame_grids_add(&grids, static_cast<enum value_id>(v), &added);
-        if (full != OK)
-            return full;
-        frame_grid &g = *added;
-        (own ? g.own.voxel : grids.voxel) = base->voxelSize()[0];
+        g.word = uint32_t(k);
+        (own ? g.own_voxel : part.voxel) = base->voxelSize()[0];
         for (int a = 0; a < 3; a++)
-            (own ? g.own.origin : grids.origin)[a] = origin[a];
-        if (own) {
-            const size_t n = set_size(g.own.n, own->value());
-            read_grid(*base, vdb::lattice(g.own.n, y_up), g, n);
-        } else {
-            read_grid(*base, l, g, voxels);
-        }
+            (own ? g.own_origin : part.origin)[a] = origin[a];
+        if (own)
+            set_size(g.own_n, own->value());
+        send_grid(*base, vdb::lattice(own ? g.own_n : part.n, file.y_up), q->word[k], &g, answer);
     }
-    *out = grids;
-    grids = frame_grids{};
-    return OK;
+    return part;
 }
-SHIM_CATCH(E_INPUT, path)
+} // namespace
 
-extern "C" void vdb_volumes_free(struct frame_grids *grids)
-{
-    for (size_t i = 0; i < grids->n_grids; i++)
-        std::free(grids->grid[i].value);
-    *grids = frame_grids{};
-}
-
-extern "C" status vdb_points_read(const char *path, struct rock *out)
+extern "C" status vdb_serve_volumes(const struct serve_question *q, struct serve_answer *answer)
 try {
-    std::memset(out, 0, sizeof *out);
-    const status st = vdb_check(path);
+    vdb::file file;
+    const status st = vdb::load(q->path, &file);
     if (st != OK)
         return st;
-    vdb::start();
-    openvdb::io::File file(path);
-    file.open(/*delayLoad=*/false);
-    const bool y_up = vdb::is_y_up(*file.getMetadata());
-    const auto grid =
-        file.hasGrid("points") ? openvdb::gridPtrCast<PointDataGrid>(file.readGrid("points")) : nullptr;
+    const vdb_part_volumes part = volumes_of(file, q, nullptr);
+    must(serve_put(answer, &part, sizeof part));
+    volumes_of(file, q, answer);
+    return OK;
+} catch (const failure &) {
+    return E_MEMORY;
+}
+SHIM_CATCH(E_INPUT, q->path)
+
+extern "C" status vdb_serve_points(const struct serve_question *q, struct serve_answer *answer)
+try {
+    vdb::file file;
+    const status st = vdb::load(q->path, &file);
+    if (st != OK)
+        return st;
+    const auto named = file.grid("points");
+    const auto grid = named ? openvdb::gridPtrCast<PointDataGrid>(named) : nullptr;
     if (!grid)
         throw std::runtime_error("it holds no points");
-    struct owner {
-        struct rock rock = {};
-        ~owner()
-        {
-            rock_free(&rock);
-        }
-    } made;
     const point_leaves leaves(*grid);
-    made.rock.n = leaves.begin.back();
+    vdb_part_points part{};
+    part.n = leaves.n();
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (f != ROCK_P && *rock_field_table[f].vdb &&
-            (leaves.leaf.empty() || leaves.leaf[0]->hasAttribute(rock_field_table[f].vdb)))
-            read_field(leaves, static_cast<enum rock_field>(f), y_up, made.rock);
-    made.rock.P = static_cast<float *>(std::calloc(made.rock.n + 1, 4 * sizeof(float)));
-    if (!made.rock.P)
-        throw std::bad_alloc();
-    read_positions(leaves, *grid, y_up, made.rock.P);
-    *out = made.rock;
-    std::memset(static_cast<void *>(&made.rock), 0, sizeof made.rock);
+        part.has[f] =
+            f == ROCK_P || (*rock_field_table[f].vdb &&
+                            (leaves.leaf.empty() || leaves.leaf[0]->hasAttribute(rock_field_table[f].vdb)));
+    must(serve_put(answer, &part, sizeof part));
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (f == ROCK_P) {
+            const std::vector<float> P = positions(leaves, *grid, file.y_up);
+            must(serve_put(answer, P.data(), P.size() * sizeof P[0]));
+        } else if (part.has[f]) {
+            send_field(leaves, static_cast<enum rock_field>(f), file.y_up, answer);
+        }
     return OK;
+} catch (const failure &) {
+    return E_MEMORY;
 }
-SHIM_CATCH(E_INPUT, path)
+SHIM_CATCH(E_INPUT, q->path)

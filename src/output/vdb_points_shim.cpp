@@ -317,8 +317,8 @@ class leaf_maker
 };
 } // namespace
 
-extern "C" status vdb_points(const struct rock *rock, const struct vdb_options *options,
-                             struct vdb_bytes *out)
+extern "C" status vdb_encode_points(const struct rock *rock, const struct vdb_options *options,
+                                    struct vdb_bytes *out)
 try {
     vdb::start();
     *out = vdb_bytes{nullptr, 0};

@@ -1,11 +1,10 @@
-/* What an OpenVDB file holds, and whether it is all there. Runs in a child process, single-threaded: these
- * bytes may come from anyone. */
+/* What an OpenVDB file holds, and whether it is all there. Runs in hoodoo-read, single-threaded: these bytes may come
+ * from anyone. */
 #include "output/vdb_shim.hpp"
 
 #include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/points/PointDataGrid.h>
-#include <tbb/global_control.h>
 
 #include <cstdlib>
 #include <istream>
@@ -14,7 +13,8 @@
 
 extern "C" {
 #include "base/atomic_file.h"
-#include "output/sandbox.h"
+#include "output/describe.h"
+#include "output/vdb_serve.h"
 }
 
 namespace
@@ -153,36 +153,6 @@ struct memory_source : std::streambuf {
     }
 };
 
-/* Reads the whole file; describes it if `out` is not NULL. The library does not notice when a file ends too
- * early: the stream does, and throws. */
-status read_file(const char *path, struct text *out)
-try {
-    void *bytes = nullptr;
-    size_t size = 0;
-    const status st = file_read(path, SIZE_MAX / 2, &bytes, &size);
-    if (st != OK)
-        return st;
-    const std::unique_ptr<void, decltype(&std::free)> owner(bytes, std::free);
-    vdb::start();
-    memory_source source(static_cast<char *>(bytes), size);
-    std::istream is(&source);
-    is.exceptions(std::ios::eofbit | std::ios::failbit | std::ios::badbit);
-    openvdb::io::Stream file(is, /*delayLoad=*/false);
-    if (!vdb::is_intact(bytes, size))
-        return fail(E_INPUT, "%s: damaged: its content is not what was written", path);
-    if (!out)
-        return OK;
-    json_text(out, "format", "OpenVDB");
-    json_text(out, "up_axis", vdb::is_y_up(*file.getMetadata()) ? "y" : "z");
-    describe_metadata(*file.getMetadata(), "metadata", out);
-    json_array(out, "grids");
-    for (const GridBase::Ptr &grid : *file.getGrids())
-        describe_grid(*grid, out);
-    json_end_array(out);
-    return OK;
-}
-SHIM_CATCH(E_INPUT, path)
-
 /* The lattice's size is metadata, of the grid or else of the file. */
 void describe_lattice(const GridBase &grid, const openvdb::MetaMap &file, struct text *out)
 {
@@ -204,47 +174,79 @@ void describe_lattice(const GridBase &grid, const openvdb::MetaMap &file, struct
     }
     json_end_object(out);
 }
+} // namespace
 
-status read_lattices(const char *path, struct text *out)
+/* The library does not notice when a file ends too early: the stream does, and throws. */
+status vdb::load(const char *path, vdb::file *out)
+{
+    void *bytes = nullptr;
+    size_t size = 0;
+    const status st = file_read(path, SIZE_MAX / 2, &bytes, &size);
+    if (st != OK)
+        return st;
+    const std::unique_ptr<void, decltype(&std::free)> owner(bytes, std::free);
+    vdb::start();
+    memory_source source(static_cast<char *>(bytes), size);
+    std::istream is(&source);
+    is.exceptions(std::ios::eofbit | std::ios::failbit | std::ios::badbit);
+    openvdb::io::Stream stream(is, /*delayLoad=*/false);
+    if (!vdb::is_intact(bytes, size))
+        return fail(E_INPUT, "%s: damaged: its content is not what was written", path);
+    out->metadata = stream.getMetadata();
+    out->grids = stream.getGrids();
+    out->y_up = vdb::is_y_up(*out->metadata);
+    return OK;
+}
+
+GridBase::Ptr vdb::file::grid(const std::string &name) const
+{
+    for (const GridBase::Ptr &g : *grids)
+        if (g->getName() == name)
+            return g;
+    return nullptr;
+}
+
+extern "C" status vdb_serve_check(const struct serve_question *q, struct serve_answer *)
+try {
+    vdb::file file;
+    return vdb::load(q->path, &file);
+}
+SHIM_CATCH(E_INPUT, q->path)
+
+extern "C" status vdb_serve_describe(const struct serve_question *q, struct serve_answer *answer)
+try {
+    vdb::file file;
+    const status st = vdb::load(q->path, &file);
+    if (st != OK)
+        return st;
+    struct text out;
+    describe_begin(q, &out);
+    json_text(&out, "format", "OpenVDB");
+    json_text(&out, "up_axis", file.y_up ? "y" : "z");
+    describe_metadata(*file.metadata, "metadata", &out);
+    json_array(&out, "grids");
+    for (const GridBase::Ptr &grid : *file.grids)
+        describe_grid(*grid, &out);
+    json_end_array(&out);
+    return describe_end(&out, answer);
+}
+SHIM_CATCH(E_INPUT, q->path)
+
+extern "C" status vdb_serve_lattices(const struct serve_question *q, struct serve_answer *answer)
 try {
     vdb::start();
-    openvdb::io::File file(path);
+    openvdb::io::File file(q->path);
     file.open(/*delayLoad=*/false);
     const openvdb::GridPtrVecPtr grids = file.readAllGridMetadata();
     const openvdb::MetaMap::Ptr metadata = file.getMetadata();
-    json_object(out, nullptr);
-    json_array(out, "grids");
+    struct text out;
+    describe_begin(q, &out);
+    json_object(&out, nullptr);
+    json_array(&out, "grids");
     for (const GridBase::Ptr &grid : *grids)
-        describe_lattice(*grid, *metadata, out);
-    json_end_array(out);
-    json_end_object(out);
-    return OK;
+        describe_lattice(*grid, *metadata, &out);
+    json_end_array(&out);
+    json_end_object(&out);
+    return describe_end(&out, answer);
 }
-SHIM_CATCH(E_INPUT, path)
-
-status check_file(const char *path, struct text *)
-{
-    return read_file(path, nullptr);
-}
-} // namespace
-
-extern "C" void vdb_end_threads(void)
-{
-    tbb::task_scheduler_handle threads{tbb::attach{}};
-    tbb::finalize(threads, std::nothrow);
-}
-
-extern "C" status vdb_check(const char *path)
-{
-    return sandbox_read(path, check_file, nullptr);
-}
-
-extern "C" status vdb_describe(const char *path, struct text *out)
-{
-    return sandbox_read(path, read_file, out);
-}
-
-extern "C" status vdb_describe_lattices(const char *path, struct text *out)
-{
-    return sandbox_read(path, read_lattices, out);
-}
+SHIM_CATCH(E_INPUT, q->path)

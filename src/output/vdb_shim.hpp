@@ -15,7 +15,7 @@ extern "C" {
 #include "base/memory.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "output/vdb.h"
+#include "output/vdb_encode.h"
 }
 
 /* Ends a function-try-block: no exception crosses into C. `wrong` is what a failure other than of memory
@@ -98,6 +98,19 @@ openvdb::MetaMap file_metadata(const vdb_options &options, double voxel);
 
 /* Whether a file's metadata says y is up. Files by others are taken as y up if Houdini wrote them. */
 bool is_y_up(const openvdb::MetaMap &metadata);
+
+/* A file, read completely. */
+struct file {
+    openvdb::MetaMap::Ptr metadata;
+    openvdb::GridPtrVecPtr grids;
+    bool y_up;
+
+    /* The first of that name, or nullptr. */
+    openvdb::GridBase::Ptr grid(const std::string &name) const;
+};
+
+/* E_INPUT: it is not as it was written. Throws what the library throws. */
+status load(const char *path, file *out);
 
 /* The grids as a file in memory, with its archive UUID made from `identity` and the content. */
 void encode(const openvdb::GridCPtrVec &grids, const vdb_options &options, const openvdb::MetaMap &metadata,

@@ -163,8 +163,8 @@ openvdb::math::Transform::Ptr transform_of(const grid_lattice &l, bool y_up)
 }
 } // namespace
 
-extern "C" status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options,
-                              struct vdb_bytes *out)
+extern "C" status vdb_encode_volumes(const struct frame_grids *grids, const struct vdb_options *options,
+                                     struct vdb_bytes *out)
 try {
     vdb::start();
     *out = vdb_bytes{nullptr, 0};

@@ -1,5 +1,5 @@
-/* Images from anywhere: decoded in a child process with limits on memory and time, so that a hostile file
- * costs an error message and nothing else.
+/* Images from anywhere: decoded by hoodoo-read-image (reader/reader.h), so that a hostile file costs an error message and
+ * nothing else.
  */
 #ifndef HOODOO_IMAGE_H
 #define HOODOO_IMAGE_H

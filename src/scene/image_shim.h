@@ -1,5 +1,4 @@
-/* OpenImageIO's door: one image's first channel. Call it through image_read(), which puts it in a child
- * process. */
+/* OpenImageIO's door: one image's first channel. It is in hoodoo-read-image alone; ask through image_read(). */
 #ifndef HOODOO_IMAGE_SHIM_H
 #define HOODOO_IMAGE_SHIM_H
 

@@ -2,7 +2,7 @@
 #ifndef HOODOO_MESHSOLID_H
 #define HOODOO_MESHSOLID_H
 
-#include "scene/mesh_shim.h"
+#include "scene/mesh_sdf.h"
 #include "scene/placement.h"
 
 /* `detail`, `reach`: as for solid_create(). min and max come back as the box around it. E_INPUT: the file is

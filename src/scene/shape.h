@@ -4,7 +4,7 @@
 
 #include "scene/heightfield.h"
 #include "scene/jointmap.h"
-#include "scene/mesh_shim.h"
+#include "scene/mesh_sdf.h"
 #include "scene/placement.h"
 #include "scene/stroke.h"
 #include "scene/terrain.h"

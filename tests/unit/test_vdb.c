@@ -9,7 +9,6 @@
 #include <cmocka.h>
 #undef fail /* ours is another */
 
-#include <dirent.h>
 #include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -606,36 +605,6 @@ static void mesh_of_something_else_is_refused(void **state)
     vdb_mesh_free(&mesh);
 }
 
-static int threads(void)
-{
-    int n = 0;
-    DIR *tasks = opendir("/proc/self/task");
-    assert_non_null(tasks);
-    for (struct dirent *task; (task = readdir(tasks));)
-        n += task->d_name[0] != '.';
-    closedir(tasks);
-    return n;
-}
-
-/* Reading a file starts threads of the library's. The next file's reader, a child process, has none of them; what
- * one of them had locked when it began would stay locked. */
-static void readers_wait_for_nobody(void **state)
-{
-    (void)state;
-    const struct vdb_options options = options_of(OUTPUT_UP_Y);
-    struct frame_grids grids;
-    write_volumes("volumes.vdb", 0.25, &options);
-    vdb_end_threads();
-    const int before = threads();
-    for (int i = 0; i < 200 && threads() == before; i++) {
-        assert_int_equal(vdb_volumes_read("volumes.vdb", &grids), OK);
-        vdb_volumes_free(&grids);
-    }
-    assert_true(threads() > before || sysconf(_SC_NPROCESSORS_ONLN) == 1);
-    assert_int_equal(vdb_check("volumes.vdb"), OK);
-    assert_int_equal(threads(), before);
-}
-
 /* Rock that stands on the floor of the grid, in the middle of it and in a corner: 8.5 x 12 x 9 m, 3 x 3 x 9
  * m. */
 static void rock_on_the_floor_is_closed(void **state)
@@ -720,7 +689,6 @@ int main(void)
         cmocka_unit_test(no_points_make_a_file),
         cmocka_unit_test(a_particle_nowhere_is_a_blow_up),
         cmocka_unit_test(mesh_of_a_ball_is_closed_and_true),
-        cmocka_unit_test(readers_wait_for_nobody),
         cmocka_unit_test(rock_on_the_floor_is_closed),
         cmocka_unit_test(adaptive_mesh_is_smaller),
         cmocka_unit_test(mesh_of_something_else_is_refused),

@@ -1,4 +1,4 @@
-#include "scene/mesh_shim.h"
+#include "scene/mesh_sdf_make.h"
 
 #include <exception>
 #include <new>
@@ -44,9 +44,8 @@ struct adapter {
 
 } // namespace
 
-extern "C" status vdb_sdf_from_mesh(const double (*vertex)[3], size_t n_vertices,
-                                    const uint32_t (*triangle)[3], size_t n_triangles, double voxel,
-                                    double band, struct vdb_sdf **out)
+extern "C" status sdf_make(const double (*vertex)[3], size_t n_vertices, const uint32_t (*triangle)[3],
+                           size_t n_triangles, double voxel, double band, struct vdb_sdf **out)
 {
     try {
         adapter mesh{vertex, n_vertices, triangle, n_triangles, voxel};
@@ -70,13 +69,13 @@ extern "C" status vdb_sdf_from_mesh(const double (*vertex)[3], size_t n_vertices
     }
 }
 
-extern "C" void vdb_sdf_destroy(struct vdb_sdf **sdf)
+extern "C" void sdf_destroy(struct vdb_sdf **sdf)
 {
     delete *sdf;
     *sdf = nullptr;
 }
 
-extern "C" double vdb_sdf_at(const struct vdb_sdf *sdf, const double x[3])
+extern "C" double sdf_at(const struct vdb_sdf *sdf, const double x[3])
 {
     /* An accessor of the unregistered kind costs nothing to make, and finds the other corners without the
      * tree. */

@@ -4,17 +4,13 @@
  * overlap or cut each other; holes smaller than `voxel` are closed by the sampling, and a cavity without an
  * opening counts as solid.
  */
-#ifndef HOODOO_MESH_SHIM_H
-#define HOODOO_MESH_SHIM_H
+#ifndef HOODOO_MESH_SDF_H
+#define HOODOO_MESH_SDF_H
 
 #include <stddef.h>
 #include <stdint.h>
 
 #include "base/status.h"
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 struct vdb_sdf;
 
@@ -27,7 +23,4 @@ void vdb_sdf_destroy(struct vdb_sdf **sdf);
 /* m, negative inside; +-band where the surface is farther than that. Safe from many threads. */
 double vdb_sdf_at(const struct vdb_sdf *sdf, const double x[3]);
 
-#ifdef __cplusplus
-}
-#endif
 #endif

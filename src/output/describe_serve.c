@@ -1,0 +1,21 @@
+#include <stdlib.h>
+
+#include "output/describe.h"
+
+void describe_begin(const struct serve_question *question, struct text *out)
+{
+    *out = (struct text){0};
+    if (question->n_words == 2) {
+        out->depth = atoi(question->word[0]);
+        out->comma = *question->word[1] == '1';
+    }
+}
+
+status describe_end(struct text *text, struct serve_answer *answer)
+{
+    status st = text_status(text);
+    if (st == OK)
+        st = serve_put(answer, text->data, text->size);
+    text_free(text);
+    return st;
+}

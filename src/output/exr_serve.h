@@ -1,0 +1,10 @@
+/* OpenEXR files in their reader: "exr.check" answers with no parts, "exr.describe" with a text (describe.h). */
+#ifndef HOODOO_EXR_SERVE_H
+#define HOODOO_EXR_SERVE_H
+
+#include "reader/serve.h"
+
+MUST_USE status exr_serve_check(const struct serve_question *question, struct serve_answer *answer);
+MUST_USE status exr_serve_describe(const struct serve_question *question, struct serve_answer *answer);
+
+#endif

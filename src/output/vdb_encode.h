@@ -1,0 +1,22 @@
+/* OpenVDB files as bytes: what vdb.h's vdb_volumes() and vdb_points() call in hoodoo-vdb.so. */
+#ifndef HOODOO_VDB_ENCODE_H
+#define HOODOO_VDB_ENCODE_H
+
+#include "output/vdb.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef status vdb_encode_volumes_function(const struct frame_grids *grids, const struct vdb_options *options,
+                                           struct vdb_bytes *out);
+typedef status vdb_encode_points_function(const struct rock *rock, const struct vdb_options *options,
+                                          struct vdb_bytes *out);
+
+vdb_encode_volumes_function vdb_encode_volumes;
+vdb_encode_points_function vdb_encode_points;
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,57 @@
+/* OpenVDB files in their reader (vdb_*_shim.cpp of hoodoo-read), and what its answers hold. Each kind reads the whole file
+ * and knows if it is not as it was written.
+ *
+ * vdb.check                         no parts
+ * vdb.describe, vdb.lattices        text, as vdb.h says; words: describe.h
+ * vdb.volumes NAME...               struct vdb_part_volumes; the values of each of its grids, floats
+ * vdb.points                        struct vdb_part_points; each field of particles.def that is there
+ * vdb.surface                       struct trimesh_lattice; its samples, floats: `surface` around its zero
+ * vdb.at NORMALS OPTIONAL NAME...   input: positions float[n][3]. If NORMALS is 1, float[n][3] of `surface`; then for
+ *                                   each name float[n], 0 for those of the last OPTIONAL that are not in the file
+ */
+#ifndef HOODOO_VDB_SERVE_H
+#define HOODOO_VDB_SERVE_H
+
+#include <stdint.h>
+
+#include "particles/rock.h"
+#include "reader/serve.h"
+
+enum { VDB_PART_GRIDS = 16 };
+
+/* Lattices are in the simulator's axes. */
+struct vdb_part_grid {
+    uint32_t word; /* which of the names it was asked for */
+    int32_t kind, components;
+    int32_t own_n[3]; /* 0: the frame's lattice */
+    double own_voxel, own_origin[3];
+};
+
+struct vdb_part_volumes {
+    int32_t n[3];
+    uint32_t n_grids;
+    double voxel, origin[3];
+    struct vdb_part_grid grid[VDB_PART_GRIDS];
+};
+
+struct vdb_part_points {
+    uint64_t n;
+    uint32_t has[ROCK_FIELDS];
+};
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+MUST_USE status vdb_serve_check(const struct serve_question *question, struct serve_answer *answer);
+MUST_USE status vdb_serve_describe(const struct serve_question *question, struct serve_answer *answer);
+MUST_USE status vdb_serve_lattices(const struct serve_question *question, struct serve_answer *answer);
+MUST_USE status vdb_serve_volumes(const struct serve_question *question, struct serve_answer *answer);
+MUST_USE status vdb_serve_points(const struct serve_question *question, struct serve_answer *answer);
+MUST_USE status vdb_serve_surface(const struct serve_question *question, struct serve_answer *answer);
+MUST_USE status vdb_serve_at(const struct serve_question *question, struct serve_answer *answer);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

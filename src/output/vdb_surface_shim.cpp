@@ -1,0 +1,197 @@
+/* A frame's level set as samples, and what it and the frame's other grids hold at given places. Runs in hoodoo-read. */
+#include "output/vdb_shim.hpp"
+
+extern "C" {
+#include "mesh/trimesh.h"
+#include "output/vdb_serve.h"
+}
+
+#include <openvdb/tools/Interpolation.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <stdexcept>
+#include <vector>
+
+namespace
+{
+using openvdb::Coord;
+using openvdb::FloatGrid;
+using openvdb::Vec3d;
+using openvdb::Vec3s;
+
+/* Indices of voxels are less. */
+constexpr double FARTHEST = 1 << 24;
+
+FloatGrid::Ptr float_grid(const vdb::file &file, const std::string &name)
+{
+    const auto named = file.grid(name);
+    if (!named)
+        throw std::runtime_error("it has no grid '" + name + "'");
+    auto grid = openvdb::gridPtrCast<FloatGrid>(named);
+    if (!grid)
+        throw std::runtime_error("grid '" + name + "' does not hold floats");
+    return grid;
+}
+
+/* The gradient over one voxel, at an index-space position. Unit length, or 0 where the field is flat. */
+Vec3d gradient(const FloatGrid::ConstAccessor &at, const Vec3d &x)
+{
+    Vec3d g;
+    for (int a = 0; a < 3; a++) {
+        Vec3d step(0);
+        step[a] = 0.5;
+        g[a] = double(openvdb::tools::BoxSampler::sample(at, x + step)) -
+               double(openvdb::tools::BoxSampler::sample(at, x - step));
+    }
+    const double length = g.length();
+    return length > 0 ? g / length : Vec3d(0);
+}
+
+/* Trilinear over active samples only, weights made to add up to 1: the empty side of a surface does not
+ * dilute the value. Where no corner is active, the mean of the active voxels around them; 0 if there are
+ * none. */
+float value_at(const FloatGrid::ConstAccessor &at, const Vec3d &x)
+{
+    const Coord lo = Coord::floor(x);
+    const double t[3] = {x[0] - lo[0], x[1] - lo[1], x[2] - lo[2]};
+    double sum = 0, weight = 0;
+    float v;
+    for (int c = 0; c < 8; c++) {
+        const int d[3] = {c & 1, c >> 1 & 1, c >> 2};
+        double w = 1;
+        for (int a = 0; a < 3; a++)
+            w *= d[a] ? t[a] : 1 - t[a];
+        if (w > 1e-9 && at.probeValue(lo.offsetBy(d[0], d[1], d[2]), v)) {
+            sum += w * double(v);
+            weight += w;
+        }
+    }
+    if (weight == 0)
+        for (int c = 0; c < 64; c++)
+            if (at.probeValue(lo.offsetBy((c & 3) - 1, (c >> 2 & 3) - 1, (c >> 4) - 1), v)) {
+                sum += double(v);
+                weight += 1;
+            }
+    return weight > 0 ? float(sum / weight) : 0;
+}
+
+/* The box of a level set's samples around its surface, in the simulator's axes, with one more on every side. */
+struct box_of_samples {
+    trimesh_lattice lattice{};
+    Coord lo;
+
+    box_of_samples(const FloatGrid &grid, bool y_up)
+    {
+        const double voxel = grid.voxelSize()[0];
+        if (!grid.hasUniformVoxels() || !(voxel > 0) || !std::isfinite(voxel))
+            throw std::runtime_error("the voxels of 'surface' are not cubes");
+        openvdb::CoordBBox box;
+        if (!grid.tree().evalActiveVoxelBoundingBox(box))
+            box = openvdb::CoordBBox(Coord(0), Coord(0));
+        double n = 1;
+        for (int d = 0; d < 3; d++) {
+            if (std::abs(double(box.min()[d])) > FARTHEST || std::abs(double(box.max()[d])) > FARTHEST)
+                throw std::runtime_error("'surface' has voxels too far from its origin");
+            n *= box.max()[d] - box.min()[d] + 3;
+        }
+        if (n > double(memory_available()) / sizeof(float) / 2)
+            throw std::runtime_error("'surface' is larger than this machine's memory");
+        box.expand(1);
+        const Coord a = vdb::sim_from_file(box.min(), y_up), b = vdb::sim_from_file(box.max(), y_up);
+        lo = Coord::minComponent(a, b);
+        const Coord hi = Coord::maxComponent(a, b);
+        const Vec3d origin = vdb::sim_from_file(grid.indexToWorld(Vec3d(0)), y_up);
+        lattice.voxel = voxel;
+        for (int d = 0; d < 3; d++) {
+            lattice.n[d] = hi[d] - lo[d] + 1;
+            lattice.origin[d] = origin[d] + voxel * lo[d];
+        }
+    }
+};
+
+status send_samples(const FloatGrid &grid, const box_of_samples &box, bool y_up, struct serve_answer *answer)
+{
+    const trimesh_lattice &l = box.lattice;
+    const FloatGrid::ConstAccessor at = grid.getConstAccessor();
+    std::vector<float> layer(size_t(l.n[0]) * size_t(l.n[1]));
+    status st = serve_part(answer);
+    for (int z = 0; z < l.n[2] && st == OK; z++) {
+        float *to = layer.data();
+        for (int y = 0; y < l.n[1]; y++)
+            for (int x = 0; x < l.n[0]; x++)
+                *to++ = at.getValue(vdb::file_from_sim(box.lo.offsetBy(x, y, z), y_up));
+        st = serve_add(answer, layer.data(), layer.size() * sizeof layer[0]);
+    }
+    return st;
+}
+
+/* The places asked about, in the file's axes. */
+status read_places(const struct serve_question *q, bool y_up, std::vector<Vec3d> *out)
+{
+    std::vector<float> x(size_t(q->n_input / sizeof(float)));
+    const status st = serve_input(q, x.data(), x.size() * sizeof x[0], 0);
+    out->resize(x.size() / 3);
+    for (size_t i = 0; i < out->size(); i++)
+        (*out)[i] = vdb::file_from_sim(Vec3d(Vec3s(&x[3 * i])), y_up);
+    return st;
+}
+
+status send_normals(const FloatGrid &surface, const std::vector<Vec3d> &place, bool y_up,
+                    struct serve_answer *answer)
+{
+    const FloatGrid::ConstAccessor at = surface.getConstAccessor();
+    std::vector<float> normal(3 * place.size());
+    for (size_t i = 0; i < place.size(); i++) {
+        const Vec3d n = vdb::sim_from_file(gradient(at, surface.worldToIndex(place[i])), y_up);
+        for (int a = 0; a < 3; a++)
+            normal[3 * i + size_t(a)] = float(n[a]);
+    }
+    return serve_put(answer, normal.data(), normal.size() * sizeof normal[0]);
+}
+
+/* Of no grid: 0. */
+status send_values(const FloatGrid *grid, const std::vector<Vec3d> &place, struct serve_answer *answer)
+{
+    std::vector<float> value(place.size());
+    if (grid) {
+        const FloatGrid::ConstAccessor at = grid->getConstAccessor();
+        for (size_t i = 0; i < place.size(); i++)
+            value[i] = value_at(at, grid->worldToIndex(place[i]));
+    }
+    return serve_put(answer, value.data(), value.size() * sizeof value[0]);
+}
+} // namespace
+
+extern "C" status vdb_serve_surface(const struct serve_question *q, struct serve_answer *answer)
+try {
+    vdb::file file;
+    status st = vdb::load(q->path, &file);
+    if (st != OK)
+        return st;
+    const FloatGrid::Ptr surface = float_grid(file, "surface");
+    const box_of_samples box(*surface, file.y_up);
+    st = serve_put(answer, &box.lattice, sizeof box.lattice);
+    return st == OK ? send_samples(*surface, box, file.y_up, answer) : st;
+}
+SHIM_CATCH(E_INPUT, q->path)
+
+extern "C" status vdb_serve_at(const struct serve_question *q, struct serve_answer *answer)
+try {
+    vdb::file file;
+    std::vector<Vec3d> place;
+    status st = vdb::load(q->path, &file);
+    if (st == OK)
+        st = read_places(q, file.y_up, &place);
+    if (st == OK && q->n_words < 2)
+        st = fail(E_INPUT, "%s: its reader was told too little", q->path);
+    if (st == OK && *q->word[0] == '1')
+        st = send_normals(*float_grid(file, "surface"), place, file.y_up, answer);
+    const size_t optional = st == OK ? size_t(std::atoi(q->word[1])) : 0;
+    for (size_t k = 2; k < q->n_words && st == OK; k++) {
+        const bool none = k + optional >= q->n_words && !file.grid(q->word[k]);
+        st = send_values(none ? nullptr : float_grid(file, q->word[k]).get(), place, answer);
+    }
+    return st;
+}
+SHIM_CATCH(E_INPUT, q->path)

@@ -1,0 +1,22 @@
+/* hoodoo-read: one OpenVDB or OpenEXR file for hoodoo (reader/reader.h). */
+#include "output/exr_serve.h"
+#include "output/vdb_serve.h"
+#include "reader/serve.h"
+
+enum { MEMORY = 1 << 30 };
+
+int main(int argc, char **argv)
+{
+    static const struct serve_kind kinds[] = {
+        {"vdb.check", MEMORY, vdb_serve_check},
+        {"vdb.describe", MEMORY, vdb_serve_describe},
+        {"vdb.lattices", MEMORY, vdb_serve_lattices},
+        {"vdb.volumes", MEMORY, vdb_serve_volumes},
+        {"vdb.points", MEMORY, vdb_serve_points},
+        {"vdb.surface", MEMORY, vdb_serve_surface},
+        {"vdb.at", MEMORY, vdb_serve_at},
+        {"exr.check", MEMORY, exr_serve_check},
+        {"exr.describe", MEMORY, exr_serve_describe},
+    };
+    return serve(argc, argv, kinds, sizeof kinds / sizeof *kinds);
+}

@@ -1,0 +1,76 @@
+"""What starting costs: shared libraries, CPU time. OpenVDB and OpenImageIO are for those who need them."""
+
+import os
+import resource
+import subprocess
+import sys
+
+HOODOO, TOP = os.environ["HOODOO"], os.environ["HOODOO_TOP"]
+LIBRARIES = 40
+# 30 ms is what it should cost on an idle machine, a third of it what it does. Under load the same work takes longer, so its cost
+# is compared with that of a program which does next to nothing, measured beside it.
+CPU_MS, AT_REST_MS = 30, 1.0
+DEMO = os.path.join(TOP, "jobs/demo.yaml")
+failures = 0
+
+
+def ok(good, name, *notes):
+    global failures
+    print("ok" if good else "not ok", name, *notes, flush=True)
+    failures += not good
+
+
+def cpu_ms(*words):
+    """The least of many runs, which is the one that was disturbed least."""
+    least = float("inf")
+    for _ in range(15):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        done = subprocess.run(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        if done.returncode:
+            raise SystemExit(f"not ok {words}: {done.stderr}")
+        least = min(least, 1000 * (after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime))
+    return least
+
+
+def libraries(path):
+    said = subprocess.run(["ldd", path], stdout=subprocess.PIPE, check=True, text=True).stdout
+    return [line.split()[0] for line in said.splitlines()]
+
+
+linked = libraries(HOODOO)
+ok(len(linked) <= LIBRARIES, f"hoodoo needs at most {LIBRARIES} shared libraries", len(linked), linked)
+ok(not any("OpenImageIO" in name or "openvdb" in name for name in linked), "neither OpenImageIO nor OpenVDB among them")
+
+# What is loaded while it works counts too: the dynamic linker tells.
+said = subprocess.run([HOODOO, "plan", "--device", "none", DEMO], env={**os.environ, "LD_DEBUG": "files"}, stdout=subprocess.PIPE,
+                      stderr=subprocess.PIPE, check=True, text=True)
+loaded = {line.split("calling init: ")[1] for line in said.stderr.splitlines() if "calling init: " in line}
+ok(0 < len(loaded) <= LIBRARIES, f"hoodoo plan --device none loads at most {LIBRARIES}", len(loaded), sorted(loaded))
+ok('"device"' not in said.stdout and "device:" not in said.stdout.replace("device_", ""), "and tells of no device", said.stdout[:600])
+
+slower = max(1, cpu_ms("/bin/true") / AT_REST_MS)
+for words in (("--version",), ("-h",), ("plan", "--device", "none", DEMO)):
+    took = cpu_ms(HOODOO, *words)
+    ok(took <= CPU_MS * slower, f"hoodoo {' '.join(words[:3])} takes {CPU_MS} ms of CPU time", f"{took:.1f} ms, on a machine {slower:.1f} times slower")
+
+# What is installed finds what it was installed with.
+there = os.path.abspath("there")
+made = subprocess.run(["make", "-s", "-C", TOP, "install", f"BUILD={os.path.dirname(HOODOO)}", f"PREFIX={there}", "Q=@"], stdout=subprocess.PIPE,
+                      stderr=subprocess.STDOUT, text=True)
+ok(made.returncode == 0, "make install", made.stdout[-500:])
+clean = {key: value for key, value in os.environ.items() if key != "HOODOO_LIBEXEC"}
+with open("grey.pgm", "wb") as f:
+    f.write(b"P5\n4 4\n255\n" + bytes(range(0, 256, 16)))
+with open("map.yaml", "w") as f:
+    f.write("hoodoo: 1\nname: map\nmodel: goblins\nframes: 1-1\nclock: {years_per_frame: 10}\ndomain: {size_m: [4, 4, 4], spacing_m: 0.5}\n"
+            "scene: {jointmap: {file: grey.pgm, min_m: [0, 0, 0], max_m: [4, 4, 3]}}\nstrata: [{weak_m_per_kyr: 1, bubble: {radius_m: 1}}]\n")
+hoodoo = os.path.join(there, "bin/hoodoo")
+said = subprocess.run([hoodoo, "run", "map.yaml", "--out", "map"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=clean, text=True)
+ok(said.returncode == 0 and os.path.exists("map/volumes/map.0001.vdb"), "an installed hoodoo reads an image and writes OpenVDB", said.stdout[-500:])
+said = subprocess.run([hoodoo, "verify", "map"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=clean, text=True)
+ok(said.returncode == 0, "and reads it", said.stdout[-500:])
+os.remove(os.path.join(there, "libexec/hoodoo/hoodoo-read-image"))
+said = subprocess.run([hoodoo, "run", "map.yaml", "--out", "map2"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=clean, text=True)
+ok(said.returncode == 3 and "hoodoo-read-image stands neither beside hoodoo nor" in said.stdout, "without its reader an image is an error that says so", said.stdout[-500:])
+sys.exit(failures > 0)
