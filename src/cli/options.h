@@ -98,6 +98,11 @@ void common_free(struct common *c);
         "device", "WHICH", OPTION_TEXT, &(c)->device,                                                        \
             "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default auto)"                             \
     }
+#define OPTION_DEVICE_OR_NONE(c)                                                                             \
+    {                                                                                                        \
+        "device", "WHICH", OPTION_TEXT, &(c)->device,                                                        \
+            "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS, slurm or none: look at no device (default auto)"    \
+    }
 #define OPTION_SET(c)                                                                                        \
     {                                                                                                        \
         "set", "KEY=VALUE", OPTION_WORDS, &(c)->sets,                                                        \

@@ -1,6 +1,7 @@
 /* hoodoo plan JOB: what a run would do and take, without doing it. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "base/text.h"
@@ -39,7 +40,7 @@ done:
     return st;
 }
 
-/* Seconds of a frame: as the folder's frames came, or by what a word takes here. */
+/* Seconds of a frame: as the folder's frames came, or by what a word takes here (0: nobody knows). */
 static status time_frames(struct farm *f, double word, bool *measured)
 {
     status st = OK;
@@ -58,18 +59,32 @@ done:
     return st;
 }
 
+static void describe_memory(const struct model_estimate *e, const struct gpu *gpu, uint64_t process,
+                            struct text *t)
+{
+    if (gpu)
+        json_text(t, "device", gpu_info(gpu)->name);
+    json_integer(t, "device_bytes", (int64_t)e->device_bytes);
+    if (gpu)
+        json_integer(t, "device_free_bytes", (int64_t)gpu_memory_free(gpu));
+    json_integer(t, "host_bytes", (int64_t)e->host_bytes);
+    json_integer(t, "process_bytes", (int64_t)process);
+    json_integer(t, "host_free_bytes", (int64_t)memory_available());
+}
+
+/* `gpu` may be NULL: what only a device knows is left out. */
 static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t)
 {
     status st = OK;
     const struct job *job = f->wedge[0].job;
     const struct model_estimate e = f->wedge[0].estimate;
-    const struct gpu_info *info = gpu_info(gpu);
-    double word;
+    double word = 0;
     bool measured = false;
     char frames[48];
     size_t n_frames = range_count(job->frames);
     const uint64_t process = room_process(gpu);
-    TRY(word_seconds(gpu, &word));
+    if (gpu)
+        TRY(word_seconds(gpu, &word));
     TRY(time_frames(f, word, &measured));
     TRY(farm_graph(f));
     size_t n_checkpoints =
@@ -87,12 +102,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     json_integer(t, "z", e.voxels[2]);
     json_end_object(t);
     json_integer(t, "erosion_steps", (int64_t)e.steps);
-    json_text(t, "device", info->name);
-    json_integer(t, "device_bytes", (int64_t)e.device_bytes);
-    json_integer(t, "device_free_bytes", (int64_t)gpu_memory_free(gpu));
-    json_integer(t, "host_bytes", (int64_t)e.host_bytes);
-    json_integer(t, "process_bytes", (int64_t)process);
-    json_integer(t, "host_free_bytes", (int64_t)memory_available());
+    describe_memory(&e, gpu, process, t);
     struct disk_frame kinds;
     const uint64_t frame_bytes = disk_frames_bytes(job, &e.disk, job->frames, &kinds);
     json_integer(t, "frame_disk_bytes", (int64_t)disk_frame_bytes(&e.disk));
@@ -104,9 +114,12 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     json_integer(t, "checkpoints_bytes", (int64_t)(e.checkpoint_bytes * n_checkpoints));
     json_end_object(t);
     json_integer(t, "disk_bytes", (int64_t)(frame_bytes + e.checkpoint_bytes * n_checkpoints));
-    json_number(t, "estimated_seconds", round(f->wedge[0].frame_seconds * (double)n_frames));
-    json_text(t, "estimated_from", measured ? "the frames there are" : "the device's speed");
-    json_bool(t, "fits_in_memory", room_enough(room_free(gpu), room_needed(gpu, &e)));
+    if (measured || gpu) {
+        json_number(t, "estimated_seconds", round(f->wedge[0].frame_seconds * (double)n_frames));
+        json_text(t, "estimated_from", measured ? "the frames there are" : "the device's speed");
+    }
+    if (gpu)
+        json_bool(t, "fits_in_memory", room_enough(room_free(gpu), room_needed(gpu, &e)));
     farm_describe(f, words, t);
     json_end_object(t);
     TRY(text_status(t));
@@ -124,13 +137,14 @@ status cli_plan(int argc, char **argv)
     struct text t = {0};
     bool help = false;
     int wedge = 0;
-    const struct option options[] = {OPTION_OUT(&c),       OPTION_DEVICE(&c), OPTION_SET(&c),
-                                     OPTION_WEDGE(&wedge), OPTION_FROM(&c),   OPTION_JSON(&c)};
+    const struct option options[] = {OPTION_OUT(&c),       OPTION_DEVICE_OR_NONE(&c), OPTION_SET(&c),
+                                     OPTION_WEDGE(&wedge), OPTION_FROM(&c),           OPTION_JSON(&c)};
     TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
     TRY(farm_load(operands.word[0], c.sets.word, c.sets.n, c.from, wedge, c.out, &farm));
-    TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
+    if (!c.device || strcmp(c.device, "none") != 0)
+        TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
     TRY(answer(&farm, gpu, !c.json, &t));
     TRY(words_print(&t, c.json));
 done:
