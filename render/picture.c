@@ -279,11 +279,10 @@ static status picture_place(struct picture *picture, const char *made)
     TRY(path_join(&from, picture->preview->root, made));
     TRY(path_join(&to, picture->preview->root, picture->path.text));
     TRY(file_read(from.text, (size_t)1 << 30, &bytes, &n));
-    if (!png_whole(bytes, n)) {
+    st = png_with_tag(bytes, n, picture->tag, &tagged, &n);
+    if (st == E_INPUT) /* what we have had made */
         st = fail(E_OUTPUT, "%s: the picture is cut short; is the disk full?", from.text);
-        goto done;
-    }
-    TRY(png_with_tag(bytes, n, picture->tag, &tagged, &n));
+    TRY(st);
     TRY(atomic_file_write(to.text, tagged, n));
 done:
     free(bytes);

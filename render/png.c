@@ -1,101 +1,141 @@
 #include "render/png.h"
 
-#include <stdint.h>
+#include <png.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
+#include "base/text.h"
 
-enum { HEADER = 8 + 25, CHUNK = 12 };
+static char keyword[] = "hoodoo";
 
-static const char KEYWORD[] = "hoodoo";
+struct source {
+    const png_byte *at;
+    size_t left;
+};
 
-bool png_whole(const void *bytes, size_t n)
+/* What is under way, so that a failure anywhere can end it. */
+struct copy {
+    struct source from;
+    struct text to;
+    png_structp read, write;
+    png_infop info;
+    char message[200];
+};
+
+static void take(png_structp png, png_bytep to, size_t n)
 {
-    static const unsigned char begin[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n',
-                                          0,    0,   0,   13,  'I',  'H',  'D',  'R'},
-                               end[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
-    return n >= HEADER + sizeof end && memcmp(bytes, begin, sizeof begin) == 0 &&
-           memcmp((const char *)bytes + n - sizeof end, end, sizeof end) == 0;
+    struct source *from = png_get_io_ptr(png);
+    if (n > from->left)
+        png_error(png, "it is cut short");
+    memcpy(to, from->at, n);
+    from->at += n;
+    from->left -= n;
 }
 
-static uint32_t crc(const unsigned char *bytes, size_t n)
+static void put(png_structp png, png_bytep from, size_t n)
 {
-    uint32_t c = 0xffffffff;
-    for (size_t i = 0; i < n; i++) {
-        c ^= bytes[i];
-        for (int k = 0; k < 8; k++)
-            c = c >> 1 ^ (c & 1 ? 0xedb88320 : 0);
-    }
-    return ~c;
+    text_add_bytes(png_get_io_ptr(png), from, n);
 }
 
-static void put(unsigned char *at, uint32_t x)
+static void flush(png_structp png)
 {
-    for (int k = 0; k < 4; k++)
-        at[k] = (unsigned char)(x >> (24 - 8 * k));
+    (void)png;
 }
 
-static uint32_t get(const unsigned char *at)
+static _Noreturn void on_error(png_structp png, png_const_charp message)
 {
-    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
+    char *out = png_get_error_ptr(png);
+    if (out)
+        snprintf(out, sizeof((struct copy *)0)->message, "%s", message);
+    png_longjmp(png, 1);
 }
 
-/* The chunks behind the header, without words and times; returns how many bytes. */
-static size_t copy_chunks(unsigned char *to, const unsigned char *from, size_t n)
+static void on_warning(png_structp png, png_const_charp message)
 {
-    static const char *const left_out[] = {"tEXt", "zTXt", "iTXt", "tIME"};
-    size_t made = 0;
-    for (size_t at = 0; n - at >= CHUNK;) {
-        size_t size = (size_t)get(from + at) + CHUNK;
-        bool keep = true;
-        if (size > n - at) /* not ours to mend */
-            size = n - at;
-        for (size_t i = 0; i < sizeof left_out / sizeof *left_out; i++)
-            keep = keep && memcmp(from + at + 4, left_out[i], 4) != 0;
-        if (keep) {
-            memcpy(to + made, from + at, size);
-            made += size;
-        }
-        at += size;
-    }
-    return made;
+    (void)png;
+    (void)message;
+}
+
+static bool begin(struct copy *c)
+{
+    c->read = png_create_read_struct(PNG_LIBPNG_VER_STRING, c->message, on_error, on_warning);
+    c->write = png_create_write_struct(PNG_LIBPNG_VER_STRING, c->message, on_error, on_warning);
+    c->info = c->read ? png_create_info_struct(c->read) : NULL;
+    return c->write && c->info;
+}
+
+/* False: it cannot be read, or there is no memory. Between setjmp() and its return nothing but *c changes. */
+static bool read_picture(struct copy *c)
+{
+    if (setjmp(png_jmpbuf(c->read)))
+        return false;
+    png_set_read_fn(c->read, &c->from, take);
+    png_read_png(c->read, c->info, PNG_TRANSFORM_IDENTITY, NULL);
+    return true;
+}
+
+static bool write_picture(struct copy *c, png_textp text)
+{
+    if (setjmp(png_jmpbuf(c->write)))
+        return false;
+    png_free_data(c->read, c->info, PNG_FREE_TEXT, -1);
+    png_set_invalid(c->read, c->info, PNG_INFO_tIME);
+    png_set_text(c->write, c->info, text, 1);
+    png_set_write_fn(c->write, &c->to, put, flush);
+    png_write_png(c->write, c->info, PNG_TRANSFORM_IDENTITY, NULL);
+    return true;
 }
 
 status png_with_tag(const void *bytes, size_t n, const char *tag, void **out, size_t *n_out)
 {
-    unsigned char chunk[CHUNK + sizeof KEYWORD + PNG_TAG], *made = NULL;
-    size_t length = strlen(tag), text = sizeof KEYWORD + (length < PNG_TAG ? length : PNG_TAG - 1);
-    size_t k = text + CHUNK;
-    put(chunk, (uint32_t)text);
-    memcpy(chunk + 4, "tEXt", 4);
-    memcpy(chunk + 8, KEYWORD, sizeof KEYWORD);
-    memcpy(chunk + 8 + sizeof KEYWORD, tag, text - sizeof KEYWORD);
-    put(chunk + 8 + text, crc(chunk + 4, 4 + text));
-    status st = memory_alloc(n + k, 1, "a picture", &made);
+    status st = OK;
+    struct copy c = {.from = {bytes, n}};
+    char shorter[PNG_TAG];
+    snprintf(shorter, sizeof shorter, "%s", tag);
+    png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
+                     .key = keyword,
+                     .text = shorter,
+                     .text_length = strlen(shorter)};
+    if (!begin(&c))
+        st = fail(E_MEMORY, "no memory for a picture");
+    else if (!read_picture(&c) || !write_picture(&c, &text))
+        st = fail(E_INPUT, "the picture is damaged: %s", c.message);
+    else
+        st = text_status(&c.to);
+    png_destroy_read_struct(&c.read, &c.info, NULL);
+    png_destroy_write_struct(&c.write, NULL);
     if (st != OK)
-        return st;
-    memcpy(made, bytes, HEADER);
-    memcpy(made + HEADER, chunk, k);
-    *n_out = HEADER + k + copy_chunks(made + HEADER + k, (const unsigned char *)bytes + HEADER, n - HEADER);
-    *out = made;
-    return OK;
+        text_free(&c.to);
+    *out = c.to.data;
+    *n_out = c.to.size;
+    return st;
+}
+
+static bool read_head(struct copy *c, FILE *file)
+{
+    if (setjmp(png_jmpbuf(c->read)))
+        return false;
+    png_init_io(c->read, file);
+    png_read_info(c->read, c->info);
+    return true;
 }
 
 void png_tag(const char *path, char out[PNG_TAG])
 {
-    unsigned char head[HEADER + 8 + sizeof KEYWORD];
+    struct copy c = {0};
+    png_textp text = NULL;
+    int n = 0;
     out[0] = '\0';
     FILE *file = fopen(path, "rb");
     if (!file)
         return;
-    const unsigned char *at = head + HEADER;
-    if (fread(head, sizeof head, 1, file) == 1 && memcmp(at + 4, "tEXt", 4) == 0 &&
-        memcmp(at + 8, KEYWORD, sizeof KEYWORD) == 0) {
-        size_t n = get(at);
-        n = n > sizeof KEYWORD ? n - sizeof KEYWORD : 0;
-        n = fread(out, 1, n < PNG_TAG ? n : PNG_TAG - 1, file);
-        out[n] = '\0';
-    }
+    if (begin(&c) && read_head(&c, file))
+        png_get_text(c.read, c.info, &text, &n);
+    for (int i = 0; i < n; i++)
+        if (strcmp(text[i].key, keyword) == 0)
+            snprintf(out, PNG_TAG, "%s", text[i].text);
+    png_destroy_read_struct(&c.read, &c.info, NULL);
+    png_destroy_write_struct(&c.write, NULL);
     fclose(file);
 }
