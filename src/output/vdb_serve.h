@@ -14,10 +14,11 @@
 
 #include <stdint.h>
 
+#include "job/values.h"
 #include "particles/rock.h"
 #include "reader/serve.h"
 
-enum { VDB_PART_GRIDS = 16 };
+enum { VDB_PART_GRIDS = VALUES };
 
 /* Lattices are in the simulator's axes. */
 struct vdb_part_grid {
