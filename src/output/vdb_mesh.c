@@ -9,8 +9,6 @@
 #include "output/vdb.h"
 #include "reader/reader.h"
 
-enum { VALUES = 24 };
-
 /* No simplified edge is longer, in voxels: values vary along it. */
 static const double LONGEST = 12;
 
