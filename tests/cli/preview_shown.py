@@ -30,11 +30,17 @@ def pixels(path, width=W, height=H):
 
 
 def made_how(path):
-    """The text that pictures carry, right behind the header."""
-    with open(path, "rb") as file:
-        data = file.read(1000)
-    size, kind = struct.unpack(">I4s", data[33:41])
-    return data[41:41 + size].split(b"\0", 1)[1].decode() if kind == b"tEXt" else ""
+    """The text with the keyword "hoodoo", wherever among the chunks it stands."""
+    with open(path, "rb") as f:
+        data = f.read()
+    at = 8
+    while at < len(data):
+        size, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + size]
+        if kind == b"tEXt" and body.startswith(b"hoodoo\0"):
+            return body.split(b"\0", 1)[1].decode()
+        at += 12 + size
+    return ""
 
 
 def near(a, b, by=3):
