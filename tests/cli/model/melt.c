@@ -89,7 +89,7 @@ static status output(struct model *m, struct frame *out)
     TRY(particles_surface(m->gpu, m->work, &p));
     field_build(m->gpu, &m->field, &p);
     TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
-    TRY(field_download(m->gpu, &m->field, &p, NULL, 0, &out->grids));
+    TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
     TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &p, NULL, out));
     out->volume_m3 = volume_of(m, &out->rock);
 done:
