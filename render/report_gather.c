@@ -249,57 +249,84 @@ static status find_values(struct report *r)
 
 /* ---- papers */
 
-static void read_timing(struct report *r)
+/* A file of log/ in *bytes, which is NULL where it cannot be read: the page is whole without it. E_MEMORY. */
+static status read_log_file(const struct report *r, const char *name, char **bytes, size_t *n)
 {
     struct path path;
+    status st = path_join(&path, r->root, name);
+    *bytes = NULL;
+    *n = 0;
+    if (st == OK)
+        st = file_read(path.text, LARGEST_LOG, bytes, n);
+    return st == E_MEMORY ? st : OK;
+}
+
+static status read_timing(struct report *r)
+{
+    status st = OK;
     char *bytes = NULL;
     size_t n = 0, capacity = 0;
-    if (path_join(&path, r->root, "log/timing.jsonl") != OK ||
-        file_read(path.text, LARGEST_LOG, &bytes, &n) != OK)
-        return;
+    struct json *json = NULL;
+    TRY(read_log_file(r, "log/timing.jsonl", &bytes, &n));
     for (char *line = bytes, *next; line && *line && r->n_timing < MAX_SESSIONS; line = next) {
-        struct json *json = NULL;
         next = strchr(line, '\n');
         const size_t length = next ? (size_t)(next - line) : strlen(line);
         next = next ? next + 1 : NULL;
-        if (length == 0 || json_read(NULL, line, length, &json) != OK)
-            continue; /* a line cut short: the machine died while it was written */
-        if (memory_grow(&r->timing, &capacity, r->n_timing + 1, sizeof *r->timing, "timing") != OK) {
-            json_free(&json);
-            break;
+        if (length == 0)
+            continue;
+        st = json_read(NULL, line, length, &json);
+        if (st != OK && st != E_MEMORY) {
+            st = OK; /* a line cut short: the machine died while it was written */
+            continue;
         }
+        TRY(st);
+        TRY(memory_grow(&r->timing, &capacity, r->n_timing + 1, sizeof *r->timing, "timing"));
         r->timing[r->n_timing++] = json;
+        json = NULL;
     }
+done:
+    json_free(&json);
     free(bytes);
+    return st;
 }
 
-static void read_log(struct report *r)
+static status read_log(struct report *r)
 {
-    struct path path;
+    status st = OK;
     char *bytes = NULL;
     size_t n = 0;
     int lines = 0;
-    if (path_join(&path, r->root, "log/run.log") != OK || file_read(path.text, LARGEST_LOG, &bytes, &n) != OK)
-        return;
+    TRY(read_log_file(r, "log/run.log", &bytes, &n));
+    if (!bytes)
+        goto done;
     char *from = bytes + n;
     while (from > bytes && lines <= LOG_LINES)
         lines += *--from == '\n' && from + 1 < bytes + n;
     if (lines > LOG_LINES)
         from++;
-    if (memory_strdup(from, &r->log) != OK)
-        r->log = NULL;
+    TRY(memory_strdup(from, &r->log));
+done:
     free(bytes);
+    return st;
 }
 
-static void read_run(struct report *r)
+static status read_run(struct report *r)
 {
+    status st = OK;
     struct path path;
     char *bytes = NULL;
     size_t n = 0;
-    if (path_join(&path, r->root, "run.json") != OK || file_read(path.text, 16 << 20, &bytes, &n) != OK ||
-        json_read(path.text, bytes, n, &r->run) != OK)
+    TRY(path_join(&path, r->root, "run.json"));
+    st = file_read(path.text, 16 << 20, &bytes, &n);
+    if (st == OK)
+        st = json_read(path.text, bytes, n, &r->run);
+    if (st != OK && st != E_MEMORY) {
         report_note(r, "No provenance: %s", status_message());
+        st = OK;
+    }
+done:
     free(bytes);
+    return st;
 }
 
 status report_gather(const char *root, struct report *r)
@@ -314,9 +341,9 @@ status report_gather(const char *root, struct report *r)
     TRY(find_frames(r));
     TRY(checkpoint_list(root, r->name, &r->checkpoint, &r->n_checkpoints));
     TRY(find_values(r));
-    read_run(r);
-    read_timing(r);
-    read_log(r);
+    TRY(read_run(r));
+    TRY(read_timing(r));
+    TRY(read_log(r));
 done:
     return st;
 }

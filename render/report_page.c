@@ -279,7 +279,10 @@ done:
 
 status report_page(const struct report *r, struct text *out)
 {
+    status st = text_status(&r->notes);
     struct text t = {0};
+    if (st != OK)
+        return st;
     json_object(&t, NULL);
     json_object(&t, "run");
     add_head(r, &t);

@@ -20,7 +20,7 @@ struct search {
     struct frame_range frames;
     bool json, only_frames; /* --frames: checkpoints are not asked for */
     size_t n_frames, n_files, n_checkpoints, n_damaged, n_missing;
-    struct text answer; /* JSON, so far up to the list of problems */
+    struct text answer; /* where json is set: so far up to the list of problems */
 };
 
 /* A line now, in words, since reading everything takes long; or a member of the list. */
@@ -214,10 +214,12 @@ status cli_verify(int argc, char **argv)
     s.only_frames = c.frames.step > 0;
     if (!s.only_frames)
         TRY(job_frames(s.root, &s.frames));
-    json_object(&s.answer, NULL);
-    json_text(&s.answer, "folder", s.root);
-    json_text(&s.answer, "name", s.name);
-    json_array(&s.answer, "problems");
+    if (s.json) {
+        json_object(&s.answer, NULL);
+        json_text(&s.answer, "folder", s.root);
+        json_text(&s.answer, "name", s.name);
+        json_array(&s.answer, "problems");
+    }
     TRY(verify_frames(&s));
     if (!s.only_frames)
         TRY(verify_checkpoints(&s));

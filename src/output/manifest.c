@@ -236,15 +236,14 @@ void manifest_free(struct manifest *manifest)
     *manifest = (struct manifest){0};
 }
 
-/* Whether the file stands there as listed. If not, the sentence says why. */
-static bool stands(const char *root, const struct manifest_file *f, bool deep)
+/* OK if the file stands there as listed; E_INPUT says why not. */
+static status check_file(const char *root, const struct manifest_file *f, bool deep)
 {
     struct path path;
     struct stat info;
     uint64_t hash = 0, size = 0;
     status st = OK;
-    if (path_join(&path, root, f->path) != OK)
-        return false;
+    TRY(path_join(&path, root, f->path));
     if (stat(path.text, &info) != 0)
         st = fail(E_INPUT, "%s: %s", path.text, strerror(errno));
     else if (!S_ISREG(info.st_mode))
@@ -254,14 +253,19 @@ static bool stands(const char *root, const struct manifest_file *f, bool deep)
                   (unsigned long long)f->size);
     else if (deep && (st = hash_file(path.text, &hash, &size)) == OK && (hash != f->hash || size != f->size))
         st = fail(E_INPUT, "%s: damaged: its content is not what was written", path.text);
-    return st == OK;
+done:
+    return st;
 }
 
 status manifest_check(const char *root, const struct manifest *manifest, bool deep, const char **bad)
 {
     *bad = "";
-    for (size_t i = 0; i < manifest->n_files && !**bad; i++)
-        if (!stands(root, &manifest->file[i], deep))
+    for (size_t i = 0; i < manifest->n_files && !**bad; i++) {
+        status st = check_file(root, &manifest->file[i], deep);
+        if (st == E_MEMORY)
+            return st;
+        if (st != OK)
             *bad = manifest->file[i].path;
+    }
     return OK;
 }
