@@ -179,7 +179,8 @@ status file_read(const char *path, size_t limit, void *bytes, size_t *n)
     char *data = NULL;
     struct stat info;
     size_t size = 0;
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    int fd =
+        open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe without a writer is no file to wait for */
     if (fd < 0 || fstat(fd, &info) != 0) {
         st = fail(E_INPUT, "%s: %s", path, strerror(errno));
         goto done;

@@ -22,7 +22,7 @@ extern "C" {
     X(E_OUTPUT, 4, "output cannot be written")                                                               \
     X(E_MEMORY, 5, "out of memory")                                                                          \
     X(E_DEVICE, 6, "no such device, or device lost")                                                         \
-    X(E_CHECKPOINT, 7, "checkpoint unusable, or of another job, version or device")                          \
+    X(E_CHECKPOINT, 7, "checkpoint unusable, or of another job, build or device")                            \
     X(E_NUMERIC, 8, "numbers blew up")                                                                       \
     X(STOPPED, 85, "stopped after saving a checkpoint: run the same command again")
 

@@ -58,6 +58,8 @@ static status instance_create(VkInstance *out)
     VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                  .pApplicationInfo = &application};
     VkResult result = vkCreateInstance(&info, NULL, out);
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        return fail(E_MEMORY, "out of memory while starting a Vulkan driver");
     if (result != VK_SUCCESS)
         return fail(E_DEVICE,
                     "no Vulkan driver could be started (%s); install mesa-vulkan-drivers for a CPU device, "

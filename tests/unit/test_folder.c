@@ -380,9 +380,26 @@ static void folders_that_cannot_be_made_are_named(void **state)
     assert_int_equal(atomic_file_write("no/such/folder/file", "x", 1), E_OUTPUT);
 }
 
+/* A pipe nobody writes into would be waited for, without end. */
+static void what_is_no_file_is_refused_at_once(void **state)
+{
+    (void)state;
+    char *bytes = NULL;
+    size_t n;
+    assert_int_equal(mkfifo("pipe", 0600), 0);
+    alarm(10);
+    assert_int_equal(file_read("pipe", 100, &bytes, &n), E_INPUT);
+    assert_string_equal(status_message(), "pipe: not a regular file");
+    assert_int_equal(file_read(".", 100, &bytes, &n), E_INPUT);
+    alarm(0);
+    assert_null(bytes);
+    assert_int_equal(remove("pipe"), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_no_file_is_refused_at_once),
         cmocka_unit_test(paths_are_those_of_the_design),
         cmocka_unit_test(manifests_come_back),
         cmocka_unit_test(manifests_are_the_same_each_time),
