@@ -15,24 +15,32 @@
  * jobs/demo.yaml: what a plan's time rests on. Off by a factor of two is to be expected. */
 static const double WORDS_PER_PARTICLE_STEP = 200;
 
-/* Seconds a word takes to be read and written here: a gather of 16 MB, after one of a few words, which has the driver
- * make what it needs for it. */
+/* Seconds a word takes to be read and written here: a gather, after one of a few words, which has the driver make what it
+ * needs for it. It is as large as it must be to be timed, so that planning stays quick on processors and true on GPUs. */
 static status word_seconds(struct gpu *gpu, double *out)
 {
-    enum { N = 4 << 20, FEW = 1 << 10 };
+    enum { LEAST = 1 << 18, MOST = 1 << 24, FEW = 1 << 10 };
+    const uint64_t enough_ns = 2000000;
     status st = OK;
     struct gpu_buffer *order = NULL, *from = NULL, *to = NULL;
-    struct count_params k = {N};
-    TRY(gpu_buffer_create(gpu, "plan", N, 4, &order));
-    TRY(gpu_buffer_create(gpu, "plan", N, 4, &from));
-    TRY(gpu_buffer_create(gpu, "plan", N, 4, &to));
-    GPU_RUN(gpu, gpu_iota, N, k, order);
-    gpu_gather(gpu, order, from, to, FEW);
-    TRY(gpu_wait(gpu));
-    gpu_times_reset(gpu);
-    gpu_gather(gpu, order, from, to, N);
-    TRY(gpu_wait(gpu));
-    *out = (double)gpu_kernel_time(gpu, KERNEL_gpu_gather_u)->ns * 1e-9 / N;
+    uint64_t ns = 0;
+    for (uint n = LEAST; n <= MOST && ns < enough_ns; n *= 4) {
+        struct count_params k = {n};
+        gpu_buffer_destroy(gpu, &order);
+        gpu_buffer_destroy(gpu, &from);
+        gpu_buffer_destroy(gpu, &to);
+        TRY(gpu_buffer_create(gpu, "plan", n, 4, &order));
+        TRY(gpu_buffer_create(gpu, "plan", n, 4, &from));
+        TRY(gpu_buffer_create(gpu, "plan", n, 4, &to));
+        GPU_RUN(gpu, gpu_iota, n, k, order);
+        gpu_gather(gpu, order, from, to, FEW);
+        TRY(gpu_wait(gpu));
+        gpu_times_reset(gpu);
+        gpu_gather(gpu, order, from, to, n);
+        TRY(gpu_wait(gpu));
+        ns = gpu_kernel_time(gpu, KERNEL_gpu_gather_u)->ns;
+        *out = (double)ns * 1e-9 / n;
+    }
 done:
     gpu_buffer_destroy(gpu, &order);
     gpu_buffer_destroy(gpu, &from);
@@ -40,20 +48,24 @@ done:
     return st;
 }
 
-/* Seconds of a frame: as the folder's frames came, or by what a word takes here (0: nobody knows). */
-static status time_frames(struct farm *f, double word, bool *measured)
+/* Seconds of a frame: as the folder's frames came, or by what a word takes on the device (without one nobody knows: 0). */
+static status time_frames(struct farm *f, struct gpu *gpu, bool *measured)
 {
     status st = OK;
     struct path root;
+    double word = 0;
     for (size_t i = 0; i < f->n_wedges; i++) {
         struct farm_wedge *w = &f->wedge[i];
         double n = (double)range_count(w->job->frames);
         TRY(farm_root(f, (int)w->job->wedge.index, &root));
         w->frame_seconds = farm_frame_seconds(root.text, w->job->name);
         *measured |= w->frame_seconds > 0;
-        if (w->frame_seconds == 0)
-            w->frame_seconds = word * WORDS_PER_PARTICLE_STEP * (double)w->estimate.n_particles *
-                               (w->estimate.steps + n) / n;
+        if (w->frame_seconds > 0 || !gpu)
+            continue;
+        if (word == 0)
+            TRY(word_seconds(gpu, &word));
+        w->frame_seconds =
+            word * WORDS_PER_PARTICLE_STEP * (double)w->estimate.n_particles * (w->estimate.steps + n) / n;
     }
 done:
     return st;
@@ -78,14 +90,11 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     status st = OK;
     const struct job *job = f->wedge[0].job;
     const struct model_estimate e = f->wedge[0].estimate;
-    double word = 0;
     bool measured = false;
     char frames[48];
     size_t n_frames = range_count(job->frames);
     const uint64_t process = room_process(gpu);
-    if (gpu)
-        TRY(word_seconds(gpu, &word));
-    TRY(time_frames(f, word, &measured));
+    TRY(time_frames(f, gpu, &measured));
     TRY(farm_graph(f));
     size_t n_checkpoints =
         (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));
