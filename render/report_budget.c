@@ -8,24 +8,15 @@
 #include "job/job.h"
 #include "render/report_page.h"
 
-/* In the order they are stacked; lightness alternates. */
-static const struct {
-    const char *process, *name, *color;
-} table[] = {
-    {"deflation", "wind plucks grains", "#e0a458"},
-    {"abrasion", "blown sand", "#8c4a2f"},
-    {"weathering", "weathering", "#a9491f"},
-    {"water", "running water", "#5b9bc4"},
-    {"blocks", "blocks that nothing holds", "#3b3f46"},
-    {"collapse", "out of the domain as it falls", "#7d8791"},
-    {"edits", "edits", "#b9a3c9"},
-    {"deposition", "deposits", "#e8d9a0"},
-};
-enum { TABLE = sizeof table / sizeof *table };
+/* From below, in the order in which they are stacked. */
+#define PROCESS(constant, word, models, stacked, color, legend, meaning) [stacked] = PROCESS_##constant,
+static const enum process order[] = {JOB_PROCESSES(PROCESS)};
+#undef PROCESS
+_Static_assert(sizeof order / sizeof *order == PROCESSES, "each process has a curve of its own");
 
 struct budget_curves {
     size_t n; /* sound frames that have one */
-    double *time, *rate[TABLE], taken[TABLE], added[TABLE];
+    double *time, *rate[PROCESSES], taken[PROCESSES], added[PROCESSES];
 };
 
 static const struct manifest_change *change_of(const struct manifest *m, const char *process)
@@ -44,8 +35,8 @@ static void fill(const struct report *r, const struct page_clock *clock, struct 
             continue;
         const double lasted = page_time(r, clock, m->frame) - page_time(r, clock, m->frame - 1);
         c->time[c->n] = page_time(r, clock, m->frame);
-        for (size_t p = 0; p < TABLE; p++) {
-            const struct manifest_change *change = change_of(m, table[p].process);
+        for (size_t p = 0; p < PROCESSES; p++) {
+            const struct manifest_change *change = change_of(m, job_processes[order[p]].name);
             const double m3 = change && isfinite(change->m3) ? change->m3 : 0;
             c->rate[p][c->n] = m3 < 0 && lasted > 0 ? -m3 / (lasted * clock->per) : 0;
             c->taken[p] += fmax(-m3, 0);
@@ -64,15 +55,15 @@ static struct phrase phrase_volume(double m3)
 static void add_rows(const struct budget_curves *c, struct text *t)
 {
     double taken = 0, added = 0;
-    for (size_t p = 0; p < TABLE; p++) {
+    for (size_t p = 0; p < PROCESSES; p++) {
         taken += c->taken[p];
         added += c->added[p];
     }
     json_array(t, "processes");
-    for (size_t p = 0; p < TABLE; p++)
+    for (size_t p = 0; p < PROCESSES; p++)
         if (c->taken[p] > 0 || c->added[p] > 0)
-            PAGE_ROW(t, NULL, "process", table[p].name, "taken", phrase_volume(c->taken[p]).text, "added",
-                     phrase_volume(c->added[p]).text, "share",
+            PAGE_ROW(t, NULL, "process", job_processes[order[p]].legend, "taken",
+                     phrase_volume(c->taken[p]).text, "added", phrase_volume(c->added[p]).text, "share",
                      phrase("%.1f", taken > 0 ? 100 * c->taken[p] / taken : 0).text);
     json_end_array(t);
     PAGE_MEMBERS(t, "all_taken", phrase_number(taken).text, "all_added", phrase_volume(added).text);
@@ -81,21 +72,22 @@ static void add_rows(const struct budget_curves *c, struct text *t)
 void page_budget(const struct report *r, const struct page_clock *clock, struct text *t)
 {
     struct budget_curves c = {0};
-    struct series series[TABLE];
+    struct series series[PROCESSES];
     size_t n_series = 0;
     char label[32];
     struct text svg = {0};
     status st = memory_alloc(r->n_frames, sizeof(double), "curves", &c.time);
-    for (size_t p = 0; p < TABLE && st == OK; p++)
+    for (size_t p = 0; p < PROCESSES && st == OK; p++)
         st = memory_alloc(r->n_frames, sizeof(double), "curves", &c.rate[p]);
     if (st != OK) {
         t->failed = true;
         goto done;
     }
     fill(r, clock, &c);
-    for (size_t p = 0; p < TABLE; p++)
+    for (size_t p = 0; p < PROCESSES; p++)
         if (c.taken[p] > 0)
-            series[n_series++] = (struct series){table[p].name, table[p].color, c.rate[p]};
+            series[n_series++] =
+                (struct series){job_processes[order[p]].legend, job_processes[order[p]].color, c.rate[p]};
     if (c.n < 2 || n_series == 0)
         goto done;
     snprintf(label, sizeof label, "m³ per %s", clock->rate);
@@ -114,6 +106,6 @@ void page_budget(const struct report *r, const struct page_clock *clock, struct 
     json_end_object(t);
 done:
     free(c.time);
-    for (size_t p = 0; p < TABLE; p++)
+    for (size_t p = 0; p < PROCESSES; p++)
         free(c.rate[p]);
 }

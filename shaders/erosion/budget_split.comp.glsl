@@ -9,7 +9,7 @@
 READ_U(0, spent)
 READ_U(1, parts)
 WRITE_U(2, sums)
-PARAMS(budget_params)
+PARAMS(budget_split_params)
 
 uint share_of(uint whole, float share)
 {
@@ -45,7 +45,7 @@ void main()
         water = plus(water, second);
         abrasion = plus(abrasion, rest - second);
     }
-    take(BUDGET_DEFLATION, lane, deflation);
-    take(BUDGET_WATER, lane, water);
-    take(BUDGET_ABRASION, lane, abrasion);
+    take(k.deflation, lane, deflation);
+    take(k.water, lane, water);
+    take(k.abrasion, lane, abrasion);
 }

@@ -119,16 +119,8 @@ SHARED_SIZE(erosion_params, 24)
 #define COUNT_CHANGED 2u
 #define COUNT_FASTEST 3u
 
-/* The budget of a frame: a row a process, a sum of two words for each of the lanes. */
-#define BUDGET_EDITS 0u
-#define BUDGET_DEFLATION 1u
-#define BUDGET_ABRASION 2u
-#define BUDGET_WATER 3u
-#define BUDGET_WEATHERING 4u /* goblins */
-#define BUDGET_DEPOSITION 5u
-#define BUDGET_BLOCKS 6u
-#define BUDGET_COLLAPSE 7u
-#define BUDGET_ROWS 8u
+/* The budget of a frame: a row for each process (enum process in job/job.h), a sum of two words for each of the
+ * lanes. */
 #define BUDGET_LANES 2048u
 
 struct budget_params {
@@ -138,6 +130,13 @@ struct budget_params {
     uint after; /* 1: added; 0: taken off */
 };
 SHARED_SIZE(budget_params, 16)
+
+struct budget_split_params {
+    uint n; /* lanes */
+    uint n_values;
+    uint deflation, water, abrasion; /* their rows */
+};
+SHARED_SIZE(budget_split_params, 20)
 
 /* ---- wind */
 

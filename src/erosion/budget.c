@@ -5,13 +5,7 @@
 
 #include "base/memory.h"
 
-enum { WORDS = BUDGET_ROWS * BUDGET_LANES * 2 };
-
-const char *const budget_names[BUDGET_ROWS] = {
-    [BUDGET_EDITS] = "edits",   [BUDGET_DEFLATION] = "deflation",   [BUDGET_ABRASION] = "abrasion",
-    [BUDGET_WATER] = "water",   [BUDGET_WEATHERING] = "weathering", [BUDGET_DEPOSITION] = "deposition",
-    [BUDGET_BLOCKS] = "blocks", [BUDGET_COLLAPSE] = "collapse",
-};
+enum { WORDS = PROCESSES * BUDGET_LANES * 2 };
 
 status budget_create(struct gpu *gpu, struct budget *b)
 {
@@ -31,27 +25,31 @@ void budget_clear(struct gpu *gpu, struct budget *b)
     gpu_fill(gpu, b->sums, 0);
 }
 
-void budget_sum(struct gpu *gpu, struct budget *b, uint32_t row, bool after, struct gpu_buffer *viability,
-                size_t n)
+void budget_sum(struct gpu *gpu, struct budget *b, enum process process, bool after,
+                struct gpu_buffer *viability, size_t n)
 {
-    struct budget_params k = {.n = BUDGET_LANES, .n_values = (uint)n, .row = row, .after = after};
+    struct budget_params k = {.n = BUDGET_LANES, .n_values = (uint)n, .row = process, .after = after};
     GPU_RUN(gpu, erosion_budget_sum, k.n, k, viability, b->sums);
 }
 
 void budget_split(struct gpu *gpu, struct budget *b, struct gpu_buffer *spent, struct gpu_buffer *parts,
                   size_t n)
 {
-    struct budget_params k = {.n = BUDGET_LANES, .n_values = (uint)n};
+    struct budget_split_params k = {.n = BUDGET_LANES,
+                                    .n_values = (uint)n,
+                                    .deflation = PROCESS_DEFLATION,
+                                    .water = PROCESS_WATER,
+                                    .abrasion = PROCESS_ABRASION};
     GPU_RUN(gpu, erosion_budget_split, k.n, k, spent, parts, b->sums);
 }
 
-status budget_read(struct gpu *gpu, const struct budget *b, int64_t quanta[BUDGET_ROWS])
+status budget_read(struct gpu *gpu, const struct budget *b, int64_t quanta[PROCESSES])
 {
     status st = OK;
     uint32_t *word = NULL;
     TRY(memory_alloc(WORDS, sizeof *word, "the frame's budget", &word));
     TRY(gpu_download(gpu, b->sums, 0, word, WORDS));
-    for (size_t row = 0; row < BUDGET_ROWS; row++) {
+    for (size_t row = 0; row < PROCESSES; row++) {
         uint64_t sum = 0; /* of two's complements */
         for (size_t i = row * BUDGET_LANES; i < (row + 1) * BUDGET_LANES; i++)
             sum += word[2 * i] | (uint64_t)word[2 * i + 1] << 32;

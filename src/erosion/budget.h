@@ -12,10 +12,10 @@
 #include <stdint.h>
 
 #include "gpu/gpu.h"
-#include "shared/params.h"
+#include "job/job.h"
 
 struct budget {
-    struct gpu_buffer *sums; /* uint [BUDGET_ROWS][BUDGET_LANES][2] */
+    struct gpu_buffer *sums; /* uint [PROCESSES][BUDGET_LANES][2] */
 };
 
 MUST_USE status budget_create(struct gpu *gpu, struct budget *out);
@@ -24,9 +24,9 @@ void budget_destroy(struct gpu *gpu, struct budget *b);
 /* All rows: nothing has changed. */
 void budget_clear(struct gpu *gpu, struct budget *b);
 
-/* Adds the sum of n floats, viability from 0 to 1, to a row (BUDGET_*), or takes it off it. */
-void budget_sum(struct gpu *gpu, struct budget *b, uint32_t row, bool after, struct gpu_buffer *viability,
-                size_t n);
+/* Adds the sum of n floats, viability from 0 to 1, to the row of a process, or takes it off it. */
+void budget_sum(struct gpu *gpu, struct budget *b, enum process process, bool after,
+                struct gpu_buffer *viability, size_t n);
 
 /* Takes spent[i] quanta (uint [n]) off the rows of deflation, water and abrasion. parts[i]: the shares of the
  * first two, as packUnorm2x16() packs them. */
@@ -34,12 +34,9 @@ void budget_split(struct gpu *gpu, struct budget *b, struct gpu_buffer *spent, s
                   size_t n);
 
 /* What each process has changed since the rows were cleared, in quanta. Waits. */
-MUST_USE status budget_read(struct gpu *gpu, const struct budget *b, int64_t quanta[BUDGET_ROWS]);
+MUST_USE status budget_read(struct gpu *gpu, const struct budget *b, int64_t quanta[PROCESSES]);
 
 /* Quanta in m3, for particles that stand for h^3. */
 double budget_m3(int64_t quanta, double h);
-
-/* The name of a row: "abrasion". */
-extern const char *const budget_names[BUDGET_ROWS];
 
 #endif

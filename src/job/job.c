@@ -124,6 +124,24 @@ const struct job_model *job_model(const struct job *job)
     return &models[job->model];
 }
 
+#define PROCESS(constant, word, models, stacked, color, legend, meaning)                                     \
+    [PROCESS_##constant] = {#word, models, color, legend, meaning},
+const struct job_process job_processes[PROCESSES] = {JOB_PROCESSES(PROCESS)};
+#undef PROCESS
+
+bool job_has_process(const struct job *job, enum process process)
+{
+    return job_processes[process].models >> job->model & 1;
+}
+
+bool job_has_processes(const struct job *job)
+{
+    bool any = false;
+    for (int p = 0; p < PROCESSES; p++)
+        any |= job_has_process(job, (enum process)p);
+    return any;
+}
+
 const struct job_piles *job_piles(const struct job *job)
 {
     const size_t offset = job_model(job)->piles;

@@ -117,6 +117,23 @@ struct job_node {
 #define CHOICE(section, key, use, preset, choices, meaning, source) enum { CHOICE_CONSTANTS(choices) };
 #include "job/keys.def"
 
+/* The processes, a row of JOB_PROCESSES in keys.def each. */
+#define PROCESS(constant, word, ...) PROCESS_##constant,
+enum process { JOB_PROCESSES(PROCESS) PROCESSES };
+#undef PROCESS
+
+struct job_process {
+    const char *name;           /* in manifests: "abrasion" */
+    unsigned models;            /* OF_MODEL() of those whose frames it is in */
+    const char *color, *legend; /* in the report */
+    const char *meaning;
+};
+extern const struct job_process job_processes[PROCESSES];
+
+/* Whether the job's frames report it; and any at all. A model without any counts in its ledger alone. */
+bool job_has_process(const struct job *job, enum process process);
+bool job_has_processes(const struct job *job);
+
 /* Whether the job wants this layer of pictures (values.h). */
 bool job_wants_layer(const struct job *job, const char *layer);
 

@@ -218,6 +218,31 @@ static void put_tables(struct text *t, enum job_section_id section, const char *
     }
 }
 
+/* The words of the models that have it. */
+static const char *models_text(const struct job_process *process, char out[80])
+{
+#define MODEL(constant, word, ...)                                                                           \
+    if (process->models & OF_MODEL(constant))                                                                \
+        snprintf(out + strlen(out), 80 - strlen(out), "%s%s", *out ? ", " : "", #word);
+    *out = '\0';
+    JOB_MODELS(MODEL)
+#undef MODEL
+    return out;
+}
+
+static void put_processes(struct text *t)
+{
+    char models[80];
+    text_add(t, "\n## What changes the rock\n\n"
+                "`change_m3` in `frames/NAME.FRAME.json` says what each process changed of the rock's volume "
+                "since the frame before, below 0\nwhere it took some. Together they are the change of "
+                "`volume_m3`. The report draws what they take, by these names.\n\n"
+                "| process | models | in the report | what it is |\n|---|---|---|---|\n");
+    for (int p = 0; p < PROCESSES; p++)
+        text_add(t, "| `%s` | %s | %s | %s |\n", job_processes[p].name,
+                 models_text(&job_processes[p], models), job_processes[p].legend, job_processes[p].meaning);
+}
+
 status job_reference(struct text *out)
 {
     char title[100], first[JOB_SECTIONS][256] = {0};
@@ -230,5 +255,6 @@ status job_reference(struct text *out)
     put_table(out, SECTION_group, "Every shape and operator", true, false);
     text_add(out, "\nThese stand inside a shape's mapping, or beside an operator's list.\n");
     value_reference(out);
+    put_processes(out);
     return text_status(out);
 }

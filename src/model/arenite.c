@@ -49,7 +49,7 @@ static bool depositing(const struct arenite *a)
     return a->deposits && curve_at(&a->m.job->deposition.viability, a->m.frame) > 0;
 }
 
-static void weigh(struct arenite *a, uint32_t process, bool after)
+static void weigh(struct arenite *a, enum process process, bool after)
 {
     model_weigh(&a->m, process, after, a->particles.field[ROCK_viability], a->particles.n);
 }
@@ -64,10 +64,10 @@ static status remove_eroded(struct arenite *a, int step, uint32_t n_eroded, bool
         memcpy(routing.cells, a->water.cells, sizeof routing.cells);
         memcpy(routing.shift, a->water.shift, sizeof routing.shift);
         gpu_stage(a->m.gpu, "deposition");
-        weigh(a, BUDGET_DEPOSITION, false);
+        weigh(a, PROCESS_DEPOSITION, false);
         TRY(deposit_land(a->m.gpu, a->m.work, &a->deposit, a->m.job, a->m.frame, step, &routing,
                          &a->particles, &moved));
-        weigh(a, BUDGET_DEPOSITION, true);
+        weigh(a, PROCESS_DEPOSITION, true);
     }
     a->m.ledger.left += moved.left;
     *changed = moved.crumbs > 0;
@@ -85,10 +85,10 @@ status arenite_unsupported(struct arenite *a)
     status st = OK;
     uint32_t n_fallen = 0;
     gpu_stage(a->m.gpu, "blocks");
-    weigh(a, BUDGET_BLOCKS, false);
+    weigh(a, PROCESS_BLOCKS, false);
     if (a->collapse.falls) {
         TRY(collapse_blocks(a->m.gpu, a->m.work, &a->collapse, &a->blocks, &a->particles, &a->m.ledger));
-        weigh(a, BUDGET_BLOCKS, true);
+        weigh(a, PROCESS_BLOCKS, true);
         goto done;
     }
     TRY(blocks_fall(a->m.gpu, a->m.work, &a->blocks, &a->particles, &n_fallen));
@@ -97,7 +97,7 @@ status arenite_unsupported(struct arenite *a)
         TRY(particles_index(a->m.gpu, a->m.work, &a->particles));
         TRY(arenite_count(a));
     }
-    weigh(a, BUDGET_BLOCKS, true);
+    weigh(a, PROCESS_BLOCKS, true);
 done:
     return st;
 }
@@ -205,12 +205,12 @@ static status edit(struct arenite *a)
         a->blocks.rubble |= a->collapse.falls;
     }
     if (kind == EDITS_ROCK) {
-        weigh(a, BUDGET_EDITS, false);
+        weigh(a, PROCESS_EDITS, false);
         TRY(particles_download(a->m.gpu, &a->particles, STATE, &rock));
         TRY(edits_apply(a->m.whole, a->m.frame, &rock, &a->m.ledger, &a->m.start_volume));
         arenite_destroy_particles(a);
         TRY(arenite_create_particles(a, &rock));
-        weigh(a, BUDGET_EDITS, true);
+        weigh(a, PROCESS_EDITS, true);
         TRY(arenite_count(a));
         if (!a->collapse.shot)
             TRY(arenite_unsupported(a));
@@ -272,10 +272,10 @@ static status fall(struct arenite *a)
 {
     status st = OK;
     gpu_stage(a->m.gpu, "collapse");
-    weigh(a, BUDGET_COLLAPSE, false);
+    weigh(a, PROCESS_COLLAPSE, false);
     TRY(collapse_frame(a->m.gpu, a->m.work, &a->collapse, a->m.job->clock.seconds_per_frame, &a->particles,
                        &a->m.ledger));
-    weigh(a, BUDGET_COLLAPSE, true);
+    weigh(a, PROCESS_COLLAPSE, true);
     TRY(arenite_settle(a, false));
 done:
     return st;
@@ -353,14 +353,8 @@ done:
 
 /* ---- the model */
 
-/* Weathering is the goblins' word for what wind and water are here. */
-static const uint32_t processes[] = {BUDGET_EDITS,      BUDGET_DEFLATION, BUDGET_ABRASION, BUDGET_WATER,
-                                     BUDGET_DEPOSITION, BUDGET_BLOCKS,    BUDGET_COLLAPSE};
-
 const struct model_type arenite_type = {
     .size = sizeof(struct arenite),
-    .processes = processes,
-    .n_processes = sizeof processes / sizeof *processes,
     .estimate = arenite_estimate,
     .work_items = arenite_work_items,
     .create = arenite_create,

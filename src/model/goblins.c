@@ -39,7 +39,7 @@ static struct goblins *of(struct model *m)
 
 /* ---- a frame */
 
-static void weigh(struct goblins *g, uint32_t process, bool after)
+static void weigh(struct goblins *g, enum process process, bool after)
 {
     model_weigh(&g->m, process, after, g->voxels.left, gpu_buffer_count(g->voxels.left));
 }
@@ -51,12 +51,12 @@ static status remove_unsupported(struct goblins *g)
     if (g->m.job->goblins.floats)
         return OK;
     gpu_stage(g->m.gpu, "blocks");
-    weigh(g, BUDGET_BLOCKS, false);
+    weigh(g, PROCESS_BLOCKS, false);
     voxels_solid(g->m.gpu, &g->voxels, g->blocks.solid);
     TRY(blocks_join(g->m.gpu, g->m.work, &g->blocks, g->m.voxels));
     TRY(voxels_fall(g->m.gpu, g->m.work, &g->voxels, g->blocks.solid, g->blocks.pointer, g->blocks.other));
     TRY(voxels_remove(g->m.gpu, g->m.work, &g->voxels, &n_fallen));
-    weigh(g, BUDGET_BLOCKS, true);
+    weigh(g, PROCESS_BLOCKS, true);
     g->m.ledger.rock -= n_fallen;
     g->m.ledger.fallen += n_fallen;
 done:
@@ -69,7 +69,7 @@ static status step(struct model *m)
     struct goblins *g = of(m);
     double kyr = m->job->clock.years_per_frame / 1000;
     gpu_stage(m->gpu, "weathering");
-    weigh(g, BUDGET_WEATHERING, false);
+    weigh(g, PROCESS_WEATHERING, false);
     TRY(voxels_rates(m->gpu, &g->voxels, m->job, m->frame));
     while (kyr > 0 && m->ledger.rock > 0) {
         double passed;
@@ -79,7 +79,7 @@ static status step(struct model *m)
         m->ledger.rock -= n_gone;
         m->ledger.left += n_gone;
     }
-    weigh(g, BUDGET_WEATHERING, true);
+    weigh(g, PROCESS_WEATHERING, true);
     TRY(remove_unsupported(g));
 done:
     return st;
@@ -311,8 +311,6 @@ done:
 
 const struct model_type goblins_type = {
     .size = sizeof(struct goblins),
-    .processes = (const uint32_t[]){BUDGET_WEATHERING, BUDGET_BLOCKS},
-    .n_processes = 2,
     .estimate = estimate,
     .work_items = work_items,
     .create = create,

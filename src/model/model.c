@@ -56,11 +56,11 @@ static status restore_counts(struct model *m, const struct checkpoint *c)
     status st = OK;
     const struct section_rule volume = {"start volume", SECTION_DOUBLE, 1, 1, {{0, SECTION_COUNT_MAX}}};
     const struct section_rule change = {
-        "change", SECTION_INTEGER, BUDGET_ROWS, 1, {{-SECTION_COUNT_MAX, SECTION_COUNT_MAX}}};
+        "change", SECTION_INTEGER, PROCESSES, 1, {{-SECTION_COUNT_MAX, SECTION_COUNT_MAX}}};
     const void *data;
     TRY(section_check_domain(c, m->job));
     TRY(section_take_ledger(c, &m->ledger));
-    if (m->type->n_processes == 0)
+    if (!job_has_processes(m->job))
         return OK;
     TRY(section_take(c, &volume, &data, NULL));
     memcpy(&m->start_volume, data, sizeof m->start_volume);
@@ -76,11 +76,11 @@ status sections_add_counts(struct checkpoint *c, const struct model *m)
     void *data;
     TRY(section_add(c, "ledger", 8, sizeof m->ledger / 8, &data));
     memcpy(data, &m->ledger, sizeof m->ledger);
-    if (m->type->n_processes == 0)
+    if (!job_has_processes(m->job))
         return OK;
     TRY(section_add(c, "start volume", 8, 1, &data));
     memcpy(data, &m->start_volume, sizeof m->start_volume);
-    TRY(section_add(c, "change", 8, BUDGET_ROWS, &data));
+    TRY(section_add(c, "change", 8, PROCESSES, &data));
     memcpy(data, m->change, sizeof m->change);
 done:
     return st;
@@ -91,7 +91,7 @@ static status create_shared(struct model *m)
     status st = OK;
     TRY(scene_voxels(m->job, m->voxels));
     TRY(gpu_work_create(m->gpu, m->type->work_items(m->job, m->voxels), &m->work));
-    if (m->type->n_processes)
+    if (job_has_processes(m->job))
         TRY(budget_create(m->gpu, &m->budget));
     TRY(field_create(m->gpu, m->voxels, m->h, &m->field));
     if (aov_pixels(m->whole))
@@ -162,7 +162,7 @@ int model_frame(const struct model *m)
 status model_step(struct model *m)
 {
     status st = OK;
-    const bool budgets = m->type->n_processes > 0;
+    const bool budgets = job_has_processes(m->job);
     m->frame++;
     m->job = job_at(m->whole, m->frame);
     m->years += m->job->clock.years_per_frame;
@@ -179,11 +179,10 @@ status model_output(struct model *m, struct frame *out)
 {
     *out = (struct frame){
         .number = m->frame, .years = m->years, .ledger = m->ledger, .start_volume_m3 = m->start_volume};
-    for (size_t i = 0; i < m->type->n_processes; i++) {
-        const uint32_t row = m->type->processes[i];
-        out->change[out->n_changes++] =
-            (struct frame_change){budget_names[row], budget_m3(m->change[row], m->h)};
-    }
+    for (int p = 0; p < PROCESSES; p++)
+        if (job_has_process(m->job, (enum process)p))
+            out->change[out->n_changes++] =
+                (struct frame_change){job_processes[p].name, budget_m3(m->change[p], m->h)};
     status st = m->type->output(m, out);
     if (st != OK)
         frame_free(out);
@@ -198,7 +197,7 @@ double model_sum(const float *left, size_t n)
     return sum;
 }
 
-void model_weigh(struct model *m, uint32_t process, bool after, struct gpu_buffer *left, size_t n)
+void model_weigh(struct model *m, enum process process, bool after, struct gpu_buffer *left, size_t n)
 {
     budget_sum(m->gpu, &m->budget, process, after, left, n);
 }

@@ -22,8 +22,8 @@ struct model {
     double h;            /* m: their side */
     double start_volume; /* m3 */
     struct ledger ledger;
-    struct budget budget;        /* where the model has processes */
-    int64_t change[BUDGET_ROWS]; /* quanta, in the last frame */
+    struct budget budget;      /* where the model has processes */
+    int64_t change[PROCESSES]; /* quanta, in the last frame */
     struct gpu_work *work;
     struct field field;
     struct aov aov; /* where the job has pictures */
@@ -45,11 +45,6 @@ struct model_needs {
 
 struct model_type {
     size_t size; /* of its struct */
-
-    /* The rows of the budget that its frames report, BUDGET_*. A model without any counts in its ledger alone: its
-     * checkpoints hold no volumes. */
-    const uint32_t *processes;
-    size_t n_processes;
 
     MUST_USE status (*estimate)(const struct job *job, struct model_needs *needs);
 
@@ -82,12 +77,12 @@ struct model_type {
 double model_sum(const float *left, size_t n);
 
 /* Enters all that the rock has, before and after a process, into the frame's budget. */
-void model_weigh(struct model *m, uint32_t process, bool after, struct gpu_buffer *left, size_t n);
+void model_weigh(struct model *m, enum process process, bool after, struct gpu_buffer *left, size_t n);
 
 /* Says in the first frame how much was taken out because nothing holds it. */
 void model_warn_unheld(const struct model *m);
 
-/* The ledger; and for a model with processes, start volume and changes. */
+/* The ledger; and for a model with processes (keys.def), start volume and changes. */
 MUST_USE status sections_add_counts(struct checkpoint *c, const struct model *m);
 
 #endif

@@ -77,7 +77,7 @@ struct manifest {
     int stress_iterations;
     struct ledger ledger;
     size_t n_changes;
-    struct manifest_change change[FRAME_CHANGES];
+    struct manifest_change change[PROCESSES];
 };
 
 /* frames/NAME.1001.json. Written last. */

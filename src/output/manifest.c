@@ -126,7 +126,7 @@ static bool to_changes(const struct json *changes, struct manifest *out)
 {
     if (!changes)
         return true;
-    if (changes->kind != JSON_OBJECT || changes->n > FRAME_CHANGES)
+    if (changes->kind != JSON_OBJECT || changes->n > PROCESSES)
         return false;
     for (const struct json *item = changes->first; item; item = item->next) {
         struct manifest_change *c = &out->change[out->n_changes++];

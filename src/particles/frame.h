@@ -80,7 +80,6 @@ struct frame_change {
     const char *process; /* a name that lasts */
     double m3;           /* negative: taken from it */
 };
-enum { FRAME_CHANGES = 8 };
 
 /* Rocks to be put where the frame has piles of them: P, id, and in `layer` which of the tile's shapes. */
 struct frame_rocks {
@@ -109,7 +108,7 @@ struct frame {
     double volume_m3; /* sum of viability times h^3 */
     double start_volume_m3;
     size_t n_changes;
-    struct frame_change change[FRAME_CHANGES];
+    struct frame_change change[PROCESSES];
     double max_stress_Pa;
     int stress_iterations;
 };
