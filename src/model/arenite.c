@@ -197,8 +197,8 @@ static status edit(struct arenite *a)
         return OK;
     gpu_stage(a->m.gpu, "edits");
     a->elastic.options = elastic_options(a->m.job);
-    water_destroy(a->m.gpu, &a->water);
-    TRY(arenite_create_water(a));
+    arenite_destroy_parts(a, LASTS_JOB);
+    TRY(arenite_create_parts(a, LASTS_JOB));
     if (kind != EDITS_ROCK) {
         collapse_destroy(a->m.gpu, &a->collapse);
         TRY(collapse_create(a->m.gpu, a->m.job, &a->particles, &a->collapse));

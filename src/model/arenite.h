@@ -12,18 +12,39 @@
 #include "water/water.h"
 #include "wind/wind.h"
 
+/* What its processes and solvers have on the device, a row each: PART(name, lasts, bytes, create).
+ *   name    struct arenite has a member `struct name name`, which name_destroy() frees, finished or not
+ *   lasts   LASTS_RUN: from the start on; LASTS_JOB: from the first rock on, and it is made anew where edits change the job;
+ *           LASTS_ROCK: as long as the particles, which edits may replace
+ *   bytes   of a job with n particles in so many voxels, its edits included; 0: it has no need of it
+ *   create  makes it in *a, for a->m.job; OK: that has no need of it, or it is made when it is first used
+ */
+#define ARENITE_PARTS(PART)                                                                                  \
+    PART(elastic, LASTS_RUN, elastic_bytes(voxels),                                                          \
+         elastic_create(a->m.gpu, a->m.voxels, a->m.h,                                                       \
+                        (const struct elastic_options[]){elastic_options(a->m.job)}, &a->elastic))           \
+    PART(blocks, LASTS_RUN, blocks_bytes(voxels), blocks_create(a->m.gpu, a->m.voxels, &a->blocks))          \
+    PART(wind, LASTS_RUN, wind_bytes(job, voxels), wind_create(a->m.gpu, a->m.whole, a->m.voxels, &a->wind)) \
+    PART(deposit, LASTS_JOB, arenite_ever(job, deposit_wanted) ? deposit_bytes(voxels) : 0,                  \
+         a->deposits ? deposit_create(a->m.gpu, a->m.voxels, &a->deposit) : OK)                              \
+    PART(water, LASTS_JOB, arenite_ever(job, arenite_routes) ? water_bytes(voxels) : 0,                      \
+         arenite_routes(a->m.job) ? water_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->water) : OK)   \
+    PART(erosion, LASTS_ROCK, erosion_bytes(n),                                                              \
+         erosion_create(a->m.gpu, a->m.job, a->particles.n_max, &a->erosion))                                \
+    PART(collapse, LASTS_ROCK, collapse_bytes(job, n, voxels),                                               \
+         collapse_create(a->m.gpu, a->m.job, &a->particles, &a->collapse))                                   \
+    PART(mpm, LASTS_ROCK,                                                                                    \
+         job->stress.solver == STRESS_MPM ? mpm_bytes(n, voxels, job->domain.spacing_m, 0) : 0, OK)
+
+enum lasts { LASTS_RUN, LASTS_JOB, LASTS_ROCK };
+
 struct arenite {
     struct model m; /* shared by all models */
     struct particles particles;
-    struct elastic elastic;
-    struct mpm mpm; /* stress.solver: mpm */
-    struct collapse collapse;
-    struct erosion erosion;
-    struct wind wind;
-    struct water water;
-    bool told; /* that water is held back */
-    struct deposit deposit;
-    struct blocks blocks;
+#define PART(name, lasts, bytes, create) struct name name;
+    ARENITE_PARTS(PART)
+#undef PART
+    bool told;             /* that water is held back */
     bool deposits, plants; /* does the run ever have any? */
     struct pile_tile tile; /* of rocks to show on deposits */
 };
@@ -51,8 +72,9 @@ MUST_USE status arenite_settle(struct arenite *a, bool solved);
 MUST_USE status arenite_create_particles(struct arenite *a, const struct rock *rock);
 void arenite_destroy_particles(struct arenite *a);
 
-/* For the job as it is now. */
-MUST_USE status arenite_create_water(struct arenite *a);
+/* The parts that last so long, but for those of rock: the two above have them. */
+MUST_USE status arenite_create_parts(struct arenite *a, enum lasts lasts);
+void arenite_destroy_parts(struct arenite *a, enum lasts lasts);
 
 /* Does anything in the job need to know where water runs? */
 bool arenite_routes(const struct job *job);

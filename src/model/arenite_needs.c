@@ -27,15 +27,11 @@ size_t arenite_work_items(const struct job *job, const int voxels[3])
 
 static uint64_t device_bytes(const struct job *job, const int voxels[3], size_t n)
 {
-    uint64_t bytes = elastic_bytes(voxels) + erosion_bytes(n) + blocks_bytes(voxels) +
-                     wind_bytes(job, voxels) + collapse_bytes(job, n, voxels);
-    if (arenite_ever(job, arenite_routes))
-        bytes += water_bytes(voxels);
-    if (arenite_ever(job, deposit_wanted))
-        bytes += deposit_bytes(voxels);
-    if (job->stress.solver == STRESS_MPM)
-        bytes += mpm_bytes(n, voxels, job->domain.spacing_m, 0);
-    return bytes;
+    uint64_t sum = 0;
+#define PART(name, lasts, bytes, create) sum += (bytes);
+    ARENITE_PARTS(PART)
+#undef PART
+    return sum;
 }
 
 static double steps(const struct job *job)

@@ -12,12 +12,32 @@
 #include "plants/plants.h"
 #include "scene/scene.h"
 
+status arenite_create_parts(struct arenite *a, enum lasts lasts)
+{
+    status st = OK;
+#define PART(name, so_long, bytes, create)                                                                   \
+    if (lasts == so_long)                                                                                    \
+        TRY(create);
+    ARENITE_PARTS(PART)
+#undef PART
+done:
+    return st;
+}
+
+void arenite_destroy_parts(struct arenite *a, enum lasts lasts)
+{
+#define PART(name, so_long, bytes, create)                                                                   \
+    if (lasts == so_long)                                                                                    \
+        name##_destroy(a->m.gpu, &a->name);
+    ARENITE_PARTS(PART)
+#undef PART
+}
+
 status arenite_create_particles(struct arenite *a, const struct rock *rock)
 {
     status st = OK;
     TRY(particles_create(a->m.gpu, a->m.work, rock, STATE, a->m.voxels, a->m.h, &a->particles));
-    TRY(erosion_create(a->m.gpu, a->m.job, a->particles.n_max, &a->erosion));
-    TRY(collapse_create(a->m.gpu, a->m.job, &a->particles, &a->collapse));
+    TRY(arenite_create_parts(a, LASTS_ROCK));
     a->blocks.rubble |= a->collapse.falls;
     for (size_t i = 0; i < rock->n && !a->blocks.rubble; i++)
         a->blocks.rubble = rock->phase[i] == PHASE_FALLING;
@@ -27,19 +47,8 @@ done:
 
 void arenite_destroy_particles(struct arenite *a)
 {
-    mpm_destroy(a->m.gpu, &a->mpm);
-    collapse_destroy(a->m.gpu, &a->collapse);
-    erosion_destroy(a->m.gpu, &a->erosion);
+    arenite_destroy_parts(a, LASTS_ROCK);
     particles_destroy(a->m.gpu, &a->particles);
-}
-
-status arenite_create_water(struct arenite *a)
-{
-    status st = OK;
-    if (arenite_routes(a->m.job))
-        TRY(water_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->water));
-done:
-    return st;
 }
 
 /* ---- checkpoints */
@@ -84,13 +93,11 @@ done:
     return st;
 }
 
-/* All that water, deposits and stress of the first frame need beside its rock. */
+/* All that the first frame needs beside its rock. */
 static status arrive(struct arenite *a, bool solved)
 {
     status st = OK;
-    if (a->deposits)
-        TRY(deposit_create(a->m.gpu, a->m.voxels, &a->deposit));
-    TRY(arenite_create_water(a));
+    TRY(arenite_create_parts(a, LASTS_JOB));
     TRY(arenite_settle(a, solved));
 done:
     return st;
@@ -243,12 +250,9 @@ status arenite_create(struct model *m)
 {
     status st = OK;
     struct arenite *a = arenite_of(m);
-    const struct elastic_options options = elastic_options(m->job);
     a->plants = plants_wanted(m->whole) || edits_plant(m->whole);
     a->deposits = arenite_ever(m->whole, deposit_wanted);
-    TRY(elastic_create(m->gpu, m->voxels, m->h, &options, &a->elastic));
-    TRY(blocks_create(m->gpu, m->voxels, &a->blocks));
-    TRY(wind_create(m->gpu, m->whole, m->voxels, &a->wind));
+    TRY(arenite_create_parts(a, LASTS_RUN));
     TRY(rocks_tile(m->whole, &a->tile));
     TRY(scene_edits_check(m->whole, m->frame));
 done:
@@ -258,11 +262,8 @@ done:
 void arenite_destroy(struct model *m)
 {
     struct arenite *a = arenite_of(m);
-    deposit_destroy(m->gpu, &a->deposit);
-    blocks_destroy(m->gpu, &a->blocks);
-    wind_destroy(m->gpu, &a->wind);
-    water_destroy(m->gpu, &a->water);
-    elastic_destroy(m->gpu, &a->elastic);
     arenite_destroy_particles(a);
+    arenite_destroy_parts(a, LASTS_JOB);
+    arenite_destroy_parts(a, LASTS_RUN);
     pile_tile_destroy(&a->tile);
 }
