@@ -23,6 +23,7 @@ sed -i '/^VALUE(id,/i VALUE(rate_factor, "", "f", OF_FIELD(rate_factor), FROM_SK
 grep -q warning make.log
 say $((1 - $?)) "the tree builds with one more value, without warnings"
 hoodoo=$PWD/tree/build/hoodoo
+export HOODOO_LIBEXEC="$PWD/tree/build" # what stands beside it is of its build
 
 cat >block.yaml <<'J'
 hoodoo: 1
