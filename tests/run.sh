@@ -34,6 +34,7 @@ fi
 build=$(realpath "$1")
 shift
 export HOODOO="$build/hoodoo" HOODOO_LIBEXEC="$build" HOODOO_TOP="$top" CMOCKA_MESSAGE_OUTPUT=tap
+export PYTHONPATH="$top/tests/lib" PYTHONDONTWRITEBYTECODE=1
 HOODOO_SCRATCH=$(mktemp -d "${TMPDIR:-/tmp}/hoodoo-test.XXXXXX")
 export HOODOO_SCRATCH
 trap 'rm -rf "$HOODOO_SCRATCH"' EXIT

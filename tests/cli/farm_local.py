@@ -1,45 +1,15 @@
 """submit --to local: dependencies, failures, stops, wedges, hostile names: and the files are those of `hoodoo run` alone."""
 
-import hashlib
 import json
 import os
 import re
 import signal
 import subprocess
-import sys
 import time
 
-HOODOO, TOP = os.environ["HOODOO"], os.environ["HOODOO_TOP"]
+from script import HOODOO, TOP, finish, hoodoo, of_a_run, ok, tree
+
 PATIENCE = 180
-failures = 0
-
-
-def ok(good, name, *notes):
-    global failures
-    print("ok" if good else "not ok", name, flush=True)
-    if not good:
-        failures += 1
-        for note in notes:
-            for line in str(note).splitlines()[-60:]:
-                print("#", line, flush=True)
-    return good
-
-
-def hoodoo(*words, **more):
-    done = subprocess.run([HOODOO, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, timeout=PATIENCE, **more)
-    return done.returncode, done.stdout
-
-
-def tree(root):
-    found = {}
-    for folder, _, names in os.walk(root):
-        for name in names:
-            path = os.path.relpath(os.path.join(folder, name), root)
-            if path.startswith(("points", "volumes", "aov", "frames", "mesh", "job.yaml")) or path.endswith(".1012.ckpt"):
-                with open(os.path.join(root, path), "rb") as f:
-                    found[path] = hashlib.sha256(f.read()).hexdigest()
-    return found
-
 
 with open(os.path.join(TOP, "tests/restart/twelve.yaml")) as f:
     text = f.read()
@@ -69,7 +39,7 @@ ok(not bad, "none before what it waits for", bad)
 for wedge in (1, 2):
     hoodoo("run", "wedges.yaml", f"--wedge={wedge}", "--device", "cpu", "--out", f"alone{wedge}", "--progress", "none")
     hoodoo("mesh", f"alone{wedge}")
-    here, there = tree(f"two/w000{wedge}"), tree(f"alone{wedge}")
+    here, there = tree(f"two/w000{wedge}", of_a_run), tree(f"alone{wedge}", of_a_run)
     ok(here == there and len(here) > 60, f"wedge {wedge}: the files of a run alone, byte for byte",
        sorted(p for p in here.keys() | there.keys() if here.get(p) != there.get(p)))
 with open("two/w0002/run.json") as f:
@@ -110,7 +80,7 @@ def stop_after(out, frames, number, times=1, group=False):
     return child.returncode, said
 
 
-alone = tree("fails")
+alone = tree("fails", of_a_run)
 for frames, number, times in ((1, signal.SIGTERM, 1), (4, signal.SIGINT, 3), (7, signal.SIGUSR1, 1)):
     code, said = stop_after("halted", frames, number, times)
     ok(code == 85 and "run the same command again" in said and not os.path.exists("halted/lock"),
@@ -128,7 +98,7 @@ for pid in filter(str.isdigit, os.listdir("/proc")):
         left.append(pid)
 ok(code == -signal.SIGKILL and not left, "killed: its children do not stay", code, left)
 code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "2", "--out", "halted")
-here = tree("halted")
+here = tree("halted", of_a_run)
 ok(code == 0 and here == alone, "and the same command goes on, to the same bytes", code, sorted(p for p in here.keys() | alone.keys() if here.get(p) != alone.get(p)), said)
 with open("halted/log/run.log") as f:
     times = re.findall(r" frame (\d+), \d+/", f.read())
@@ -161,4 +131,4 @@ for body, word in (("seed\n", "no line of values"), ("seed\n1,2\n", "more fields
         f.write(body)
     code, said = hoodoo("plan", "wedges.yaml")
     ok(code == 3 and word in said, f"a CSV file of {body!r} is refused", code, said)
-sys.exit(1 if failures else 0)
+finish()

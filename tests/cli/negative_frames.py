@@ -2,25 +2,8 @@
 
 import json
 import os
-import subprocess
 
-HOODOO = os.environ["HOODOO"]
-failures = 0
-
-
-def ok(good, name, *notes):
-    global failures
-    print("ok" if good else "not ok", name, flush=True)
-    if not good:
-        failures += 1
-        for note in notes:
-            for line in str(note).splitlines()[-40:]:
-                print("#", line, flush=True)
-
-
-def hoodoo(*words):
-    done = subprocess.run([HOODOO, *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, timeout=600)
-    return done.returncode, done.stdout
+from script import finish, hoodoo, ok
 
 
 def works(name, *words):
@@ -117,4 +100,4 @@ for n in (3700, 4200, 9000):
         ok(code in wanted and not os.path.exists("away"), f"{words[0]}: {n} bytes are refused, and nothing is made", code, said[-300:])
         if words[0] in ("run", "submit"):
             ok("bytes long" in said, "with the bytes there are and may be", said[-300:])
-raise SystemExit(failures > 0)
+finish()

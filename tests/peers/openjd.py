@@ -1,6 +1,5 @@
 """The real OpenJD client takes our template, runs it to the last sheet, and a task it cancels goes on where it was."""
 
-import hashlib
 import json
 import os
 import re
@@ -9,43 +8,20 @@ import subprocess
 import sys
 import time
 
-HOODOO, TOP = os.environ["HOODOO"], os.environ["HOODOO_TOP"]
+from script import HOODOO, TOP, ask, finish, ok, tree
+
 VENV = os.path.join(os.path.dirname(HOODOO), "openjd")
 OPENJD = os.path.join(VENV, "bin", "openjd")
 PATIENCE = 600
-failures = 0
 
 
-def ok(good, name, *notes):
-    global failures
-    print("ok" if good else "not ok", name, flush=True)
-    if not good:
-        failures += 1
-        for note in notes:
-            for line in str(note).splitlines()[-60:]:
-                print("#", line, flush=True)
-    return good
-
-
-def ask(*argv):
-    done = subprocess.run(argv, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, timeout=PATIENCE)
-    return done.returncode, done.stdout
+def by_openjd(path):
+    return path.startswith(("points", "volumes", "aov", "frames", "job.yaml"))
 
 
 def manifests(out):
     folder = os.path.join(out, "frames")
     return sorted(n for n in os.listdir(folder) if n.endswith(".json")) if os.path.isdir(folder) else []
-
-
-def tree(root, folders):
-    found = {}
-    for folder, _, names in os.walk(root):
-        for name in names:
-            path = os.path.relpath(os.path.join(folder, name), root)
-            if path.startswith(folders):
-                with open(os.path.join(root, path), "rb") as f:
-                    found[path] = hashlib.sha256(f.read()).hexdigest()
-    return found
 
 
 if not os.path.exists(OPENJD):
@@ -81,8 +57,7 @@ ok(len(progress) > 24 and progress.count(100.0) >= 4, f"its tasks tell their pro
 for wedge in (1, 2):
     alone = f"alone{wedge}"
     ask(HOODOO, "run", "job.yaml", f"--wedge={wedge}", "--device", "cpu", "--out", alone, "--progress", "none")
-    folders = ("points", "volumes", "aov", "frames", "job.yaml")
-    here, there = tree(f"{out}/w000{wedge}", folders), tree(alone, folders)
+    here, there = tree(f"{out}/w000{wedge}", by_openjd), tree(alone, by_openjd)
     ok(here == there and len(here) > 40, f"wedge {wedge}: the files of an undisturbed run, byte for byte",
        sorted(p for p in here.keys() | there.keys() if here.get(p) != there.get(p)))
     stills = sorted(n for n in os.listdir(f"{out}/w000{wedge}/preview") if n.endswith(".png"))
@@ -112,4 +87,4 @@ before = manifests("long")
 ok(0 < len(before) < 6 and "stopped after frame" in said, f"a cancelled task saves what it has ({len(before)} frames)", before, said)
 code, said = ask(*run)
 ok(code == 0 and len(manifests("long")) == 6 and "continuing from the checkpoint" in said, "and goes on when it is run again", said)
-sys.exit(1 if failures else 0)
+finish()

@@ -1,7 +1,6 @@
 """A job handed to a real Slurm, whose blocks are requeued, signalled, killed and failed on the way: in the end, the bytes of an
 undisturbed run, and no frame simulated more often than its kills explain."""
 
-import hashlib
 import os
 import re
 import signal
@@ -14,21 +13,9 @@ sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "lib"))
 from one_node import OneNode
+from script import HOODOO, TOP, finish, of_a_run, ok, tree
 
-HOODOO, TOP = os.environ["HOODOO"], os.environ["HOODOO_TOP"]
 os.environ["LP_NUM_THREADS"] = "1"
-failures = 0
-
-
-def ok(good, name, *notes):
-    global failures
-    print("ok" if good else "not ok", name, flush=True)
-    if not good:
-        failures += 1
-        for note in notes:
-            for line in str(note).splitlines():
-                print("#", line, flush=True)
-    return good
 
 
 def hoodoo(*words):
@@ -43,19 +30,6 @@ def write_job(path, wedges):
         text += "wedge: {over: [{key: seed, values: [3, 4]}, {key: wind.abrasion, values: [0.55, 0.7]}]}\n"
     with open(path, "w") as f:
         f.write(text.replace("spacing_m: 0.5", "spacing_m: 0.25").replace("every: 3", "every: 1"))
-
-
-def tree(root):
-    """What the simulation and the meshes leave, with digests. Pictures are made by programs that put dates into them, and
-    checkpoints beyond the last frame's depend on where a run was stopped."""
-    found = {}
-    for folder, _, names in os.walk(root):
-        for name in names:
-            path = os.path.relpath(os.path.join(folder, name), root)
-            if path.startswith(("points", "volumes", "aov", "frames", "mesh", "job.yaml")) or path.endswith(".1012.ckpt"):
-                with open(os.path.join(root, path), "rb") as f:
-                    found[path] = hashlib.sha256(f.read()).hexdigest()
-    return found
 
 
 def queue(ask):
@@ -145,7 +119,7 @@ def whole_job():
         root, alone = f"{out}/w000{wedge}", f"alone{wedge}"
         hoodoo("run", "job.yaml", f"--wedge={wedge}", "--device", "cpu", "--out", alone, "--progress", "none")
         hoodoo("mesh", alone)
-        here, there = tree(root), tree(alone)
+        here, there = tree(root, of_a_run), tree(alone, of_a_run)
         different = sorted(p for p in here.keys() | there.keys() if here.get(p) != there.get(p))
         ok(not different and len(here) > 60, f"wedge {wedge}: the files of an undisturbed run, byte for byte", different)
         times = simulated(root)
@@ -188,4 +162,4 @@ def where_the_site_requeues():
 whole_job()
 os.rename("slurm", "slurm.first") if os.path.isdir("slurm") else None
 where_the_site_requeues()
-sys.exit(1 if failures else 0)
+finish()
