@@ -168,35 +168,37 @@ static const char BLOCKS[] = "hoodoo: 1\nname: blocks\nframes: 1001-1100\nclock:
                              "collapse: {blocks: fall, strength_MPa: 2, joints_m: 2}\n"
                              "wind: {abrasion: 0}\noutput: {aov: {samples: 1}}\n";
 
-/* Particles in the smallest heap of rubble that voxels' faces, edges and corners connect. */
+/* Whether two particles are in one voxel, or in two that share a face, an edge or a corner. */
+static bool touch(const struct frame *f, double h, size_t i, size_t j)
+{
+    bool near = true;
+    for (size_t a = 0; a < 3 && near; a++)
+        near = fabs(floor((double)f->rock.P[4 * i + a] / h) - floor((double)f->rock.P[4 * j + a] / h)) <= 1;
+    return near;
+}
+
+/* Particles in the smallest heap of rubble that touches nowhere else. */
 static size_t smallest_fragment(const struct frame *f, double h)
 {
-    size_t n = f->rock.n, least = n;
-    uint32_t *of = calloc(n, sizeof *of);
-    for (uint32_t i = 0; i < n; i++)
-        of[i] = i;
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (size_t i = 0; i < n; i++)
-            for (size_t j = 0; j < n && f->rock.phase[i] == 2; j++) {
-                bool near = f->rock.phase[j] == 2;
-                for (size_t a = 0; a < 3 && near; a++)
-                    near = fabs(floor((double)f->rock.P[4 * i + a] / h) -
-                                floor((double)f->rock.P[4 * j + a] / h)) <= 1;
-                if (near && of[j] < of[i]) {
-                    of[i] = of[j];
-                    changed = true;
-                }
-            }
-    }
-    for (size_t i = 0; i < n; i++) {
+    size_t n = 0, least = f->rock.n;
+    size_t *rubble = calloc(f->rock.n, sizeof *rubble), *heap = calloc(f->rock.n, sizeof *heap);
+    for (size_t i = 0; i < f->rock.n; i++)
+        if (f->rock.phase[i] == 2)
+            rubble[n++] = i;
+    while (n > 0) { /* a heap grows from the last that is left, until none that is left touches it */
         size_t size = 0;
-        for (size_t j = 0; j < n; j++)
-            size += of[j] == of[i];
-        if (f->rock.phase[i] == 2 && size < least)
-            least = size;
+        heap[size++] = rubble[--n];
+        for (size_t k = 0; k < size; k++)
+            for (size_t j = 0; j < n;)
+                if (touch(f, h, heap[k], rubble[j])) {
+                    heap[size++] = rubble[j];
+                    rubble[j] = rubble[--n];
+                } else
+                    j++;
+        least = size < least ? size : least;
     }
-    free(of);
+    free(rubble);
+    free(heap);
     return least;
 }
 
@@ -241,7 +243,7 @@ static void blocks_become_rubble(void **state)
     }
     frame_free(&frame);
     /* It lies, and weathers as rock does. */
-    for (int f = 0; f < 4; f++) {
+    for (int f = 0; f < 2; f++) {
         size_t moved = 0, weathered = 0;
         assert_ok(model_step(s.model));
         frame = sim_output(&s);

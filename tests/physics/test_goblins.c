@@ -95,7 +95,7 @@ static void a_rock_takes_its_bubbles_shape(void **state)
     };
     int right = 1;
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
-        struct sim s = cube_of(expected[i].bubble, "threshold: 0.9", 0.1, 2);
+        struct sim s = cube_of(expected[i].bubble, "threshold: 0.9", 0.125, 2);
         struct frame frame = weather_to(&s, 0.2);
         struct surface surface = surface_of(&frame);
         double wide = surface_reach(&surface, surface.center, (const double[]){1, 0, 0}) +
@@ -109,7 +109,7 @@ static void a_rock_takes_its_bubbles_shape(void **state)
         sim_end(&s);
     }
     /* Rain from above: the top goes first. */
-    struct sim s = cube_of("radius_m: 0.8, offset: [0, 0, 0.5]", "", 0.1, 0.1);
+    struct sim s = cube_of("radius_m: 0.8, offset: [0, 0, 0.5]", "", 0.125, 0.1);
     struct frame frame = weather_to(&s, 0.5);
     struct surface surface = surface_of(&frame);
     double lost_above = 5 - (surface.center[2] + height(&surface, 0, 0, 1));
@@ -259,28 +259,28 @@ static float *shares(struct sim *s, size_t n)
 static void finer_voxels_make_the_same_goblin(void **state)
 {
     (void)state;
-    struct sim coarse = cap_of(0.1, "noise: {amplitude: 0.2, scale_m: 1.5}\n");
-    struct sim fine = cap_of(0.05, "noise: {amplitude: 0.2, scale_m: 1.5}\n");
-    const int n[3] = {50, 50, 60};
+    struct sim coarse = cap_of(0.125, "noise: {amplitude: 0.2, scale_m: 1.5}\n");
+    struct sim fine = cap_of(0.0625, "noise: {amplitude: 0.2, scale_m: 1.5}\n");
+    const int n[3] = {40, 40, 48};
     size_t both = 0, any = 0, rock = 0;
     double volume[2] = {0};
     for (int f = 0; f < 22; f++) {
         assert_ok(model_step(coarse.model));
         assert_ok(model_step(fine.model));
     }
-    float *a = shares(&coarse, 150000), *b = shares(&fine, 1200000);
+    float *a = shares(&coarse, 40 * 40 * 48), *b = shares(&fine, 80 * 80 * 96);
     for (int z = 0; z < 2 * n[2]; z++)
         for (int y = 0; y < 2 * n[1]; y++)
             for (int x = 0; x < 2 * n[0]; x++) {
-                float in_coarse = a[((size_t)(z / 2) * 50 + (size_t)(y / 2)) * 50 + (size_t)(x / 2)];
-                float in_fine = b[((size_t)z * 100 + (size_t)y) * 100 + (size_t)x];
+                float in_coarse = a[((size_t)(z / 2) * 40 + (size_t)(y / 2)) * 40 + (size_t)(x / 2)];
+                float in_fine = b[((size_t)z * 80 + (size_t)y) * 80 + (size_t)x];
                 both += in_coarse >= 0.5f && in_fine >= 0.5f;
                 any += in_coarse >= 0.5f || in_fine >= 0.5f;
                 volume[0] += (double)in_coarse;
                 volume[1] += (double)in_fine;
             }
-    rock = (size_t)(M_PI * 38 * 38 * 110);
-    print_message("# voxels of 0.1 and 0.05 m: %.3f and %.3f of the rock left, IoU %.3f\n",
+    rock = (size_t)(M_PI * 30.4 * 30.4 * 88);
+    print_message("# voxels of 0.125 and 0.0625 m: %.3f and %.3f of the rock left, IoU %.3f\n",
                   volume[0] / (double)rock, volume[1] / (double)rock, (double)both / (double)any);
     free(a);
     free(b);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/atomic_file.h"
+#include "effort.h"
 
 typedef status damage_check(const char *path);
 
@@ -35,11 +36,13 @@ static inline char *damage_read(const char *path, size_t *n)
     return bytes;
 }
 
-/* The file cut to `cuts` lengths, from nothing to all but its last byte. */
+/* The file cut to `cuts` lengths, from nothing to all but its last byte. Of these, as of what follows, there are as many
+ * as is worth the effort (effort.h). */
 static inline void damage_truncate(const char *path, damage_check *check, size_t cuts)
 {
     size_t n;
     char *bytes = damage_read(path, &n);
+    cuts = effort_of(cuts);
     for (size_t k = 0; k <= cuts; k++) {
         const size_t length = k == cuts ? n - 1 : (n - 1) / cuts * k;
         damage_put("truncated", bytes, length);
@@ -57,6 +60,7 @@ static inline void damage_flip(const char *path, damage_check *check, size_t tri
     size_t n;
     uint32_t state = 1;
     char *bytes = damage_read(path, &n);
+    tries = effort_of(tries);
     for (size_t k = 0; k < tries; k++) {
         const size_t at = k < tries / 2 ? k % n : (size_t)damage_random(&state) % n;
         const char bit = (char)(1 << damage_random(&state) % 8);
@@ -80,6 +84,7 @@ static inline void damage_fuzz(const char *path, damage_check *check, size_t tri
     uint32_t state = 7;
     char *bytes = damage_read(path, &n), *copy = malloc(n);
     assert_non_null(copy);
+    tries = effort_of(tries);
     for (char *c = bytes; (c = memmem(c, n - (size_t)(c - bytes), "hoodoo", 6)); c += 6)
         memcpy(c, "xxdoxx", 6);
     for (size_t k = 0; k < tries; k++) {

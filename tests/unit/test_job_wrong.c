@@ -5,6 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "effort.h"
 #include "job_files.h"
 
 struct wrong {
@@ -359,6 +360,8 @@ static const struct {
 static void each_heavy(void)
 {
     for (size_t i = 0; i < sizeof heavy / sizeof *heavy; i++) {
+        if (!effort_takes(i))
+            continue;
         struct job *job = NULL;
         clock_t start = clock(); /* of this process alone: others may keep the machine busy */
         status st = load_repeated(heavy[i].head, heavy[i].unit, heavy[i].tail, (4 << 20) - 99, &job);
@@ -460,12 +463,10 @@ static size_t mutate(char *text, size_t n, uint32_t *seed)
     return n;
 }
 
-/* HOODOO_FUZZ sets the number of tries. */
 static void each_mutation(void)
 {
-    const char *tries = getenv("HOODOO_FUZZ");
     uint32_t seed = 20250101;
-    for (long i = tries ? atol(tries) : 3000; i > 0; i--) {
+    for (size_t i = effort_of(2000); i > 0; i--) {
         char text[sizeof good_job + 16];
         memcpy(text, good_job, sizeof good_job - 1);
         size_t n = mutate(text, sizeof good_job - 1, &seed);

@@ -11,6 +11,7 @@
 
 #include "base/memory.h"
 #include "base/memory_limits.h"
+#include "effort.h"
 
 enum { MIB = 1 << 20 };
 
@@ -259,6 +260,10 @@ static void of_this_process(void **state)
 {
     (void)state;
     int code;
+    if (SANITIZED) {
+        print_message("# skipped: no limit below the address space that the sanitizer has reserved\n");
+        skip();
+    }
     pid_t pid = fork();
     assert_true(memory_available() > MIB);
     if (pid == 0) {

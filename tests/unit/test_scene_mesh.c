@@ -1,5 +1,6 @@
 /* Mesh files: every encoding of one mesh gives the same rock, as the shape it stands for; broken and hostile
  * files are refused with their place, and never crash. */
+#include "effort.h"
 #include "scene/meshfile.h"
 #include "scene_help.h"
 
@@ -338,7 +339,7 @@ static void damaged_meshes_never_crash(void **state)
         size_t n = fread(whole, 1, sizeof whole, f);
         fclose(f);
         uint32_t x = 17 + (uint32_t)kind;
-        for (size_t i = 0; i < n + 2000; i++) {
+        for (size_t i = 0; i < n + effort_of(2000); i++) {
             size_t size = i < n ? i : n;
             memcpy(bytes, whole, n);
             for (uint32_t k = i < n ? 0 : next_random(&x) % 6 + 1; k > 0; k--) {

@@ -8,6 +8,7 @@
 
 #include "base/atomic_file.h"
 #include "base/random.h"
+#include "effort.h"
 #include "render/png.h"
 #include "render/slate.h"
 
@@ -185,7 +186,7 @@ static void hostile_chunks_do_no_harm(void **state)
 {
     (void)state;
     char tag[PNG_TAG];
-    for (uint32_t round = 0; round < 3000; round++) {
+    for (uint32_t round = 0; round < effort_of(600); round++) {
         unsigned char bytes[sizeof small];
         void *made;
         size_t n;

@@ -551,10 +551,10 @@ static void damage_is_noticed(void **state)
     assert_int_equal(vdb_check("points.vdb"), OK);
     assert_int_equal(vdb_check("missing.vdb"), E_INPUT);
     assert_int_equal(vdb_check("."), E_INPUT);
-    damage_truncate("volumes.vdb", vdb_check, 60);
-    damage_truncate("points.vdb", vdb_check, 60);
-    damage_flip("volumes.vdb", vdb_check, 120);
-    damage_flip("points.vdb", vdb_check, 120);
+    damage_truncate("volumes.vdb", vdb_check, 20);
+    damage_truncate("points.vdb", vdb_check, 20);
+    damage_flip("volumes.vdb", vdb_check, 40);
+    damage_flip("points.vdb", vdb_check, 40);
 }
 
 static void hostile_bytes_do_not_take_us_down(void **state)
@@ -563,8 +563,8 @@ static void hostile_bytes_do_not_take_us_down(void **state)
     const struct vdb_options options = options_of(OUTPUT_UP_Y);
     write_volumes("volumes.vdb", 0.5, &options);
     write_points("points.vdb", 1, &options);
-    damage_fuzz("volumes.vdb", describe_check, 300);
-    damage_fuzz("points.vdb", describe_check, 300);
+    damage_fuzz("volumes.vdb", describe_check, 60);
+    damage_fuzz("points.vdb", describe_check, 60);
 }
 
 /* The library's own readers have to notice a missing end, in files without hoodoo's hash. */
@@ -580,7 +580,7 @@ static void a_strangers_truncated_file_is_noticed(void **state)
     damage_put("stranger.vdb", bytes, n);
     free(bytes);
     assert_int_equal(vdb_check("stranger.vdb"), OK);
-    damage_truncate("stranger.vdb", vdb_check, 60);
+    damage_truncate("stranger.vdb", vdb_check, 20);
 }
 
 static void mesh_of_something_else_is_refused(void **state)
