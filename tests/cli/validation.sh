@@ -40,6 +40,7 @@ for settings in "" VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT; 
     # A program that does wrong, to know a complaint when there is one.
     validated "$(dirname "$HOODOO")/tests/gpu/test_validation" wrongly
     check "$kind validation: it complains where there is reason to" grep -qE "$complaints" log
+    check "$kind validation: what is not given back is a reason" grep -q VUID-vkDestroyDevice-device log
 done
 check "synchronisation validation: a missing barrier is a reason" grep -q SYNC-HAZARD-WRITE-AFTER-WRITE log
 check "the layer changes no bytes" diff -r -x log core synchronisation

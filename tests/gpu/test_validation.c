@@ -1,5 +1,5 @@
-/* The validation layer sees wrong use and a missing barrier here, so that its silence in
- * tests/cli/validation.sh means something. With an argument: does both without listening, for that script to
+/* The validation layer sees wrong use, a missing barrier and what is not given back here, so that its silence in
+ * tests/cli/validation.sh means something. With an argument: does all three without listening, for that script to
  * find on this program's output. */
 #include "check.h"
 
@@ -143,6 +143,16 @@ static void use_wrongly(struct seen *seen)
     (void)vkCreateBuffer(device, &nothing, NULL, &buffer);
 }
 
+/* Gives the device back before the buffer that was made on it. */
+static void leave_a_buffer(struct seen *seen)
+{
+    VkPhysicalDevice physical;
+    VkInstance instance = make_instance(seen);
+    VkDevice device = make_device(instance, &physical);
+    (void)make_buffer(physical, device);
+    vkDestroyDevice(device, NULL);
+}
+
 static void a_missing_barrier_is_seen(void **state)
 {
     struct seen seen = {0};
@@ -161,10 +171,20 @@ static void wrong_use_is_seen(void **state)
     assert_true(seen.errors > 0);
 }
 
+static void what_is_left_is_seen(void **state)
+{
+    struct seen seen = {0};
+    (void)state;
+    unsetenv("VK_LAYER_ENABLES");
+    leave_a_buffer(&seen);
+    assert_true(seen.errors > 0);
+}
+
 static void without_listening(void **state)
 {
     (void)state;
     use_wrongly(NULL);
+    leave_a_buffer(NULL);
     miss_a_barrier(NULL);
 }
 
@@ -174,6 +194,7 @@ int main(int argc, char **argv)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_use_is_seen),
         cmocka_unit_test(a_missing_barrier_is_seen),
+        cmocka_unit_test(what_is_left_is_seen),
     };
     const struct CMUnitTest for_the_script[] = {cmocka_unit_test(without_listening)};
     if (argc > 1)
