@@ -538,6 +538,7 @@ static void discharge_and_shear_are_those_of_the_equations(void **state)
     assert_true(worst < 1e-4 && worst_shear < 1e-4 && wet > 1000 && cut > 100 && held > 5 && cut > 2 * held);
     rock_free(&rock);
     gpu_buffer_destroy(gpu, &intensity);
+    gpu_buffer_destroy(gpu, &parts);
     free(surface);
     free(erodibility);
     free(before);
