@@ -80,6 +80,26 @@ struct stress_params {
 };
 SHARED_SIZE(stress_params, 32)
 
+/* Of the multigrid smoother: the stress parameters of a level, and the weights of its step. */
+struct smooth_params {
+    uint n;
+    uint cx, cy, cz;
+    float lambda, mu;
+    float dx;
+    float keep, gain;
+    uint second; /* 1: the correction before this one was zero */
+};
+SHARED_SIZE(smooth_params, 40)
+
+/* Between a level and the coarser one above it, whose cells are p. Cell c there has the children 2 c - 1 and 2 c
+ * on each axis, and node a lies on node 2 a - 1: the ground is node 1 on all levels. */
+struct coarse_params {
+    uint n;
+    uint cx, cy, cz;
+    uint px, py, pz;
+};
+SHARED_SIZE(coarse_params, 28)
+
 /* Words of the solver's scalar buffer; the energy that each iteration took out of the error begins at
  * CG_ENERGY. */
 #define CG_RZ 0u

@@ -56,9 +56,3 @@ vec4 apply_stiffness(ivec3 a)
     CELL(0, 0, 0) CELL(1, 0, 0) CELL(0, 1, 0) CELL(1, 1, 0) CELL(0, 0, 1) CELL(1, 0, 1) CELL(0, 1, 1) CELL(1, 1, 1)
     return vec4(sum, scales);
 }
-
-// The diagonal of K at a node is the same on all axes: this times the sum of its cells' stiffness shares.
-float diagonal_unit()
-{
-    return (k.lambda + 4.0 * k.mu) * k.dx / 9.0;
-}

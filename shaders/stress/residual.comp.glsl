@@ -13,6 +13,7 @@ WRITE_F(4, product)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
 #include "stress/apply.glsl"
+#include "stress/diagonal.glsl"
 
 void main()
 {

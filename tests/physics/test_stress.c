@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "stress/elastic.h"
+#include "tests/physics/stress_help.h"
+#include "tests/ref/multigrid_ref.h"
 
 struct box {
     double min[3], max[3];
@@ -52,8 +54,8 @@ struct solved {
     float *normal; /* [cells][4] */
 };
 
-static struct solved solve(const struct box *box, size_t n_boxes, const int cells[3], double dx,
-                           double tolerance)
+static struct solved solve_by(const struct box *box, size_t n_boxes, const int cells[3], double dx,
+                              double tolerance, int max_iterations, bool multigrid)
 {
     struct solved s = {0};
     int voxels[3] = {2 * cells[0], 2 * cells[1], 2 * cells[2]};
@@ -62,7 +64,8 @@ static struct solved solve(const struct box *box, size_t n_boxes, const int cell
                                       .density = 2300,
                                       .gravity = 9.81,
                                       .tolerance = tolerance,
-                                      .max_iterations = 20000};
+                                      .max_iterations = max_iterations,
+                                      .multigrid = multigrid};
     struct rock rock = rock_of(box, n_boxes, voxels, dx / 2);
     assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
     assert_ok(gpu_work_create(s.gpu, (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2] + 2, &s.work));
@@ -77,6 +80,12 @@ static struct solved solve(const struct box *box, size_t n_boxes, const int cell
                   s.e.error);
     rock_free(&rock);
     return s;
+}
+
+static struct solved solve(const struct box *box, size_t n_boxes, const int cells[3], double dx,
+                           double tolerance)
+{
+    return solve_by(box, n_boxes, cells, dx, tolerance, 20000, true);
 }
 
 static void end(struct solved *s)
@@ -111,12 +120,6 @@ static void column_carries_its_own_weight(void **state)
     print_message("# column: szz is within %.3f %%\n", 100 * worst);
     assert_true(worst < 0.01);
     end(&s);
-}
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 static int rock_at(const struct solved *s, int i, int j, int k)
@@ -176,8 +179,8 @@ static void agrees_with_reference(const char *name, const struct box *box, size_
     }
     pclose(f);
     assert_true(n > 1000);
-    qsort(error, n, sizeof *error, ascending);
-    qsort(t_all, n_all, sizeof *t_all, ascending);
+    qsort(error, n, sizeof *error, stress_ascending);
+    qsort(t_all, n_all, sizeof *t_all, stress_ascending);
     double p95 = t_all[n_all * 95 / 100];
     double median_error = error[n / 2] / p95, p95_error = error[n * 95 / 100] / p95;
     print_message(
@@ -228,13 +231,103 @@ static void mushroom_agrees_with_reference(void **state)
     agrees_with_reference("mushroom", box, 2, (int[]){36, 36, 36});
 }
 
+/* ---- multigrid */
+
+/* A slab on thin legs, on levels whose sizes are odd. */
+static const struct box table[] = {
+    {{1, 1, 0}, {3, 3, 12}}, {{9, 7, 0}, {12, 9, 12}}, {{1, 1, 11}, {13, 10, 15}}};
+
+static void cycle_agrees_with_plain_c(void **state)
+{
+    enum { STEPS = 6 };
+    struct solved s = solve_by(table, 3, (int[]){13, 10, 15}, 1, 1e-7, STEPS, true);
+    const struct elastic_grid g = {{s.e.cells[0], s.e.cells[1], s.e.cells[2]}, 12e9, 15e9, 1};
+    const size_t cells = elastic_cells(&s.e), nodes = elastic_nodes(&s.e);
+    float *fill = malloc(cells * sizeof *fill), *u = malloc(nodes * 16), *expected = malloc(nodes * 16),
+          scalars[CG_ENERGY + CG_CHECK];
+    double taken[STEPS], worst = 0, error = 0, most = 0;
+    (void)state;
+    assert_ok(gpu_download(s.gpu, s.e.fill, 0, fill, cells));
+    assert_ok(gpu_download(s.gpu, s.e.u, 0, u, nodes));
+    assert_ok(gpu_download(s.gpu, s.e.scalars, 0, scalars, CG_ENERGY + CG_CHECK));
+    struct multigrid_ref *ref = multigrid_ref_create(&g, fill);
+    assert_non_null(ref);
+    multigrid_ref_solve(ref, 2300 * 9.81, STEPS, taken, expected);
+    for (int i = 0; i < STEPS; i++)
+        worst = fmax(worst, fabs((double)scalars[CG_ENERGY + (uint)i] / taken[i] - 1));
+    for (size_t i = 0; i < 4 * nodes; i++) {
+        if (i % 4 == 3)
+            continue;
+        error = fmax(error, fabs((double)u[i] - (double)expected[i]));
+        most = fmax(most, fabs((double)expected[i]));
+    }
+    print_message(
+        "# after %d cycles, energies differ from plain C's by %.2g, displacements by %.2g of the largest\n",
+        STEPS, worst, error / most);
+    assert_true(worst < 0.01);
+    assert_true(error < 1e-4 * most);
+    multigrid_ref_destroy(ref);
+    free(fill);
+    free(u);
+    free(expected);
+    end(&s);
+}
+
+/* The mushroom, of ever more cells. */
+static void iterations_do_not_grow(void **state)
+{
+    int least = 1000, most = 0;
+    (void)state;
+    for (int n = 1; n <= 4; n *= 2) {
+        struct box box[] = {{{13, 13, 0}, {23, 23, 24}}, {{0, 0, 24}, {36, 36, 36}}};
+        struct solved s = solve_by(box, 2, (int[]){9 * n, 9 * n, 9 * n}, 4.0 / n, 1e-3, 100, true);
+        assert_true(s.e.error <= 1e-3);
+        least = s.e.iterations < least ? s.e.iterations : least;
+        most = s.e.iterations > most ? s.e.iterations : most;
+        end(&s);
+    }
+    assert_true(most <= 15);
+}
+
+/* What it finds does not depend on the preconditioner. */
+static void jacobi_agrees(void **state)
+{
+    struct solved a = solve_by(table, 3, (int[]){13, 10, 15}, 1, 1e-5, 100, true),
+                  b = solve_by(table, 3, (int[]){13, 10, 15}, 1, 1e-5, 20000, false);
+    double error = 0, most = 0;
+    (void)state;
+    for (size_t c = 0; c < elastic_cells(&a.e); c++) {
+        error = fmax(error, fabs((double)a.normal[4 * c + 3] - (double)b.normal[4 * c + 3]));
+        most = fmax(most, fabs((double)b.normal[4 * c + 3]));
+    }
+    print_message("# T of %d cycles differs from that of %d steps of Jacobi's by %.2g of the largest\n",
+                  a.e.iterations, b.e.iterations, error / most);
+    assert_true(error < 2e-4 * most);
+    assert_true(a.e.iterations * 8 < b.e.iterations);
+    end(&a);
+    end(&b);
+}
+
+/* The demo's frames, as a run solves them and from nothing: the error is within the tolerance. */
+static void stop_tells_the_truth(void **state)
+{
+    struct stress_errors errors = {0};
+    char path[512];
+    const char *top = getenv("HOODOO_TOP"), *const sets[] = {"domain.spacing_m=1",
+                                                             "wind.flow.solver=uniform"};
+    (void)state;
+    snprintf(path, sizeof path, "%s/jobs/demo.yaml", top ? top : ".");
+    stress_errors_of(path, sets, 2, 7, 3, &errors);
+    assert_int_equal(errors.beyond, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(column_carries_its_own_weight),
-        cmocka_unit_test(column_agrees_with_reference),
-        cmocka_unit_test(ledge_agrees_with_reference),
-        cmocka_unit_test(mushroom_agrees_with_reference),
+        cmocka_unit_test(column_carries_its_own_weight), cmocka_unit_test(column_agrees_with_reference),
+        cmocka_unit_test(ledge_agrees_with_reference),   cmocka_unit_test(mushroom_agrees_with_reference),
+        cmocka_unit_test(cycle_agrees_with_plain_c),     cmocka_unit_test(jacobi_agrees),
+        cmocka_unit_test(iterations_do_not_grow),        cmocka_unit_test(stop_tells_the_truth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

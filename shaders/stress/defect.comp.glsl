@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What a correction leaves of the residual: r - K u, node by node.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_V(1, u)
+READ_F(2, fill)
+READ_V(3, r)
+WRITE_V(4, defect)
+PARAMS(stress_params)
+#include "stress/grid.glsl"
+#include "stress/apply.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint node = LOAD_U(list, i);
+    AT(defect, node) = vec4(LOAD_V(r, i).xyz - apply_stiffness(node_of(node)).xyz, 0.0);
+}

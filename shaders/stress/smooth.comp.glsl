@@ -1,0 +1,29 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// A step of the smoother from the correction u: z = u + keep (u - the one before) + gain (r - K u) / diagonal.
+// z overwrites the one before; where that was nothing, keep counts from zero.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_V(1, u)
+READ_F(2, fill)
+READ_V(3, r)
+READ_V(4, before)
+WRITE_V(5, z)
+PARAMS(smooth_params)
+#include "stress/grid.glsl"
+#include "stress/apply.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint node = LOAD_U(list, i);
+    vec4 residual = LOAD_V(r, i);
+    vec3 now = LOAD_V(u, node).xyz;
+    vec3 moved = now - (k.second != 0u ? vec3(0.0) : LOAD_V(before, node).xyz);
+    vec3 left = residual.xyz - apply_stiffness(node_of(node)).xyz;
+    AT(z, node) = vec4(now + (k.keep != 0.0 ? k.keep * moved : vec3(0.0)) + k.gain * residual.w * left, 0.0);
+}
