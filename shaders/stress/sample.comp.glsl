@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Stress at the particles: trilinear between the centres of cells that hold rock, weighted by how much they
-// hold.
+// Stress at the particles: trilinear between the centres of cells that hold rock, weighted by how much they hold, each
+// carried on to the particle along its slope. Between cells the slopes cancel; at faces, which lie up to a cell beyond
+// the last centre, they are what tells the face's stress from the inside's.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -9,8 +10,10 @@ READ_V(0, position)
 READ_F(1, fill)
 READ_V(2, normal_stress)
 READ_V(3, shear_stress)
-WRITE_F(4, stress)
-WRITE_F(5, von_mises)
+READ_V(4, t_slope)
+READ_V(5, mises_slope)
+WRITE_F(6, stress)
+WRITE_F(7, von_mises)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
 
@@ -28,10 +31,13 @@ void main()
         uint c = cell_index(low + corner);
         vec3 near = mix(1.0 - f, f, vec3(corner));
         float weight = near.x * near.y * near.z * LOAD_F(fill, c);
+        if (weight == 0.0)
+            continue;
+        vec3 beyond = at - vec3(low + corner);
         weights += weight;
-        t += weight * LOAD_V(normal_stress, c).w;
-        mises += weight * LOAD_V(shear_stress, c).w;
+        t += weight * (LOAD_V(normal_stress, c).w + dot(LOAD_V(t_slope, c).xyz, beyond));
+        mises += weight * (LOAD_V(shear_stress, c).w + dot(LOAD_V(mises_slope, c).xyz, beyond));
     }
     AT(stress, i) = weights > 0.0 ? t / weights : 0.0;
-    AT(von_mises, i) = weights > 0.0 ? mises / weights : 0.0;
+    AT(von_mises, i) = weights > 0.0 ? max(mises / weights, 0.0) : 0.0;
 }

@@ -223,7 +223,8 @@ void elastic_recover(struct gpu *gpu, struct elastic *e, struct particles *p)
 {
     struct stress_params k = params(e, elastic_cells(e));
     GPU_RUN(gpu, stress_recover, k.n, k, e->u, e->fill, e->normal_stress, e->shear_stress);
+    GPU_RUN(gpu, stress_slope, k.n, k, e->fill, e->normal_stress, e->shear_stress, e->q, e->r);
     k.n = (uint)p->n;
-    GPU_RUN(gpu, stress_sample, k.n, k, p->field[ROCK_P], e->fill, e->normal_stress, e->shear_stress,
-            p->field[ROCK_stress], p->field[ROCK_von_mises]);
+    GPU_RUN(gpu, stress_sample, k.n, k, p->field[ROCK_P], e->fill, e->normal_stress, e->shear_stress, e->q,
+            e->r, p->field[ROCK_stress], p->field[ROCK_von_mises]);
 }
