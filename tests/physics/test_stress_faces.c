@@ -1,5 +1,6 @@
-/* T where erosion feels it: at faces that do not follow the grid, against what is known. Particles within a spacing of
- * a face and three of them from any edge and the base are compared. */
+/* T where erosion feels it: at faces that do not follow the grid, against what is known. Particles within a spacing
+ * of a face and three of them from any edge and the base are compared; those whose middle lies outside of the rock
+ * with the face's T. */
 #include "model_help.h"
 
 #include <math.h>
@@ -82,7 +83,7 @@ static double wedge_t(const void *with, const double x[3], double *depth, double
     *depth = slant; /* the upright face follows the grid */
     *edge = fmin(fmin(x[1] - 4, 16 - x[1]),
                  fmin(across, x[2] - 16)); /* what holds the foot reaches up its width */
-    return 2300 * 9.81 * (down - across / SLOPE);
+    return 2300 * 9.81 * fmax(down - across / SLOPE, 0);
 }
 
 static void wedge_carries_its_columns(void **state)
@@ -94,6 +95,38 @@ static void wedge_carries_its_columns(void **state)
                            "    - plane: {point_m: [4, 0, 44], normal: [1, 0, 0.4]}",
                            "[32, 20, 48]", fine ? 0.5 : 1);
         compare("wedge", &c, wedge_t, NULL, fine ? 0.03 : 0.05, fine ? 0.08 : 0.15);
+        cut_end(&c);
+    }
+}
+
+/* ---- a round hole in a thin, heavy plate ten times as wide: Kirsch's field, and what the weight's growth with depth
+ * and the weight that the hole lacks add to it */
+
+enum { HOLE_X = 52, HOLE_Z = 100, HOLE_RADIUS = 5, PLATE_TOP = 160 };
+
+static double hole_t(const void *with, const double x[3], double *depth, double *edge)
+{
+    const double dx = x[0] - HOLE_X, dz = x[2] - HOLE_Z, r = fmax(hypot(dx, dz), HOLE_RADIUS),
+                 turn = atan2(dz, dx), in = HOLE_RADIUS / r;
+    const double kappa = (3 - 2.0 / 9) / (1 + 2.0 / 9), lacks = 1 - (kappa - 1) / (kappa + 1);
+    (void)with;
+    *depth = r - HOLE_RADIUS;
+    *edge =
+        r < 2 * HOLE_RADIUS ? INFINITY : 0; /* the plate is two cells thick: all of it is near its edges */
+    return 2300 * 9.81 *
+           ((PLATE_TOP - HOLE_Z) * (1 + 2 * in * in * cos(2 * turn)) - r * sin(turn) -
+            HOLE_RADIUS * (in * in * in * sin(3 * turn) - lacks * in * sin(turn)));
+}
+
+static void hole_is_kirschs(void **state)
+{
+    (void)state;
+    for (int fine = 0; fine < 2; fine++) {
+        struct cut c = cut("  difference:\n"
+                           "    - box: {min_m: [2, 2, -1], max_m: [102, 6, 160]}\n"
+                           "    - cylinder: {from_m: [52, -1, 100], to_m: [52, 9, 100], radius_m: 5}",
+                           "[104, 8, 164]", fine ? 0.5 : 1);
+        compare("hole", &c, hole_t, NULL, fine ? 0.03 : 0.05, fine ? 0.08 : 0.15);
         cut_end(&c);
     }
 }
@@ -171,6 +204,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wedge_carries_its_columns),
+        cmocka_unit_test(hole_is_kirschs),
         cmocka_unit_test(turned_block_stands_as_unturned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
