@@ -164,7 +164,7 @@ static int fewest(struct bench *b, bool multigrid, int step, double *seconds)
         low = high;
         high *= 2;
     }
-    while (high - low > (high > 8 * step ? high / 16 : step)) {
+    while (high - low > step && high - low > high / 16) {
         int middle = (low + high) / 2 / step * step;
         double took = solve(b, multigrid, middle, 1e-12, b->stress);
         if (p95(b, b->stress, b->tight) > GOAL * b->p95)
