@@ -156,22 +156,43 @@ done:
     return st;
 }
 
-static status show(struct arches *t, struct terrain_view *v, struct particles *p, struct frame *out)
+/* What is sampled of the terrain, for what the frame has of it. */
+static status show(struct arches *t, struct frame_wants wants, struct frame *out)
 {
     status st = OK;
-    const struct job *job = t->m.job;
-    gpu_stage(t->m.gpu, "field");
-    TRY(field_build_share(t->m.gpu, &t->m.field, p, v->share));
-    TRY(particles_download(t->m.gpu, p, DERIVED, &out->rock));
-    TRY(field_download(t->m.gpu, &t->m.field, p, HAS_ALWAYS, &out->grids));
-    TRY(add_ratios(v, &out->grids));
-    gpu_stage(t->m.gpu, "pictures");
-    TRY(aov_render_all(t->m.gpu, &t->m.aov, job, &t->m.field, p, NULL, out));
-    if (job->arches.maps) {
-        size_t capacity = job->output.aov.n_cameras;
-        TRY(memory_grow(&out->image, &capacity, out->n_images + 1, sizeof *out->image, "pictures"));
-        TRY(terrain_map(&t->stacks, t->n_materials, &out->image[out->n_images++]));
+    struct model *m = &t->m;
+    struct particles p = {0};
+    struct terrain_view v = {
+        .job = m->job, .stacks = &t->stacks, .n_materials = t->n_materials, .voxel = m->field.voxel};
+    memcpy(v.n, m->field.n, sizeof v.n);
+    memcpy(v.origin, m->field.origin, sizeof v.origin);
+    gpu_stage(m->gpu, "surface");
+    TRY(terrain_look(&v));
+    TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, m->voxels, m->h, &p));
+    gpu_stage(m->gpu, "field");
+    TRY(field_build_share(m->gpu, &m->field, &p, v.share));
+    if (wants.points)
+        TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
+    if (wants.volumes) {
+        TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
+        TRY(add_ratios(&v, &out->grids));
     }
+    if (wants.pictures) {
+        gpu_stage(m->gpu, "pictures");
+        TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &p, NULL, out));
+    }
+done:
+    particles_destroy(m->gpu, &p);
+    terrain_view_free(&v);
+    return st;
+}
+
+static status add_map(const struct arches *t, struct frame *out)
+{
+    status st = OK;
+    size_t capacity = out->n_images;
+    TRY(memory_grow(&out->image, &capacity, out->n_images + 1, sizeof *out->image, "pictures"));
+    TRY(terrain_map(&t->stacks, t->n_materials, &out->image[out->n_images++]));
 done:
     return st;
 }
@@ -192,24 +213,19 @@ static status output(struct model *m, struct frame *out)
 {
     status st = OK;
     struct arches *t = of(m);
-    struct particles p = {0};
-    struct terrain_view v = {
-        .job = m->job, .stacks = &t->stacks, .n_materials = t->n_materials, .voxel = m->field.voxel};
-    memcpy(v.n, m->field.n, sizeof v.n);
-    memcpy(v.origin, m->field.origin, sizeof v.origin);
+    const struct frame_wants wants = model_wants(m);
     out->volume_m3 = volume_of(t, m->ledger.rock + m->ledger.deposit);
     out->start_volume_m3 = volume_of(t, m->ledger.start);
-    gpu_stage(m->gpu, "surface");
-    TRY(terrain_look(&v));
-    TRY(rocks_on_stacks(m->job, &t->stacks, &t->tile, &out->rocks));
+    if (wants.volumes)
+        TRY(rocks_on_stacks(m->job, &t->stacks, &t->tile, &out->rocks));
     if (wants_stacks(m->job, m->frame))
         TRY(stacks_encode(&t->stacks, spaces_kinds(t->table, t->n_materials).solid, &out->stacks.bytes,
                           &out->stacks.size));
-    TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, m->voxels, m->h, &p));
-    TRY(show(t, &v, &p, out));
+    if (wants.points || wants.volumes || wants.pictures)
+        TRY(show(t, wants, out));
+    if (m->job->arches.maps && job_writes(m->whole, JOB_PICTURES, m->frame))
+        TRY(add_map(t, out));
 done:
-    particles_destroy(m->gpu, &p);
-    terrain_view_free(&v);
     return st;
 }
 

@@ -293,21 +293,34 @@ done:
 
 /* ---- what a frame shows */
 
+/* Volume and largest stress, of all there is: also in frames that show nothing. */
 static status measure(const struct arenite *a, struct frame *out)
 {
-    const struct rock *rock = &out->rock;
+    const struct particles *p = &a->particles;
+    status st = OK;
+    float *stress = NULL, *viability = NULL;
     double most = 0;
-    for (size_t i = 0; i < rock->n; i++) {
-        double stress = fabs((double)rock->stress[i]), viability = (double)rock->viability[i];
-        if (!isfinite(stress) || !isfinite(viability))
-            return fail(E_NUMERIC,
-                        "frame %d: particle %u has stress %g Pa and viability %g; stopped before writing it",
-                        a->m.frame, (unsigned)rock->id[i], (double)rock->stress[i], viability);
-        most = fmax(most, stress);
+    TRY(memory_alloc(p->n, sizeof *stress, "stresses", &stress));
+    TRY(memory_alloc(p->n, sizeof *viability, "viabilities", &viability));
+    TRY(gpu_download(a->m.gpu, p->field[ROCK_stress], 0, stress, p->n));
+    TRY(gpu_download(a->m.gpu, p->field[ROCK_viability], 0, viability, p->n));
+    for (size_t i = 0; i < p->n; i++) {
+        if (!isfinite(stress[i]) || !isfinite(viability[i])) {
+            uint32_t id;
+            TRY(gpu_download(a->m.gpu, p->field[ROCK_id], i, &id, 1));
+            st = fail(E_NUMERIC,
+                      "frame %d: particle %u has stress %g Pa and viability %g; stopped before writing it",
+                      a->m.frame, (unsigned)id, (double)stress[i], (double)viability[i]);
+            goto done;
+        }
+        most = fmax(most, fabs((double)stress[i]));
     }
-    out->volume_m3 = model_sum(rock->viability, rock->n) * pow(a->m.h, 3);
+    out->volume_m3 = model_sum(viability, p->n) * pow(a->m.h, 3);
     out->max_stress_Pa = most;
-    return OK;
+done:
+    free(stress);
+    free(viability);
+    return st;
 }
 
 /* The discharge over the shape as it is now. One grid and one set of choices for all frames, so that streams
@@ -332,20 +345,29 @@ static status output(struct model *m, struct frame *out)
 {
     status st = OK;
     struct arenite *a = arenite_of(m);
+    const struct frame_wants wants = model_wants(m);
     const unsigned has = arenite_has(water_ever_flows(m->job), a->plants, a->deposits);
     struct aov_air air = {0};
     out->stress_iterations = a->elastic.iterations;
-    TRY(show_water(a));
-    gpu_stage(m->gpu, "field");
-    field_build(m->gpu, &m->field, &a->particles);
-    TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
     TRY(measure(a, out));
-    TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
-    TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
-    TRY(air_add(m->gpu, &a->wind, m->job, m->frame, &out->grids));
-    gpu_stage(m->gpu, "pictures");
-    TRY(air_upload(m->gpu, &out->grids, m->job, m->frame, &air));
-    TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &a->particles, &air, out));
+    if (wants.points || wants.volumes || wants.pictures)
+        TRY(show_water(a));
+    gpu_stage(m->gpu, "field");
+    if (wants.volumes || wants.pictures)
+        field_build(m->gpu, &m->field, &a->particles);
+    if (wants.points || (wants.volumes && a->tile.n))
+        TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
+    if (wants.volumes) {
+        TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
+        TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
+    }
+    if (wants.volumes || wants.pictures)
+        TRY(air_add(m->gpu, &a->wind, m->job, m->frame, &out->grids));
+    if (wants.pictures) {
+        gpu_stage(m->gpu, "pictures");
+        TRY(air_upload(m->gpu, &out->grids, m->job, m->frame, &air));
+        TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &a->particles, &air, out));
+    }
 done:
     gpu_buffer_destroy(m->gpu, &air.velocity);
     return st;

@@ -134,20 +134,27 @@ done:
     return st;
 }
 
-static status show(struct goblins *g, struct particles *p, struct frame *out)
+static status show(struct goblins *g, struct frame_wants wants, struct particles *p, struct frame *out)
 {
     status st = OK;
     const struct job *job = g->m.job;
     gpu_stage(g->m.gpu, "surface");
     TRY(particles_surface(g->m.gpu, g->m.work, p));
-    if (job->goblins.stress)
+    if (job->goblins.stress) {
         TRY(settle(g, p));
+        out->stress_iterations = g->elastic.iterations;
+    }
     gpu_stage(g->m.gpu, "field");
-    field_build(g->m.gpu, &g->m.field, p);
-    TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
-    TRY(field_download(g->m.gpu, &g->m.field, p, HAS_ALWAYS, &out->grids));
-    gpu_stage(g->m.gpu, "pictures");
-    TRY(aov_render_all(g->m.gpu, &g->m.aov, job, &g->m.field, p, NULL, out));
+    if (wants.volumes || wants.pictures)
+        field_build(g->m.gpu, &g->m.field, p);
+    if (wants.points)
+        TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
+    if (wants.volumes)
+        TRY(field_download(g->m.gpu, &g->m.field, p, HAS_ALWAYS, &out->grids));
+    if (wants.pictures) {
+        gpu_stage(g->m.gpu, "pictures");
+        TRY(aov_render_all(g->m.gpu, &g->m.aov, job, &g->m.field, p, NULL, out));
+    }
 done:
     return st;
 }
@@ -156,6 +163,7 @@ static status output(struct model *m, struct frame *out)
 {
     status st = OK;
     struct goblins *g = of(m);
+    const struct frame_wants wants = model_wants(m);
     size_t n = voxel_count(m->voxels);
     float *share = NULL, *factor = NULL;
     struct rock rock = {0};
@@ -165,11 +173,12 @@ static status output(struct model *m, struct frame *out)
     TRY(memory_alloc(n, sizeof *factor, "voxels", &factor));
     TRY(voxels_download(m->gpu, &g->voxels, share, factor));
     out->volume_m3 = volume_of(m, share);
+    if (!wants.points && !wants.volumes && !wants.pictures)
+        goto done;
     TRY(rock_of(g, share, factor, &rock));
     TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels, m->h, &p));
     TRY(gpu_upload(m->gpu, p.field[ROCK_erodibility], 0, rock.erodibility, rock.n));
-    TRY(show(g, &p, out));
-    out->stress_iterations = g->elastic.iterations;
+    TRY(show(g, wants, &p, out));
 done:
     free(share);
     free(factor);

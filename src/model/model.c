@@ -189,6 +189,16 @@ status model_output(struct model *m, struct frame *out)
     return st;
 }
 
+struct frame_wants model_wants(const struct model *m)
+{
+    const struct job *job = m->whole;
+    return (struct frame_wants){
+        .points = job_writes(job, JOB_POINTS, m->frame),
+        .volumes = job_writes(job, JOB_VOLUMES, m->frame),
+        .pictures = job->output.aov.n_cameras > 0 && job_writes(job, JOB_PICTURES, m->frame),
+    };
+}
+
 double model_sum(const float *left, size_t n)
 {
     double sum = 0;

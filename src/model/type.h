@@ -29,6 +29,12 @@ struct model {
     struct aov aov; /* where the job has pictures */
 };
 
+/* What is written of a frame: a model makes nothing else of it for output(). */
+struct frame_wants {
+    bool points, volumes, pictures;
+};
+struct frame_wants model_wants(const struct model *m);
+
 /* What a model says of a job. model.c adds what all models have: the index of particles, scratch memory, the surface
  * field, pictures, and the frames that wait to be written. */
 struct model_needs {
@@ -66,7 +72,8 @@ struct model_type {
     /* One frame. Its number, its years and its job are set, and its budget is empty. */
     MUST_USE status (*step)(struct model *m);
 
-    /* Adds to a frame that has its number, years, ledger, start volume and changes. */
+    /* Adds to a frame that has its number, years, ledger, start volume and changes: its measures, and of the rest what
+     * model_wants() says. */
     MUST_USE status (*output)(struct model *m, struct frame *out);
 
     /* Adds its sections behind that of the domain, those of sections_add_counts() among them. */
