@@ -92,7 +92,7 @@ $(BUILD)/hoodoo-read-image: $(BUILD)/src/read_image.o $(BUILD)/libhoodoo.a
 	@echo "link $@"
 	$(Q)$(CXX) $(OPT) -o $@ $^ -lOpenImageIO -lOpenImageIO_Util -lseccomp
 
-VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,output/vdb_bytes output/vdb_close output/vdb_points output/vdb_volumes scene/mesh_sdf) \
+VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,output/vdb_bytes output/vdb_points output/vdb_volumes scene/mesh_sdf) \
 	$(patsubst %,$(BUILD)/src/%.o,base/hash base/memory base/status base/text base/version job/values particles/rock)
 $(VDB_OBJ): private PIC = -fPIC
 $(VDB_OBJ): src/vdb.map

@@ -171,26 +171,21 @@ static status stress_of_volumes(struct report *r, const char *path)
 {
     status st = OK;
     struct frame_grids grids = {0};
-    const float *stress = NULL, *density = NULL;
     float *value = NULL;
     size_t n = 0;
     TRY(vdb_volumes_read(path, &grids));
-    for (size_t g = 0; g < grids.n_grids; g++) {
-        if (strcmp(grids.grid[g].name, "stress") == 0 && grids.grid[g].own.n[0] == 0)
-            stress = grids.grid[g].value;
-        if (strcmp(grids.grid[g].name, "density") == 0 && grids.grid[g].own.n[0] == 0)
-            density = grids.grid[g].value;
-    }
-    const size_t n_voxels = (size_t)grids.n[0] * (size_t)grids.n[1] * (size_t)grids.n[2];
-    TRY(memory_alloc(n_voxels, sizeof *value, "stresses", &value));
-    for (size_t i = 0; stress && density && i < n_voxels; i++)
-        if (density[i] > 0 && isfinite(stress[i]))
-            value[n++] = stress[i];
+    const struct frame_grid *stress = frame_grid_named(&grids, "stress");
+    const struct frame_grid *density = frame_grid_named(&grids, "density");
+    const size_t samples = grids.bricks.count * BRICK_SAMPLES;
+    TRY(memory_alloc(samples, sizeof *value, "stresses", &value));
+    for (size_t i = 0; stress && density && i < samples; i++)
+        if (density->value[i] > 0 && isfinite(stress->value[i]))
+            value[n++] = stress->value[i];
     r->stress.what = "voxels";
     fill_bins(&r->stress, value, n);
 done:
     free(value);
-    vdb_volumes_free(&grids);
+    frame_grids_free(&grids);
     return st;
 }
 

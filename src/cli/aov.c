@@ -48,7 +48,7 @@ struct loaded {
 
 static void unload(struct shot *s, struct loaded *l)
 {
-    vdb_volumes_free(&l->grids);
+    frame_grids_free(&l->grids);
     rock_free(&l->rock);
     particles_destroy(s->gpu, &l->particles);
     gpu_buffer_destroy(s->gpu, &l->air.velocity);

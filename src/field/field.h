@@ -23,7 +23,7 @@ struct field {
     struct gpu_buffer *distance, *other; /* float [samples]: m, negative inside, at most 3 voxels */
 };
 
-enum { FIELD_MARGIN = 4, FIELD_BAND = 3 };
+enum { FIELD_MARGIN = 4, FIELD_BAND = GRID_BAND };
 
 uint64_t field_bytes(const int voxels[3]);
 MUST_USE status field_create(struct gpu *gpu, const int voxels[3], double h, struct field *out);
@@ -40,13 +40,15 @@ MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct parti
  * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
 MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);
 
+/* The mean of a value of the particles over those at the surface goes to `other`. Records only. */
+void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which);
+
 /* Which of the means' four components a value is; -1 if it is none. */
 int field_mean(enum value_id value);
 
-/* The grids of the volumes that come of the particles, of a frame that `has` (HAS_*) what they need (values.def). Freed with
- * field_grids_free(). Waits. */
-MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p, unsigned has,
-                               struct frame_grids *out);
-void field_grids_free(struct frame_grids *grids);
+/* The grids of the volumes that come of the particles, of a frame that `has` (HAS_*) what they need (values.def): the bricks
+ * with rock or surface in them, brought over a few at a time. frame_grids_free(). Waits. */
+MUST_USE status field_download(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p,
+                               unsigned has, struct frame_grids *out);
 
 #endif

@@ -11,17 +11,17 @@ uint64_t host_rock_bytes(size_t n)
     return bytes;
 }
 
-static uint64_t samples(const int voxels[3])
-{
-    uint64_t n = 1;
-    for (int a = 0; a < 3; a++)
-        n *= (uint64_t)voxels[a] + 2 * FIELD_MARGIN;
-    return n;
-}
+/* How thick a layer of air bricks take with them: the band around the surface, and half a brick. */
+enum { AIR = GRID_BAND + BRICK_SIDE / 2 };
 
-uint64_t host_grid_bytes(const int voxels[3])
+uint64_t host_grid_samples(const int voxels[3], uint64_t rock, uint64_t bare)
 {
-    return samples(voxels) * sizeof(float);
+    const uint64_t kept = rock + AIR * bare;
+    int samples[3], bricks[3];
+    for (int a = 0; a < 3; a++)
+        samples[a] = voxels[a] + 2 * FIELD_MARGIN;
+    const uint64_t all = grid_bricks_of(samples, bricks) * BRICK_SAMPLES;
+    return kept < all ? kept : all;
 }
 
 static uint64_t most(uint64_t a, uint64_t b)
@@ -29,13 +29,12 @@ static uint64_t most(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
-/* What comes and goes while a frame is made: first the vectors that its grids are taken from, then those that the
- * channels of a picture are. */
-static uint64_t making(const struct job *job, const int voxels[3])
+/* What comes and goes while a frame is made: the vectors that the channels of a picture are taken from. */
+static uint64_t making(const struct job *job)
 {
     enum { VECTOR = 16, IDS = 12, SOURCES = 4 };
     const uint64_t moving = job->clock.seconds_per_frame > 0;
-    return most(samples(voxels) * VECTOR, aov_pixels(job) * ((SOURCES + moving) * VECTOR + IDS));
+    return aov_pixels(job) * ((SOURCES + moving) * VECTOR + IDS);
 }
 
 /* The same while it is written, file by file. Points: an order of eight bytes, and what is not alike in a whole leaf
@@ -50,11 +49,11 @@ static uint64_t writing(const struct job *job, const struct scene_size *size, co
     return most(points, most(volumes, most(2 * files->usd, cameras ? 2 * files->pictures / cameras : 0)));
 }
 
-uint64_t host_frames_bytes(const struct job *job, const int voxels[3], const struct scene_size *size,
+uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
                            uint64_t own, const struct disk_frame *files)
 {
     const uint64_t one = host_rock_bytes(size->n_particles) +
-                         value_grids(HAS_ALWAYS) * host_grid_bytes(voxels) + own +
+                         value_grids(HAS_ALWAYS) * samples * sizeof(float) + own +
                          aov_picture_bytes(job) * job->output.aov.n_cameras;
-    return 2 * one + making(job, voxels) + writing(job, size, files);
+    return 2 * one + making(job) + writing(job, size, files);
 }

@@ -7,12 +7,13 @@
 /* A rock of n particles, with every field. */
 uint64_t host_rock_bytes(size_t n);
 
-/* A grid of a frame whose domain has these voxels. */
-uint64_t host_grid_bytes(const int voxels[3]);
+/* Samples of a grid of a frame whose domain has these voxels: those of the bricks (particles/grids.h) that rock of so many
+ * voxels is in, so many of them at its surface. */
+uint64_t host_grid_samples(const int voxels[3], uint64_t rock, uint64_t bare);
 
-/* All that the frames of a job take at most; `own` is what only its model's frames have, of one. Within a tenth of
+/* All that the frames of a job take at most, each of its grids having so many samples; `own` is what only its model's frames have, of one. Within a tenth of
  * what was measured. */
-uint64_t host_frames_bytes(const struct job *job, const int voxels[3], const struct scene_size *size,
+uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
                            uint64_t own, const struct disk_frame *files);
 
 #endif

@@ -139,18 +139,16 @@ static status step(struct model *m)
 
 /* ---- what a frame shows */
 
-static status add_ratios(struct terrain_view *v, struct frame_grids *grids)
+static status add_ratios(const struct terrain_view *v, struct frame_grids *grids)
 {
     status st = OK;
     for (int m = MATERIAL_BEDROCK; m < MATERIALS_OWN; m++)
         for (int value = 1; value < VALUES; value++) {
-            float **ratio = &v->ratio[m - MATERIAL_BEDROCK];
             struct frame_grid *grid;
             if (value_material[value] != m)
                 continue;
             TRY(frame_grids_add(grids, (enum value_id)value, &grid));
-            grid->value = *ratio;
-            *ratio = NULL; /* the frame's now */
+            TRY(frame_grid_from_lattice(grids, v->ratio[m - MATERIAL_BEDROCK], grid));
         }
 done:
     return st;
@@ -174,7 +172,7 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
     if (wants.points)
         TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
     if (wants.volumes) {
-        TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
+        TRY(field_download(m->gpu, m->work, &m->field, &p, HAS_ALWAYS, &out->grids));
         TRY(add_ratios(&v, &out->grids));
     }
     if (wants.pictures) {
@@ -324,7 +322,11 @@ static size_t work_items(const struct job *job, const int voxels[3])
 
 static status estimate(const struct job *job, struct model_needs *needs)
 {
+    status st = OK;
     const int *n = needs->voxels;
+    struct scene_size ground;
+    TRY(scene_estimate(job, &ground));
+    free(ground.point);
     double cell = job->arches.cell_m > 0 ? job->arches.cell_m : job->domain.spacing_m;
     double stacks = job->domain.size_m[0] * job->domain.size_m[1] / (cell * cell) * 28;
     /* The surface's voxels, about: caves and walls as much again as the ground, three voxels thick; the sides. */
@@ -332,15 +334,17 @@ static status estimate(const struct job *job, struct model_needs *needs)
     /* The surface alone, on a lattice. */
     needs->size.n_surface = needs->size.n_particles;
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
-    needs->frame_bytes = value_grids(HAS_TERRAIN) * host_grid_bytes(n);
-    /* The stacks, and what frames are made from. */
+    needs->samples = host_grid_samples(n, ground.n_particles, ground.n_surface);
+    needs->frame_bytes = value_grids(HAS_TERRAIN) * needs->samples * sizeof(float);
+    /* The stacks, and what frames are made from: shares and materials of every sample of the field. */
     needs->host_bytes =
-        (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) + host_grid_bytes(n);
+        (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) + terrain_view_bytes(n);
     needs->checkpoint_bytes = (uint64_t)(0.6 * stacks);
     if (job->arches.stacks == STACKS_ALL)
         needs->disk_other = needs->checkpoint_bytes;
     needs->steps = job->frames.last - job->frames.first;
-    return OK;
+done:
+    return st;
 }
 
 const struct model_type arches_type = {

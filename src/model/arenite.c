@@ -14,9 +14,11 @@
 #include "model/arenite.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/log.h"
+#include "base/memory.h"
 #include "frame/rocks.h"
 #include "model/air.h"
 #include "model/edits.h"
@@ -359,7 +361,7 @@ static status output(struct model *m, struct frame *out)
         TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
     if (wants.volumes) {
         TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
-        TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
+        TRY(field_download(m->gpu, m->work, &m->field, &a->particles, has, &out->grids));
     }
     if (wants.volumes || wants.pictures)
         TRY(air_add(m->gpu, &a->wind, m->job, m->frame, &out->grids));

@@ -57,7 +57,8 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     const unsigned has = arenite_has(water_ever_flows(job), plants_wanted(job) || edits_plant(job),
                                      arenite_ever(job, deposit_wanted));
     needs->device_bytes = device_bytes(job, needs->voxels, n);
-    needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * host_grid_bytes(needs->voxels);
+    needs->samples = host_grid_samples(needs->voxels, n, needs->size.n_surface);
+    needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * needs->samples * sizeof(float);
     needs->disk = (struct disk_particle){
         .inside = 15.5, .bare = 45, .volumes_inside = 2.2, .volumes_bare = 88, .channel = 1.9, .has = has};
     needs->checkpoint_bytes = 15 * (uint64_t)n +

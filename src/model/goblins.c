@@ -150,7 +150,7 @@ static status show(struct goblins *g, struct frame_wants wants, struct particles
     if (wants.points)
         TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
     if (wants.volumes)
-        TRY(field_download(g->m.gpu, &g->m.field, p, HAS_ALWAYS, &out->grids));
+        TRY(field_download(g->m.gpu, g->m.work, &g->m.field, p, HAS_ALWAYS, &out->grids));
     if (wants.pictures) {
         gpu_stage(g->m.gpu, "pictures");
         TRY(aov_render_all(g->m.gpu, &g->m.aov, job, &g->m.field, p, NULL, out));
@@ -311,6 +311,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
                           (job->goblins.stress ? elastic_bytes(needs->voxels) : 0);
     /* What frames are made from: the voxels, and as particles. */
     needs->host_bytes = state + host_rock_bytes(needs->size.n_particles);
+    needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     needs->disk = job->goblins.stress ? stressed : bare;
     needs->checkpoint_bytes = (uint64_t)(0.1 * (double)state);
     needs->steps = cycles(job);

@@ -41,7 +41,7 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     out->disk = disk_frame(job, &needs.size, &needs.disk);
     out->disk.other += needs.disk_other;
     out->host_bytes =
-        needs.host_bytes + host_frames_bytes(job, out->voxels, &needs.size, needs.frame_bytes, &out->disk);
+        needs.host_bytes + host_frames_bytes(job, &needs.size, needs.samples, needs.frame_bytes, &out->disk);
     out->checkpoint_bytes = needs.checkpoint_bytes;
     out->steps = needs.steps;
 done:

@@ -40,6 +40,9 @@ struct terrain_view {
 MUST_USE status terrain_look(struct terrain_view *v);
 void terrain_view_free(struct terrain_view *v);
 
+/* What looking takes in host memory, for a domain of these voxels, but for the rock. */
+uint64_t terrain_view_bytes(const int voxels[3]);
+
 /* The heights and thicknesses of the layers as a picture from above, one pixel a stack: named "stacks". */
 MUST_USE status terrain_map(const struct stacks *s, int n_materials, struct aov_image *out);
 

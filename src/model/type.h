@@ -43,6 +43,7 @@ struct model_needs {
     struct disk_particle disk; /* what one particle of it takes */
     uint64_t disk_other;       /* of a frame: files that only this model has */
     uint64_t device_bytes;     /* of the model's own buffers */
+    uint64_t samples;          /* of each grid of a frame */
     uint64_t frame_bytes;      /* of a waiting frame: what only this model's frames have */
     uint64_t host_bytes;       /* of the model's own arrays */
     uint64_t checkpoint_bytes;

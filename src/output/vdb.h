@@ -55,12 +55,11 @@ MUST_USE status vdb_describe_lattices(const char *path, struct text *out);
 MUST_USE status vdb_check(const char *path);
 
 /* Back from files, in the simulator's axes. E_INPUT if the file is missing, damaged or holds something else.
- * Volumes: the grids with names hoodoo writes that the file holds, on the lattice they were written from;
- * what is inactive reads as 0, in level sets as the background with its sign. Names are static; value[] is
- * freed by vdb_volumes_free(). Points: the fields of particles.def that the file holds, the others NULL;
+ * Volumes: the grids with names hoodoo writes that the file holds, on the lattice they were written from, in the
+ * bricks where any of them is something else than its background; what is inactive reads as 0, in level sets as
+ * the background with its sign. Names are static; frame_grids_free(). Points: the fields of particles.def that the file holds, the others NULL;
  * rock_free(). Their order is the file's. */
 MUST_USE status vdb_volumes_read(const char *path, struct frame_grids *out);
-void vdb_volumes_free(struct frame_grids *grids);
 MUST_USE status vdb_points_read(const char *path, struct rock *out);
 
 /* The zero surface of `surface` as triangles with outward normals, in the simulator's axes, and the values of

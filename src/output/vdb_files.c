@@ -6,20 +6,22 @@
 #include "output/vdb_serve.h"
 #include "reader/reader.h"
 
-/* How many voxels; false if that is no number of voxels. */
+/* How many samples; false if no lattice has as many, or more bricks than can be numbered. */
 static bool count(const int32_t n[3], size_t *out)
 {
+    int bricks[3];
     for (int a = 0; a < 3; a++)
         if (n[a] < 1 || n[a] > 1 << 20)
             return false;
     *out = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
-    return true;
+    return grid_bricks_of(n, bricks) <= INT32_MAX;
 }
 
 static status take_grid(struct reader_answer *answer, const struct vdb_part_grid *part, enum value_id value,
-                        size_t voxels, struct frame_grids *grids)
+                        struct frame_grids *grids)
 {
     struct frame_grid *g = NULL;
+    size_t samples = grids->bricks.count * BRICK_SAMPLES;
     status st = frame_grids_add(grids, value, &g);
     if (st != OK)
         return st;
@@ -29,10 +31,31 @@ static status take_grid(struct reader_answer *answer, const struct vdb_part_grid
         g->own.voxel = part->own_voxel;
         memcpy(g->own.n, part->own_n, sizeof g->own.n);
         memcpy(g->own.origin, part->own_origin, sizeof g->own.origin);
-        if (!count(part->own_n, &voxels))
+        if (!count(part->own_n, &samples))
             return reader_nonsense(answer);
     }
-    return reader_take_array(answer, voxels, (size_t)part->components * sizeof *g->value, &g->value);
+    return reader_take_array(answer, samples, (size_t)part->components * sizeof *g->value, &g->value);
+}
+
+/* Numbers of bricks, each of the lattice and greater than the one before. */
+static status take_bricks(struct reader_answer *answer, uint64_t n, struct frame_grids *grids)
+{
+    status st = OK;
+    uint32_t *number = NULL;
+    const int *m = grids->bricks.n;
+    const size_t all = (size_t)m[0] * (size_t)m[1] * (size_t)m[2];
+    if (n > all)
+        return reader_nonsense(answer);
+    TRY(reader_take_array(answer, (size_t)n, sizeof *number, &number));
+    for (size_t i = 0; i < n; i++)
+        if (number[i] >= all || (i > 0 && number[i] <= number[i - 1])) {
+            st = reader_nonsense(answer);
+            goto done;
+        }
+    frame_grids_choose(grids, &number, (size_t)n);
+done:
+    free(number);
+    return st;
 }
 
 static bool makes_sense(const struct vdb_part_volumes *part, size_t n_words)
@@ -51,6 +74,7 @@ status vdb_volumes_read(const char *path, struct frame_grids *out)
     status st = OK;
     struct reader_answer answer = {0};
     struct vdb_part_volumes part;
+    struct grid_lattice lattice = {0};
     const char *word[VALUES + 1] = {NULL};
     enum value_id value[VALUES];
     size_t voxels = 0, n_words = 0;
@@ -69,23 +93,18 @@ status vdb_volumes_read(const char *path, struct frame_grids *out)
         st = reader_nonsense(&answer);
         goto done;
     }
-    memcpy(out->n, part.n, sizeof out->n);
-    memcpy(out->origin, part.origin, sizeof out->origin);
-    out->voxel = part.voxel;
+    memcpy(lattice.n, part.n, sizeof lattice.n);
+    memcpy(lattice.origin, part.origin, sizeof lattice.origin);
+    lattice.voxel = part.voxel;
+    TRY(frame_grids_begin(&lattice, out));
+    TRY(take_bricks(&answer, part.n_bricks, out));
     for (uint32_t i = 0; i < part.n_grids; i++)
-        TRY(take_grid(&answer, &part.grid[i], value[part.grid[i].word], voxels, out));
+        TRY(take_grid(&answer, &part.grid[i], value[part.grid[i].word], out));
 done:
     reader_end(&answer);
     if (st != OK)
-        vdb_volumes_free(out);
+        frame_grids_free(out);
     return st;
-}
-
-void vdb_volumes_free(struct frame_grids *grids)
-{
-    for (size_t i = 0; i < grids->n_grids; i++)
-        free(grids->grid[i].value);
-    *grids = (struct frame_grids){0};
 }
 
 status vdb_points_read(const char *path, struct rock *out)

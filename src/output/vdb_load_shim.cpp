@@ -1,4 +1,4 @@
-/* Frames back from their files: volumes as dense grids, points as particles. Runs in hoodoo-read. */
+/* Frames back from their files: volumes as bricks of samples, points as particles. Runs in hoodoo-read. */
 #include "output/vdb_shim.hpp"
 
 #include <openvdb/points/AttributeArray.h>
@@ -29,79 +29,148 @@ void must(status st)
         throw failure();
 }
 
-/* The grid's voxels in the lattice, as layers of it from the ground up: leaves voxel by voxel, tiles by their value. What has
- * one layer of leaves in memory at a time sends a grid that is much larger than its file. */
-template <class grid_type, class store_fn>
-void send_dense(const grid_type &grid, const vdb::lattice &l, size_t components, const store_fn &store,
-                struct serve_answer *answer)
-{
-    constexpr int D = grid_type::TreeType::LeafNodeType::DIM;
-    const int up = l.y_up ? 1 : 2; /* the file's axis along which the simulator's layers lie */
-    const ptrdiff_t layer = l.stride[up];
-    auto at = grid.getConstAccessor();
-    std::vector<float> slab;
-    must(serve_part(answer));
-    for (int base = l.lo[up] & ~(D - 1); base <= l.hi[up]; base += D) {
-        Coord lo = l.lo, hi = l.hi;
-        lo[up] = std::max(lo[up], base);
-        hi[up] = std::min(hi[up], base + D - 1);
-        slab.resize(size_t(hi[up] - lo[up] + 1) * size_t(layer) * components);
-        const ptrdiff_t first = ptrdiff_t(lo[up] - l.lo[up]) * layer;
-        const Coord begin = lo & ~(D - 1);
-        for (int oz = begin[2]; oz <= hi[2]; oz += D)
-            for (int oy = begin[1]; oy <= hi[1]; oy += D)
-                for (int ox = begin[0]; ox <= hi[0]; ox += D) {
-                    const Coord o(ox, oy, oz);
-                    const auto *leaf = at.probeConstLeaf(o);
-                    const auto tile = leaf ? grid.background() : at.getValue(o);
-                    const Coord b = Coord::maxComponent(o, lo),
-                                e = Coord::minComponent(o.offsetBy(D - 1), hi);
-                    for (int y = b[1]; y <= e[1]; y++)
-                        for (int z = b[2]; z <= e[2]; z++)
-                            for (int x = b[0]; x <= e[0]; x++)
-                                store(slab.data() + size_t(l.at(x, y, z) - first) * components,
-                                      leaf ? leaf->getValue(Coord(x, y, z)) : tile);
-                }
-        must(serve_add(answer, slab.data(), slab.size() * sizeof(float)));
+/* How many samples are on their way to the answer at a time: a grid may be much larger than its file. */
+constexpr size_t TOGETHER = 1 << 16;
+
+/* Samples on their way. */
+struct stream {
+    struct serve_answer *answer;
+    std::vector<float> sample;
+
+    explicit stream(struct serve_answer *a) : answer(a)
+    {
+        must(serve_part(answer));
     }
+    void put(float v)
+    {
+        sample.push_back(v);
+        if (sample.size() >= TOGETHER)
+            flush();
+    }
+    void put(const Vec3f &v)
+    {
+        for (int a = 0; a < 3; a++)
+            put(v[a]);
+    }
+    void flush()
+    {
+        must(serve_add(answer, sample.data(), sample.size() * sizeof(float)));
+        sample.clear();
+    }
+};
+
+Vec3f in_sim(const Vec3f &v, bool y_up)
+{
+    return vdb::sim_from_file(v, y_up);
+}
+float in_sim(float v, bool)
+{
+    return v;
 }
 
-void send_grid(const openvdb::GridBase &base, const vdb::lattice &l, const std::string &name,
-               vdb_part_grid *part, struct serve_answer *answer)
+/* Sample (x, y, z) of a lattice, in the simulator's axes. */
+template <class accessor> auto sample_at(const accessor &at, int x, int y, int z, bool y_up)
 {
-    const bool is_vector = base.isType<openvdb::Vec3SGrid>();
-    if (!is_vector && !base.isType<openvdb::FloatGrid>())
-        throw std::runtime_error("grid '" + name + "' does not hold floats");
-    part->components = is_vector ? 3 : 1;
-    part->kind = base.getGridClass() == openvdb::GRID_LEVEL_SET    ? GRID_LEVEL_SET
-                 : base.getGridClass() == openvdb::GRID_FOG_VOLUME ? GRID_FOG
-                                                                   : GRID_PLAIN;
-    if (!answer)
-        return;
-    if (is_vector)
-        send_dense(
-            static_cast<const openvdb::Vec3SGrid &>(base), l, 3,
-            [&](float *to, const Vec3f &v) {
-                const Vec3f s = vdb::sim_from_file(v, l.y_up);
-                to[0] = s[0], to[1] = s[1], to[2] = s[2];
-            },
-            answer);
-    else
-        send_dense(
-            static_cast<const openvdb::FloatGrid &>(base), l, 1, [](float *to, float v) { *to = v; }, answer);
+    return in_sim(at.getValue(vdb::file_from_sim(Coord(x, y, z), y_up)), y_up);
 }
 
-/* A lattice's size as a file gives it; of more voxels than memory holds it means nothing. */
-void set_size(int32_t n[3], const openvdb::Vec3i &size)
+/* Every sample of a lattice of its own. */
+template <class grid_type>
+void send_lattice(const grid_type &grid, const int n[3], bool y_up, struct serve_answer *answer)
 {
-    double voxels = 1;
+    const auto at = grid.getConstAccessor();
+    stream out(answer);
+    for (int z = 0; z < n[2]; z++)
+        for (int y = 0; y < n[1]; y++)
+            for (int x = 0; x < n[0]; x++)
+                out.put(sample_at(at, x, y, z, y_up));
+    out.flush();
+}
+
+/* The bricks of the frame's lattice (particles/grids.h) that hold something in any of its grids. */
+struct bricks {
+    int n[3], m[3];
+    bool y_up;
+    std::vector<bool> held;
+    std::vector<uint32_t> number;
+
+    bricks(const int32_t size[3], bool y) : y_up(y)
+    {
+        for (int a = 0; a < 3; a++)
+            n[a] = size[a];
+        held.resize(grid_bricks_of(n, m));
+    }
+
+    /* All that reach into this box of the file's index space. */
+    void hold(const openvdb::CoordBBox &box)
+    {
+        const Coord a = vdb::sim_from_file(box.min(), y_up), b = vdb::sim_from_file(box.max(), y_up);
+        int lo[3], hi[3];
+        for (int d = 0; d < 3; d++) {
+            lo[d] = std::max(std::min(a[d], b[d]), 0) / BRICK_SIDE;
+            hi[d] = std::min(std::max(a[d], b[d]), n[d] - 1);
+            if (hi[d] < 0)
+                return;
+            hi[d] /= BRICK_SIDE;
+        }
+        for (int z = lo[2]; z <= hi[2]; z++)
+            for (int y = lo[1]; y <= hi[1]; y++)
+                for (int x = lo[0]; x <= hi[0]; x++)
+                    held[(size_t(z) * size_t(m[1]) + size_t(y)) * size_t(m[0]) + size_t(x)] = true;
+    }
+
+    /* What differs from the grid's background: tiles, and voxels of leaves. */
+    template <class grid_type> void hold_grid(const grid_type &grid)
+    {
+        const auto background = grid.background();
+        auto tile = grid.tree().cbeginValueAll();
+        for (tile.setMaxDepth(tile.getLeafDepth() - 1); tile; ++tile)
+            if (*tile != background)
+                hold(tile.getBoundingBox());
+        for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf)
+            for (auto v = leaf->cbeginValueAll(); v; ++v)
+                if (*v != background)
+                    hold(openvdb::CoordBBox(v.getCoord(), v.getCoord()));
+    }
+
+    void list()
+    {
+        for (size_t i = 0; i < held.size(); i++)
+            if (held[i])
+                number.push_back(uint32_t(i));
+    }
+};
+
+template <class grid_type>
+void send_bricks(const grid_type &grid, const bricks &b, struct serve_answer *answer)
+{
+    const auto at = grid.getConstAccessor();
+    stream out(answer);
+    for (const uint32_t number : b.number) {
+        const int first[3] = {int(number % uint32_t(b.m[0])) * BRICK_SIDE,
+                              int(number / uint32_t(b.m[0]) % uint32_t(b.m[1])) * BRICK_SIDE,
+                              int(number / uint32_t(b.m[0]) / uint32_t(b.m[1])) * BRICK_SIDE};
+        for (int z = first[2]; z < first[2] + BRICK_SIDE; z++)
+            for (int y = first[1]; y < first[1] + BRICK_SIDE; y++)
+                for (int x = first[0]; x < first[0] + BRICK_SIDE; x++)
+                    out.put(x < b.n[0] && y < b.n[1] && z < b.n[2] ? sample_at(at, x, y, z, b.y_up)
+                                                                   : in_sim(grid.background(), b.y_up));
+    }
+    out.flush();
+}
+
+/* A lattice's size as a file gives it. One whose samples (of a dense one) or bricks memory does not hold means nothing. */
+void set_size(int32_t n[3], const openvdb::Vec3i &size, bool dense)
+{
+    double samples = 1, bricks = 1;
     for (int a = 0; a < 3; a++) {
         n[a] = size[a];
         if (n[a] < 1 || n[a] > 1 << 20)
             throw std::runtime_error("its grids have no sensible size");
-        voxels *= n[a];
+        samples *= n[a];
+        bricks *= (n[a] + BRICK_SIDE - 1) / BRICK_SIDE;
     }
-    if (voxels * sizeof(float) > double(memory_available()))
+    if (bricks > INT32_MAX || (dense ? samples : bricks) * sizeof(float) > double(memory_available()))
         throw std::runtime_error("its grids are larger than this machine's memory");
 }
 
@@ -176,16 +245,27 @@ void send_field(const point_leaves &leaves, enum rock_field f, bool y_up, struct
     }
 }
 
-/* What the frame's lattice is, and each grid's; with an answer their values too. */
-vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *q,
-                            struct serve_answer *answer)
+/* Calls work(grid) with the grid as what it is. */
+template <class work_fn>
+void as_what_it_is(const openvdb::GridBase &base, const std::string &name, const work_fn &work)
+{
+    if (base.isType<openvdb::Vec3SGrid>())
+        work(static_cast<const openvdb::Vec3SGrid &>(base));
+    else if (base.isType<openvdb::FloatGrid>())
+        work(static_cast<const openvdb::FloatGrid &>(base));
+    else
+        throw std::runtime_error("grid '" + name + "' does not hold floats");
+}
+
+/* What the frame's lattice is, and each grid's. */
+vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *q)
 {
     vdb_part_volumes part{};
     const auto size = file.metadata->getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
     if (!size)
         throw std::runtime_error(
             "not a volume file of hoodoo: it does not say how many voxels its grids have");
-    set_size(part.n, size->value());
+    set_size(part.n, size->value(), false);
     for (size_t k = 0; k < q->n_words; k++) {
         const auto base = file.grid(q->word[k]);
         if (!base)
@@ -196,14 +276,43 @@ vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *
         const Vec3d origin = vdb::sim_from_file(base->transform().indexToWorld(Vec3d(0)), file.y_up);
         const auto own = base->getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
         g.word = uint32_t(k);
+        g.components = base->isType<openvdb::Vec3SGrid>() ? 3 : 1;
+        g.kind = base->getGridClass() == openvdb::GRID_LEVEL_SET    ? GRID_LEVEL_SET
+                 : base->getGridClass() == openvdb::GRID_FOG_VOLUME ? GRID_FOG
+                                                                    : GRID_PLAIN;
         (own ? g.own_voxel : part.voxel) = base->voxelSize()[0];
         for (int a = 0; a < 3; a++)
             (own ? g.own_origin : part.origin)[a] = origin[a];
         if (own)
-            set_size(g.own_n, own->value());
-        send_grid(*base, vdb::lattice(own ? g.own_n : part.n, file.y_up), q->word[k], &g, answer);
+            set_size(g.own_n, own->value(), true);
     }
     return part;
+}
+
+void send_volumes(const vdb::file &file, const struct serve_question *q, struct serve_answer *answer)
+{
+    vdb_part_volumes part = volumes_of(file, q);
+    bricks held(part.n, file.y_up);
+    const auto each = [&](const auto &work) {
+        for (uint32_t i = 0; i < part.n_grids; i++) {
+            const std::string name = q->word[part.grid[i].word];
+            as_what_it_is(*file.grid(name), name, [&](const auto &grid) { work(part.grid[i], grid); });
+        }
+    };
+    each([&](const vdb_part_grid &g, const auto &grid) {
+        if (g.own_n[0] == 0)
+            held.hold_grid(grid);
+    });
+    held.list();
+    part.n_bricks = held.number.size();
+    must(serve_put(answer, &part, sizeof part));
+    must(serve_put(answer, held.number.data(), held.number.size() * sizeof held.number[0]));
+    each([&](const vdb_part_grid &g, const auto &grid) {
+        if (g.own_n[0] == 0)
+            send_bricks(grid, held, answer);
+        else
+            send_lattice(grid, g.own_n, file.y_up, answer);
+    });
 }
 } // namespace
 
@@ -213,9 +322,7 @@ try {
     const status st = vdb::load(q->path, &file);
     if (st != OK)
         return st;
-    const vdb_part_volumes part = volumes_of(file, q, nullptr);
-    must(serve_put(answer, &part, sizeof part));
-    volumes_of(file, q, answer);
+    send_volumes(file, q, answer);
     return OK;
 } catch (const failure &) {
     return E_MEMORY;

@@ -3,7 +3,8 @@
  *
  * vdb.check                         no parts
  * vdb.describe, vdb.lattices        text, as vdb.h says; words: describe.h
- * vdb.volumes NAME...               struct vdb_part_volumes; the values of each of its grids, floats
+ * vdb.volumes NAME...               struct vdb_part_volumes; the numbers of the frame's bricks; the values of each of its
+ *                                   grids, floats, brick by brick or of its own lattice (particles/grids.h)
  * vdb.points                        struct vdb_part_points; each field of particles.def that is there
  * vdb.surface                       struct trimesh_lattice; its samples, floats: `surface` around its zero
  * vdb.at NORMALS OPTIONAL NAME...   input: positions float[n][3]. If NORMALS is 1, float[n][3] of `surface`; then for
@@ -31,6 +32,7 @@ struct vdb_part_grid {
 struct vdb_part_volumes {
     int32_t n[3];
     uint32_t n_grids;
+    uint64_t n_bricks;
     double voxel, origin[3];
     struct vdb_part_grid grid[VDB_PART_GRIDS];
 };

@@ -56,39 +56,20 @@ template <class V> V sim_from_file(const V &f, bool y_up)
  * it had, where that is something else. */
 constexpr char LATTICE[] = "lattice_voxels";
 
-/* The frame's voxels in the file's index space: their box, and where each is in the dense arrays. */
+/* A lattice's samples in the file's index space: their box. */
 struct lattice {
-    Coord lo, hi;               /* inclusive */
-    ptrdiff_t start, stride[3]; /* voxels: of index 0 0 0, and steps */
+    Coord lo, hi; /* inclusive */
     bool y_up;
 
-    /* `pad` more voxels on every side; index 0 stays where it is. */
+    /* `pad` more samples on every side; index 0 stays where it is. */
     lattice(const int n[3], bool y, int pad = 0) : y_up(y)
     {
-        const ptrdiff_t nx = n[0] + 2 * pad, layer = nx * (n[1] + 2 * pad);
-        if (y_up) {
-            lo = Coord(0, 0, 1 - n[1]);
-            hi = Coord(n[0] - 1, n[2] - 1, 0);
-            stride[0] = 1, stride[1] = layer, stride[2] = -nx;
-        } else {
-            lo = Coord(0);
-            hi = Coord(n[0] - 1, n[1] - 1, n[2] - 1);
-            stride[0] = 1, stride[1] = nx, stride[2] = layer;
-        }
+        lo = y_up ? Coord(0, 0, 1 - n[1]) : Coord(0);
+        hi = y_up ? Coord(n[0] - 1, n[2] - 1, 0) : Coord(n[0] - 1, n[1] - 1, n[2] - 1);
         lo.offset(-pad);
         hi.offset(pad);
-        start = pad * (1 + nx + layer);
-    }
-    ptrdiff_t at(int x, int y, int z) const
-    {
-        return start + x * stride[0] + y * stride[1] + z * stride[2];
     }
 };
-
-/* A level set's samples with PAD more on every side, positive there; empty if the solid is nowhere at the
- * border, so that `value` will do. The solid ends half a voxel beyond the outermost samples. */
-constexpr int PAD = 4;
-std::vector<float> close_at_border(const float *value, const int n[3], double voxel);
 
 /* Registers OpenVDB's types once. */
 void start();

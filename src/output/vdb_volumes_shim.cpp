@@ -1,4 +1,4 @@
-/* Dense frame grids to sparse OpenVDB grids, leaf by leaf. */
+/* A frame's grids to OpenVDB grids, leaf by leaf. */
 #include "output/vdb_shim.hpp"
 
 #include <openvdb/tools/Prune.h>
@@ -15,28 +15,49 @@ using openvdb::Coord;
 using openvdb::Vec3f;
 using vdb::lattice;
 
-/* What a kind of grid means by active, and what its inactive voxels hold. */
+/* Where samples are in an array: eight of them along x, from a multiple of eight on, lie side by side. */
+struct of_bricks {
+    const frame_grids *grids;
+    ptrdiff_t row(const Coord &s) const
+    {
+        return grid_row(grids, s[0], s[1], s[2]);
+    }
+};
+struct of_lattice {
+    const int *n;
+    ptrdiff_t row(const Coord &s) const
+    {
+        return (ptrdiff_t(s[2]) * n[1] + s[1]) * n[0] + s[0];
+    }
+};
+
+/* What a kind of grid means by active, and what its inactive voxels hold. get() has sample `at` of an array, which is sample s
+ * of the lattice, in the simulator's axes. */
 struct level_set {
     using grid = openvdb::FloatGrid;
     const float *value;
     float background;
-    bool get(ptrdiff_t i, float &v) const
+    bool cut(float d, float &v) const
     {
-        v = value[i];
+        v = d;
         if (std::fabs(v) < background)
             return true;
         v = v < 0 ? -background : background;
         return false;
+    }
+    bool get(ptrdiff_t at, const Coord &, float &v) const
+    {
+        return cut(value[at], v);
     }
 };
 struct scalar {
     using grid = openvdb::FloatGrid;
     const float *value, *density;
     float background;
-    bool get(ptrdiff_t i, float &v) const
+    bool get(ptrdiff_t at, const Coord &, float &v) const
     {
-        const bool active = density[i] != 0;
-        v = active ? value[i] : 0;
+        const bool active = density[at] != 0;
+        v = active ? value[at] : 0;
         return active;
     }
 };
@@ -45,19 +66,64 @@ struct vector {
     const float *value;
     bool y_up;
     Vec3f background;
-    bool get(ptrdiff_t i, Vec3f &v) const
+    bool get(ptrdiff_t at, const Coord &, Vec3f &v) const
     {
-        v = vdb::file_from_sim(Vec3f(value[3 * i], value[3 * i + 1], value[3 * i + 2]), y_up);
+        v = vdb::file_from_sim(Vec3f(value[3 * at], value[3 * at + 1], value[3 * at + 2]), y_up);
         return v[0] != 0 || v[1] != 0 || v[2] != 0;
     }
 };
 
-template <class field> typename field::grid::Ptr sparse_grid(const lattice &l, const field &f)
+/* A solid that reaches the border of its grid, such as one with a floor that is not ours, ends half a voxel beyond the
+ * outermost samples. Without this the level set would have an inside without a surface around it, and its mesh a hole. */
+struct closed_level_set : level_set {
+    const frame_grids *grids;
+
+    ptrdiff_t row(const Coord &) const
+    {
+        return 0;
+    }
+    bool get(ptrdiff_t, const Coord &s, float &v) const
+    {
+        const int *n = grids->lattice.n;
+        double inside = -1e30, outside = 0;
+        int near[3];
+        for (int a = 0; a < 3; a++) {
+            const double d = std::max(-0.5 - s[a], s[a] - (n[a] - 0.5));
+            inside = std::max(inside, d);
+            outside += d > 0 ? d * d : 0;
+            near[a] = std::min(std::max(s[a], 0), n[a] - 1);
+        }
+        const double box = outside > 0 ? std::sqrt(outside) : inside;
+        const ptrdiff_t at = grid_row(grids, near[0], near[1], near[2]);
+        return cut(std::max(at < 0 ? background : value[at], float(box * grids->lattice.voxel)), v);
+    }
+};
+
+bool reaches_border(const frame_grids &grids, const frame_grid &g)
+{
+    const int *n = grids.lattice.n;
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        for (int side = 0; side < n[a]; side += std::max(1, n[a] - 1))
+            for (int i = 0; i < n[b]; i++)
+                for (int j = 0; j < n[c]; j++) {
+                    int s[3];
+                    s[a] = side, s[b] = i, s[c] = j;
+                    if (grid_at(&grids, &g, s[0], s[1], s[2]) < 0)
+                        return true;
+                }
+    }
+    return false;
+}
+
+template <class place, class field>
+typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const field &f)
 {
     using tree = typename field::grid::TreeType;
     using leaf = typename tree::LeafNodeType;
     using value = typename tree::ValueType;
     constexpr int D = leaf::DIM;
+    static_assert(D == BRICK_SIDE, "a row of a leaf lies in one brick");
     const Coord first = l.lo & ~(D - 1);
     const int m[3] = {(l.hi[0] - first[0]) / D + 1, (l.hi[1] - first[1]) / D + 1,
                       (l.hi[2] - first[2]) / D + 1};
@@ -79,18 +145,23 @@ template <class field> typename field::grid::Ptr sparse_grid(const lattice &l, c
                 const Coord b = Coord::maxComponent(o, l.lo) - o,
                             e = Coord::minComponent(o.offsetBy(D - 1), l.hi) - o;
                 typename leaf::NodeMaskType mask;
+                bool any = false;
                 for (value &v : block)
                     v = f.background;
                 for (int y = b[1]; y <= e[1]; y++)
                     for (int z = b[2]; z <= e[2]; z++) {
-                        const ptrdiff_t row = l.at(o[0], o[1] + y, o[2] + z);
-                        for (int x = b[0]; x <= e[0]; x++) {
+                        Coord s = vdb::sim_from_file(o.offsetBy(b[0], y, z), l.y_up);
+                        const ptrdiff_t row = p.row(s);
+                        if (row < 0)
+                            continue;
+                        any = true;
+                        for (int x = b[0]; x <= e[0]; x++, s[0]++) {
                             const openvdb::Index at = openvdb::Index(x << 6 | y << 3 | z);
-                            if (f.get(row + x * l.stride[0], block[at]))
+                            if (f.get(row + x - b[0], s, block[at]))
                                 mask.setOn(at);
                         }
                     }
-                bool flat = mask.isOn() || mask.isOff();
+                bool flat = !any || mask.isOn() || mask.isOff();
                 for (size_t v = 1; flat && v < leaf::SIZE; v++)
                     flat = block[v] == block[0];
                 if (flat && mask.isOff() && block[0] == f.background)
@@ -115,25 +186,33 @@ template <class field> typename field::grid::Ptr sparse_grid(const lattice &l, c
     return grid;
 }
 
-openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, const lattice &l,
-                                 const float *density)
+/* How many more samples of air a level set gets on every side where it is closed. */
+constexpr int PAD = 4;
+
+template <class place>
+openvdb::GridBase::Ptr make_grid(const frame_grid &g, const lattice &l, const place &p, const float *density)
 {
     if (g.components == 3) {
-        auto grid = sparse_grid(l, vector{g.value, l.y_up, Vec3f(0)});
+        auto grid = sparse_grid(l, p, vector{g.value, l.y_up, Vec3f(0)});
         grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
         return grid;
     }
-    if (g.kind == GRID_LEVEL_SET) {
-        const std::vector<float> closed = vdb::close_at_border(g.value, grids.n, grids.voxel);
-        const float background = float(3 * grids.voxel);
-        auto grid = closed.empty() ? sparse_grid(l, level_set{g.value, background})
-                                   : sparse_grid(lattice(grids.n, l.y_up, vdb::PAD),
-                                                 level_set{closed.data(), background});
-        grid->setGridClass(openvdb::GRID_LEVEL_SET);
-        return grid;
-    }
-    auto grid = sparse_grid(l, scalar{g.value, density ? density : g.value, 0});
+    auto grid = sparse_grid(l, p, scalar{g.value, density ? density : g.value, 0});
     grid->setGridClass(g.kind == GRID_FOG ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_UNKNOWN);
+    return grid;
+}
+
+openvdb::GridBase::Ptr make_level_set(const frame_grids &grids, const frame_grid &g, bool y_up)
+{
+    const level_set open{g.value, grid_background(&grids, &g)};
+    openvdb::FloatGrid::Ptr grid;
+    if (reaches_border(grids, g)) {
+        const closed_level_set closed{open, &grids};
+        grid = sparse_grid(lattice(grids.lattice.n, y_up, PAD), closed, closed);
+    } else {
+        grid = sparse_grid(lattice(grids.lattice.n, y_up), of_bricks{&grids}, open);
+    }
+    grid->setGridClass(openvdb::GRID_LEVEL_SET);
     return grid;
 }
 
@@ -168,9 +247,7 @@ extern "C" status vdb_encode_volumes(const struct frame_grids *grids, const stru
 try {
     vdb::start();
     *out = vdb_bytes{nullptr, 0};
-    const grid_lattice frame_lattice = {{grids->n[0], grids->n[1], grids->n[2]},
-                                        grids->voxel,
-                                        {grids->origin[0], grids->origin[1], grids->origin[2]}};
+    const grid_lattice &frame_lattice = grids->lattice;
     status st = check_lattice(frame_lattice, options->frame);
     for (size_t i = 0; i < grids->n_grids && st == OK; i++)
         if (grids->grid[i].own.n[0])
@@ -179,20 +256,22 @@ try {
         return st;
 
     const bool y_up = options->up == OUTPUT_UP_Y;
-    const lattice common(grids->n, y_up);
+    const lattice common(frame_lattice.n, y_up);
     const float *density = nullptr;
     for (size_t i = 0; i < grids->n_grids; i++)
         if (std::strcmp(grids->grid[i].name, "density") == 0)
             density = grids->grid[i].value;
 
-    openvdb::MetaMap metadata = vdb::file_metadata(*options, grids->voxel);
-    metadata.insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(grids->n)));
+    openvdb::MetaMap metadata = vdb::file_metadata(*options, frame_lattice.voxel);
+    metadata.insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(frame_lattice.n)));
     const auto transform = transform_of(frame_lattice, y_up);
     openvdb::GridCPtrVec made;
     for (size_t i = 0; i < grids->n_grids; i++) {
         const frame_grid &g = grids->grid[i];
         const bool own = g.own.n[0] != 0;
-        auto grid = make_grid(*grids, g, own ? lattice(g.own.n, y_up) : common, own ? nullptr : density);
+        auto grid = own ? make_grid(g, lattice(g.own.n, y_up), of_lattice{g.own.n}, nullptr)
+                    : g.kind == GRID_LEVEL_SET ? make_level_set(*grids, g, y_up)
+                                               : make_grid(g, common, of_bricks{grids}, density);
         grid->setName(g.name);
         if (own)
             grid->insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(g.own.n)));

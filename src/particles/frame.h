@@ -8,39 +8,8 @@
 #include <stdint.h>
 
 #include "job/job.h"
+#include "particles/grids.h"
 #include "particles/rock.h"
-
-/* A dense scalar field sampled at voxel centres: origin + (i, j, k) * voxel, numbered (k ny + j) nx + i. */
-enum grid_class { GRID_LEVEL_SET, GRID_FOG, GRID_PLAIN };
-
-struct grid_lattice {
-    int n[3];
-    double voxel, origin[3]; /* m */
-};
-
-struct frame_grid {
-    const char *name; /* surface, density, stress, ... */
-    const char *unit;
-    enum grid_class kind;
-    int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
-    float *value;   /* owned by the frame */
-    /* Where it is sampled otherwise than the frame's other grids; n[0] is 0 where it is not. */
-    struct grid_lattice own;
-};
-
-struct frame_grids {
-    int n[3];
-    double voxel, origin[3]; /* m */
-    size_t n_grids;
-    struct frame_grid grid[VALUES];
-};
-/* In scalar grids, voxels where `density` is 0 are inactive, except in level sets, whose active voxels are
- * those with |value| < 3 voxels (the background). In vector grids (the wind is outside the rock) those with a
- * zero vector are. */
-
-/* One more grid, of this value, that is not sampled yet; *out stays where it is. E_OUTPUT: it is there already, or there are as
- * many as there can be. */
-MUST_USE status frame_grids_add(struct frame_grids *grids, enum value_id value, struct frame_grid **out);
 
 /* One camera's picture: planes of width * height values, top row first. */
 struct aov_channel {

@@ -38,7 +38,7 @@ static int write_volumes_and_points(void **state)
         assert_int_equal(atomic_file_write(path, file.bytes, file.size), OK);
         free(file.bytes);
         rock_free(&rock);
-        sample_grids_free(&grids);
+        frame_grids_free(&grids);
     }
     return 0;
 }

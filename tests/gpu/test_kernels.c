@@ -316,15 +316,15 @@ static void distance_to_a_sphere(void **state)
         sim_begin("hoodoo: 1\nname: ball\nframes: 1-2\ndomain: {size_m: [16, 16, 12], spacing_m: 0.25}\n"
                   "scene: {sphere: {center_m: [8, 8.13, 4.2], radius_m: 5.1}}\n");
     struct frame frame = sim_output(&s);
-    const struct frame_grids *g = &frame.grids;
-    const float *phi = g->grid[0].value;
-    size_t near = 0, within = 0, band = 0, step[3] = {1, (size_t)g->n[0], (size_t)g->n[0] * (size_t)g->n[1]};
+    const struct frame_grids *grids = &frame.grids;
+    const struct grid_lattice *g = &grids->lattice;
+    const struct frame_grid *phi = &grids->grid[0];
+    size_t near = 0, within = 0, band = 0;
     double worst = 0, mean = 0, slope = 0, steepest = 0, flattest = 9;
     (void)state;
     for (int k = 1; k < g->n[2] - 1; k++)
         for (int j = 1; j < g->n[1] - 1; j++)
             for (int i = 1; i < g->n[0] - 1; i++) {
-                size_t at = (size_t)i + (size_t)j * step[1] + (size_t)k * step[2];
                 double x[3] = {g->origin[0] + i * g->voxel, g->origin[1] + j * g->voxel,
                                g->origin[2] + k * g->voxel};
                 double exact =
@@ -333,7 +333,7 @@ static void distance_to_a_sphere(void **state)
                 if (x[2] < 2.5) /* away from the ground, on which it stands cut off */
                     continue;
                 if (fabs(exact) < 0.5 * g->voxel) {
-                    double error = fabs((double)phi[at] - exact) / g->voxel;
+                    double error = fabs((double)grid_at(grids, phi, i, j, k) - exact) / g->voxel;
                     worst = fmax(worst, error);
                     mean += error;
                     within += error < 0.1;
@@ -341,8 +341,13 @@ static void distance_to_a_sphere(void **state)
                 }
                 if (fabs(exact) < 1.5 * g->voxel) {
                     double sum = 0;
-                    for (size_t a = 0; a < 3; a++)
-                        sum += pow((double)(phi[at + step[a]] - phi[at - step[a]]) / (2 * g->voxel), 2);
+                    for (int a = 0; a < 3; a++) {
+                        const int dx = a == 0, dy = a == 1, dz = a == 2;
+                        sum += pow((double)(grid_at(grids, phi, i + dx, j + dy, k + dz) -
+                                            grid_at(grids, phi, i - dx, j - dy, k - dz)) /
+                                       (2 * g->voxel),
+                                   2);
+                    }
                     slope += sqrt(sum);
                     steepest = fmax(steepest, sqrt(sum));
                     flattest = fmin(flattest, sqrt(sum));

@@ -44,10 +44,11 @@ static struct course erode(const char *spacing)
 /* A grid between its samples. */
 static double value_at(const struct frame_grids *g, int grid, const double x[3])
 {
+    const struct grid_lattice *l = &g->lattice;
     double f[3], sum = 0;
     int c[3];
     for (int a = 0; a < 3; a++) {
-        double s = fmin(fmax((x[a] - g->origin[a]) / g->voxel, 0), g->n[a] - 1.001);
+        double s = fmin(fmax((x[a] - l->origin[a]) / l->voxel, 0), l->n[a] - 1.001);
         c[a] = (int)s;
         f[a] = s - c[a];
     }
@@ -56,9 +57,7 @@ static double value_at(const struct frame_grids *g, int grid, const double x[3])
         double w = 1;
         for (int a = 0; a < 3; a++)
             w *= o[a] ? f[a] : 1 - f[a];
-        size_t i = ((size_t)(c[2] + o[2]) * (size_t)g->n[1] + (size_t)(c[1] + o[1])) * (size_t)g->n[0] +
-                   (size_t)(c[0] + o[0]);
-        sum += w * (double)g->grid[grid].value[i];
+        sum += w * (double)grid_at(g, &g->grid[grid], c[0] + o[0], c[1] + o[1], c[2] + o[2]);
     }
     return sum;
 }
@@ -67,15 +66,16 @@ static double value_at(const struct frame_grids *g, int grid, const double x[3])
 static void overlap(const struct frame_grids *coarse, const struct frame_grids *fine, double *surface,
                     double *density)
 {
+    const struct grid_lattice *l = &fine->lattice;
     size_t both = 0, either = 0;
     double least = 0, most = 0;
     assert_string_equal(fine->grid[0].name, "surface");
     assert_string_equal(fine->grid[1].name, "density");
-    for (int k = 0; k < fine->n[2]; k++)
-        for (int j = 0; j < fine->n[1]; j++)
-            for (int i = 0; i < fine->n[0]; i++) {
-                double x[3] = {fine->origin[0] + i * fine->voxel, fine->origin[1] + j * fine->voxel,
-                               fine->origin[2] + k * fine->voxel};
+    for (int k = 0; k < fine->lattice.n[2]; k++)
+        for (int j = 0; j < fine->lattice.n[1]; j++)
+            for (int i = 0; i < fine->lattice.n[0]; i++) {
+                double x[3] = {l->origin[0] + i * l->voxel, l->origin[1] + j * l->voxel,
+                               l->origin[2] + k * l->voxel};
                 if (x[2] < 0)
                     continue;
                 int a = value_at(fine, 0, x) < 0, b = value_at(coarse, 0, x) < 0;

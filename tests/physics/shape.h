@@ -17,19 +17,15 @@ struct shape {
 /* The voxels whose middle is inside the surface, without the field's margin. */
 static inline struct shape shape_inside(const struct frame_grids *grids, int margin)
 {
-    struct shape s = {.h = grids->voxel};
+    struct shape s = {.h = grids->lattice.voxel};
     for (int a = 0; a < 3; a++)
-        s.n[a] = grids->n[a] - 2 * margin;
+        s.n[a] = grids->lattice.n[a] - 2 * margin;
     s.rock = malloc((size_t)s.n[0] * (size_t)s.n[1] * (size_t)s.n[2]);
     for (int k = 0; k < s.n[2]; k++)
         for (int j = 0; j < s.n[1]; j++)
-            for (int i = 0; i < s.n[0]; i++) {
-                size_t from = ((size_t)(k + margin) * (size_t)grids->n[1] + (size_t)(j + margin)) *
-                                  (size_t)grids->n[0] +
-                              (size_t)(i + margin);
+            for (int i = 0; i < s.n[0]; i++)
                 s.rock[((size_t)k * (size_t)s.n[1] + (size_t)j) * (size_t)s.n[0] + (size_t)i] =
-                    grids->grid[0].value[from] < 0;
-            }
+                    grid_at(grids, &grids->grid[0], i + margin, j + margin, k + margin) < 0;
     return s;
 }
 

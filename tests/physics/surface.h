@@ -9,25 +9,24 @@
 
 struct surface {
     const struct frame_grids *grids;
-    const float *phi; /* m, negative inside */
+    const struct frame_grid *phi; /* m, negative inside */
     double volume, center[3];
 };
 
 static inline double surface_at(const struct surface *s, const double x[3])
 {
-    const struct frame_grids *g = s->grids;
-    size_t c[3];
+    const struct grid_lattice *l = &s->grids->lattice;
+    int c[3];
     double f[3], sum = 0;
     for (int a = 0; a < 3; a++) {
-        double p = fmin(fmax((x[a] - g->origin[a]) / g->voxel, 0), g->n[a] - 1.001);
-        c[a] = (size_t)p;
-        f[a] = p - (double)c[a];
+        double p = fmin(fmax((x[a] - l->origin[a]) / l->voxel, 0), l->n[a] - 1.001);
+        c[a] = (int)p;
+        f[a] = p - c[a];
     }
-    for (size_t k = 0; k < 8; k++) {
+    for (int k = 0; k < 8; k++) {
         double weight = (k & 1 ? f[0] : 1 - f[0]) * (k & 2 ? f[1] : 1 - f[1]) * (k & 4 ? f[2] : 1 - f[2]);
-        size_t i =
-            ((c[2] + (k >> 2)) * (size_t)g->n[1] + c[1] + (k >> 1 & 1)) * (size_t)g->n[0] + c[0] + (k & 1);
-        sum += weight * (double)s->phi[i];
+        sum +=
+            weight * (double)grid_at(s->grids, s->phi, c[0] + (k & 1), c[1] + (k >> 1 & 1), c[2] + (k >> 2));
     }
     return sum;
 }
@@ -35,22 +34,17 @@ static inline double surface_at(const struct surface *s, const double x[3])
 /* Volume and centre by a step smoothed over 1.5 voxels to either side. */
 static inline struct surface surface_of(const struct frame *frame)
 {
-    const struct frame_grids *g = &frame->grids;
-    struct surface s = {.grids = g};
-    double width = 1.5 * g->voxel, cell = pow(g->voxel, 3);
-    for (size_t i = 0; i < g->n_grids; i++)
-        if (strcmp(g->grid[i].name, "surface") == 0)
-            s.phi = g->grid[i].value;
-    size_t stride[3] = {1, (size_t)g->n[0], (size_t)g->n[0] * (size_t)g->n[1]};
-    for (int k = 1; k + 1 < g->n[2]; k++)
-        for (int j = 1; j + 1 < g->n[1]; j++)
-            for (int i = 1; i + 1 < g->n[0]; i++) {
-                size_t v = (size_t)k * stride[2] + (size_t)j * stride[1] + (size_t)i;
+    const struct grid_lattice *l = &frame->grids.lattice;
+    struct surface s = {.grids = &frame->grids, .phi = frame_grid_named(&frame->grids, "surface")};
+    double width = 1.5 * l->voxel, cell = pow(l->voxel, 3);
+    for (int k = 1; k + 1 < l->n[2]; k++)
+        for (int j = 1; j + 1 < l->n[1]; j++)
+            for (int i = 1; i + 1 < l->n[0]; i++) {
                 const int at[3] = {i, j, k};
-                double d = -(double)s.phi[v] / width;
+                double d = -(double)grid_at(s.grids, s.phi, i, j, k) / width;
                 double inside = d > 1 ? 1 : d < -1 ? 0 : 0.5 * (1 + d + sin(M_PI * d) / M_PI);
                 for (int a = 0; a < 3; a++)
-                    s.center[a] += inside * cell * (g->origin[a] + at[a] * g->voxel);
+                    s.center[a] += inside * cell * (l->origin[a] + at[a] * l->voxel);
                 s.volume += inside * cell;
             }
     for (int a = 0; a < 3; a++)
@@ -61,7 +55,7 @@ static inline struct surface surface_of(const struct frame *frame)
 /* How far the surface is from `from` along the unit vector, m; 0 if it begins outside. */
 static inline double surface_reach(const struct surface *s, const double from[3], const double along[3])
 {
-    double step = 0.1 * s->grids->voxel, before = surface_at(s, from);
+    double step = 0.1 * s->grids->lattice.voxel, before = surface_at(s, from);
     if (before > 0)
         return 0;
     for (double t = step;; t += step) {
@@ -94,7 +88,8 @@ static inline struct roundness surface_roundness(const struct surface *s)
             double x[2][3];
             for (int side = 0; side < 2; side++)
                 for (int b = 0; b < 3; b++)
-                    x[side][b] = s->center[b] + reach * d[b] + (a == b) * (side - 0.5) * s->grids->voxel;
+                    x[side][b] =
+                        s->center[b] + reach * d[b] + (a == b) * (side - 0.5) * s->grids->lattice.voxel;
             double slope = surface_at(s, x[1]) - surface_at(s, x[0]);
             along += slope * d[a];
             length += slope * slope;

@@ -3,6 +3,7 @@
 #define HOODOO_SAMPLE_FRAME_H
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -24,48 +25,87 @@ static inline double ball_stress(const double x[3])
     return 1e5 + 2e3 * x[0] - 3e3 * x[1] + 5e3 * x[2];
 }
 
-/* surface, density, stress and vel on a grid of `voxel` metres. */
+/* A sample of what sample_grids() has. */
+struct ball_sample {
+    float surface, density, stress, vel[3];
+};
+
+static inline struct ball_sample ball_sample(const struct grid_lattice *l, const int c[3])
+{
+    double x[3];
+    for (int a = 0; a < 3; a++)
+        x[a] = l->origin[a] + c[a] * l->voxel;
+    const double d = ball_distance(x), fill = 0.5 - d / l->voxel;
+    struct ball_sample s = {.surface = (float)d,
+                            .density = (float)(fill < 0   ? 0
+                                               : fill > 1 ? 1
+                                                          : fill),
+                            .stress = (float)ball_stress(x)};
+    if (d > 0 && d < 1) {
+        s.vel[0] = 1;
+        s.vel[1] = 2;
+        s.vel[2] = (float)x[2];
+    }
+    return s;
+}
+
+/* Calls for each sample of a brick, with where it is in an array. */
+static inline void sample_brick(struct frame_grids *g, uint32_t number, size_t at, bool *held)
+{
+    const int *m = g->bricks.n;
+    for (int v = 0; v < BRICK_SAMPLES; v++) {
+        const int c[3] = {(int)number % m[0] * BRICK_SIDE + v % BRICK_SIDE,
+                          (int)number / m[0] % m[1] * BRICK_SIDE + v / BRICK_SIDE % BRICK_SIDE,
+                          (int)number / m[0] / m[1] * BRICK_SIDE + v / BRICK_SIDE / BRICK_SIDE};
+        bool inside = true;
+        for (int a = 0; a < 3; a++)
+            inside = inside && c[a] < g->lattice.n[a];
+        struct ball_sample s = {.surface = grid_background(g, &g->grid[0])};
+        if (inside)
+            s = ball_sample(&g->lattice, c);
+        *held = *held || (double)s.surface < fmax(1, GRID_BAND * g->lattice.voxel);
+        if (!g->grid[0].value)
+            continue;
+        g->grid[0].value[at + (size_t)v] = s.surface;
+        g->grid[1].value[at + (size_t)v] = s.density;
+        g->grid[2].value[at + (size_t)v] = s.stress;
+        memcpy(g->grid[3].value + 3 * (at + (size_t)v), s.vel, sizeof s.vel);
+    }
+}
+
+/* surface, density, stress and vel on a lattice of `voxel` metres: in the bricks that hold rock, or air within a metre of it. */
 static inline status sample_grids(double voxel, struct frame_grids *g)
 {
     status st = OK;
-    size_t total = 1;
-    *g = (struct frame_grids){
-        .voxel = voxel, .origin = {1 + voxel / 2, -0.5 + voxel / 2, 0.25 + voxel / 2}, .n_grids = 4};
     const double size[3] = {13, 12, 11.5};
-    for (int a = 0; a < 3; a++) {
-        g->n[a] = (int)(size[a] / voxel);
-        total *= (size_t)g->n[a];
+    const enum value_id value[4] = {VALUE_surface, VALUE_density, VALUE_stress, VALUE_vel};
+    struct grid_lattice l = {.voxel = voxel, .origin = {1 + voxel / 2, -0.5 + voxel / 2, 0.25 + voxel / 2}};
+    uint32_t *number = NULL;
+    size_t n = 0;
+    for (int a = 0; a < 3; a++)
+        l.n[a] = (int)(size[a] / voxel);
+    TRY(frame_grids_begin(&l, g));
+    for (int i = 0; i < 4; i++) {
+        struct frame_grid *grid;
+        TRY(frame_grids_add(g, value[i], &grid));
     }
-    g->grid[0] = (struct frame_grid){.name = "surface", .unit = "m", .kind = GRID_LEVEL_SET};
-    g->grid[1] = (struct frame_grid){.name = "density", .unit = "", .kind = GRID_FOG};
-    g->grid[2] = (struct frame_grid){.name = "stress", .unit = "Pa", .kind = GRID_PLAIN};
-    g->grid[3] = (struct frame_grid){.name = "vel", .unit = "m/s", .kind = GRID_PLAIN, .components = 3};
+    const int *m = g->bricks.n;
+    const size_t all = (size_t)m[0] * (size_t)m[1] * (size_t)m[2];
+    TRY(memory_alloc(all, sizeof *number, "bricks", &number));
+    for (uint32_t b = 0; b < all; b++) {
+        bool held = false;
+        sample_brick(g, b, 0, &held);
+        if (held)
+            number[n++] = b;
+    }
+    frame_grids_choose(g, &number, n);
     for (size_t i = 0; i < 4; i++)
-        TRY(memory_alloc(total * (i == 3 ? 3 : 1), sizeof(float), "a sample grid", &g->grid[i].value));
-    for (size_t v = 0; v < total; v++) {
-        const size_t nx = (size_t)g->n[0], ny = (size_t)g->n[1], c[3] = {v % nx, v / nx % ny, v / nx / ny};
-        double x[3];
-        for (int a = 0; a < 3; a++)
-            x[a] = g->origin[a] + (double)c[a] * voxel;
-        const double d = ball_distance(x), fill = 0.5 - d / voxel;
-        g->grid[0].value[v] = (float)d;
-        g->grid[1].value[v] = (float)(fill < 0 ? 0 : fill > 1 ? 1 : fill);
-        g->grid[2].value[v] = (float)ball_stress(x);
-        if (d > 0) {
-            g->grid[3].value[3 * v] = 1;
-            g->grid[3].value[3 * v + 1] = 2;
-            g->grid[3].value[3 * v + 2] = (float)x[2];
-        }
-    }
+        TRY(memory_alloc(n * BRICK_SAMPLES * (i == 3 ? 3 : 1), sizeof(float), "samples", &g->grid[i].value));
+    for (size_t b = 0; b < n; b++)
+        sample_brick(g, g->bricks.number[b], b * BRICK_SAMPLES, &(bool){false});
 done:
+    free(number);
     return st;
-}
-
-static inline void sample_grids_free(struct frame_grids *g)
-{
-    for (size_t i = 0; i < g->n_grids; i++)
-        free(g->grid[i].value);
-    *g = (struct frame_grids){0};
 }
 
 /* Particles spaced `h` filling the ball, in a shuffled order. */

@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/choice.h"
+#include "base/memory.h"
 #include "field/field.h"
 #include "output/usd.h"
 #include "output/vdb.h"
@@ -82,9 +83,13 @@ static void every_grid_comes_back(void **state)
     (void)state;
     enum { SIDE = 8, SAMPLES = SIDE * SIDE * SIDE };
     static float value[VALUES][3 * SAMPLES];
-    struct frame_grids in = {.n = {SIDE, SIDE, SIDE}, .voxel = 0.5}, out;
+    struct frame_grids in, out;
+    uint32_t *number = NULL;
     const struct vdb_options options = {.up = OUTPUT_UP_Y, .spacing = 0.5, .frame = 1};
     struct vdb_bytes bytes;
+    assert_ok(frame_grids_begin(&(struct grid_lattice){{SIDE, SIDE, SIDE}, 0.5, {0}}, &in));
+    assert_ok(memory_alloc(1, sizeof *number, "bricks", &number));
+    frame_grids_choose(&in, &number, 1);
     for (int v = 1; v < VALUES; v++) {
         struct frame_grid *grid;
         if (!(value_table[v].where & IN_VOLUMES))
@@ -107,7 +112,10 @@ static void every_grid_comes_back(void **state)
             assert_memory_equal(out.grid[g].value, in.grid[g].value,
                                 SAMPLES * (size_t)in.grid[g].components * sizeof(float));
     }
-    vdb_volumes_free(&out);
+    frame_grids_free(&out);
+    for (size_t g = 0; g < in.n_grids; g++)
+        in.grid[g].value = NULL;
+    frame_grids_free(&in);
 }
 
 static void words_and_primvars_are_the_tables(void **state)

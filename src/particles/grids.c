@@ -1,0 +1,102 @@
+#include "particles/grids.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+size_t grid_bricks_of(const int n[3], int out[3])
+{
+    size_t total = 1;
+    for (int a = 0; a < 3; a++) {
+        out[a] = (n[a] + BRICK_SIDE - 1) / BRICK_SIDE;
+        total *= (size_t)out[a];
+    }
+    return total;
+}
+
+size_t grid_items(const struct frame_grids *grids, const struct frame_grid *grid)
+{
+    const int *n = grid->own.n;
+    return n[0] ? (size_t)n[0] * (size_t)n[1] * (size_t)n[2] : grids->bricks.count * BRICK_SAMPLES;
+}
+
+status frame_grids_begin(const struct grid_lattice *lattice, struct frame_grids *out)
+{
+    *out = (struct frame_grids){.lattice = *lattice};
+    const size_t n = grid_bricks_of(lattice->n, out->bricks.n);
+    return memory_alloc(n, sizeof *out->bricks.slot, "bricks", &out->bricks.slot);
+}
+
+void frame_grids_choose(struct frame_grids *grids, uint32_t **numbers, size_t n)
+{
+    struct grid_bricks *b = &grids->bricks;
+    b->number = *numbers;
+    b->count = n;
+    *numbers = NULL;
+    for (size_t i = 0; i < n; i++)
+        b->slot[b->number[i]] = (uint32_t)i + 1;
+}
+
+status frame_grids_add(struct frame_grids *grids, enum value_id value, struct frame_grid **out)
+{
+    const struct value *v = &value_table[value];
+    bool again = false;
+    for (size_t g = 0; g < grids->n_grids; g++)
+        again |= strcmp(grids->grid[g].name, v->name) == 0;
+    if (again || grids->n_grids == sizeof grids->grid / sizeof *grids->grid)
+        return fail(E_OUTPUT, "grid '%s' cannot be added to a frame's %zu grids%s", v->name, grids->n_grids,
+                    again ? ": it is there already" : "");
+    *out = &grids->grid[grids->n_grids++];
+    **out = (struct frame_grid){.name = v->name,
+                                .unit = v->unit,
+                                .kind = v->from == FROM_DISTANCE ? GRID_LEVEL_SET
+                                        : v->from == FROM_SHARE  ? GRID_FOG
+                                                                 : GRID_PLAIN,
+                                .components = v->kind == KIND_VECTOR ? 3 : 1};
+    return OK;
+}
+
+/* Brick `slot` from the lattice's samples. */
+static void take_brick(const struct frame_grids *grids, size_t slot, const float *samples, float background,
+                       float *to)
+{
+    const int *n = grids->lattice.n, *m = grids->bricks.n;
+    const uint32_t number = grids->bricks.number[slot];
+    const int first[3] = {(int)(number % (uint32_t)m[0]) * BRICK_SIDE,
+                          (int)(number / (uint32_t)m[0] % (uint32_t)m[1]) * BRICK_SIDE,
+                          (int)(number / (uint32_t)m[0] / (uint32_t)m[1]) * BRICK_SIDE};
+    for (int k = first[2]; k < first[2] + BRICK_SIDE; k++)
+        for (int j = first[1]; j < first[1] + BRICK_SIDE; j++)
+            for (int i = first[0]; i < first[0] + BRICK_SIDE; i++)
+                *to++ = i < n[0] && j < n[1] && k < n[2]
+                            ? samples[((size_t)k * (size_t)n[1] + (size_t)j) * (size_t)n[0] + (size_t)i]
+                            : background;
+}
+
+status frame_grid_from_lattice(const struct frame_grids *grids, const float *samples, struct frame_grid *grid)
+{
+    const size_t n = grids->bricks.count;
+    const float background = grid_background(grids, grid);
+    status st = memory_alloc(n * BRICK_SAMPLES, sizeof *grid->value, grid->name, &grid->value);
+    for (size_t b = 0; st == OK && b < n; b++)
+        take_brick(grids, b, samples, background, grid->value + b * BRICK_SAMPLES);
+    return st;
+}
+
+const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const char *name)
+{
+    for (size_t g = 0; g < grids->n_grids; g++)
+        if (strcmp(grids->grid[g].name, name) == 0 && grids->grid[g].own.n[0] == 0)
+            return &grids->grid[g];
+    return NULL;
+}
+
+void frame_grids_free(struct frame_grids *grids)
+{
+    for (size_t g = 0; g < grids->n_grids; g++)
+        free(grids->grid[g].value);
+    free(grids->bricks.number);
+    free(grids->bricks.slot);
+    *grids = (struct frame_grids){0};
+}
