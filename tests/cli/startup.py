@@ -10,6 +10,7 @@ LIBRARIES = 40
 # 30 ms is what it should cost on an idle machine, a third of it what it does. Under load the same work takes longer, so its cost
 # is compared with that of a program which does next to nothing, measured beside it.
 CPU_MS, AT_REST_MS = 30, 1.0
+DEVICE_MS = 150  # with a device: the driver's part is in it
 # Threads that wait for one whose core is busy would turn round, which counts as work: it is measured in one.
 QUIET = {**os.environ, "OMP_NUM_THREADS": "1"}
 # The suite runs two tests side by side, which share caches and memory: what takes 23 ms alone was seen to take 31 there.
@@ -54,8 +55,8 @@ ok(0 < len(loaded) <= LIBRARIES, f"hoodoo plan --device none loads at most {LIBR
 ok('"device"' not in said.stdout and "device:" not in said.stdout.replace("device_", ""), "and tells of no device", said.stdout[:600])
 
 slower = max(1, cpu_ms("/bin/true") / AT_REST_MS)
-for words in (("--version",), ("-h",), ("plan", "--device", "none", DEMO)):
-    took, bound = cpu_ms(HOODOO, *words), CPU_MS * slower * BESIDE_OTHERS
+for words, ms in ((("--version",), CPU_MS), (("-h",), CPU_MS), (("plan", "--device", "none", DEMO), CPU_MS), (("plan", DEMO), DEVICE_MS)):
+    took, bound = cpu_ms(HOODOO, *words), ms * slower * BESIDE_OTHERS
     ok(took <= bound, f"hoodoo {' '.join(words[:3])} takes at most {bound:.0f} ms of CPU time beside other tests", f"{took:.1f} ms, on a machine {slower:.1f} times slower")
 
 # What is installed finds what it was installed with.
