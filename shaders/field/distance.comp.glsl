@@ -5,24 +5,36 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_F(0, before)
-WRITE_F(1, after)
+READ_U(0, list)
+READ_U(1, slot)
+READ_F(2, before)
+WRITE_F(3, after)
 PARAMS(field_params)
 #include "field/lattice.glsl"
+
+float before_at(ivec3 c)
+{
+    uint s = LOAD_U(slot, brick_of(c));
+    return s == 0u ? 3.0 * k.h : LOAD_F(before, slot_sample(s, c));
+}
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    ivec3 c = lattice_of(i), last = ivec3(k.fx, k.fy, k.fz) - 1;
+    ivec3 c = brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES), last = ivec3(k.fx, k.fy, k.fz) - 1;
+    if (lattice_beyond(c)) {
+        AT(after, i) = 3.0 * k.h;
+        return;
+    }
     float own = LOAD_F(before, i), sign_own = own > 0.0 ? 1.0 : -1.0, far = 3.0 * k.h;
     vec3 near;
     bool beside = false;
     for (int axis = 0; axis < 3; axis++) {
         ivec3 d = ivec3(axis == 0, axis == 1, axis == 2);
-        float lower = sign_own * LOAD_F(before, lattice_index(max(c - d, ivec3(0))));
-        float upper = sign_own * LOAD_F(before, lattice_index(min(c + d, last)));
+        float lower = sign_own * before_at(max(c - d, ivec3(0)));
+        float upper = sign_own * before_at(min(c + d, last));
         beside = beside || lower <= 0.0 || upper <= 0.0;
         near[axis] = min(lower, upper);
     }

@@ -6,24 +6,36 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_F(0, share)
-WRITE_F(1, distance_out)
+READ_U(0, list)
+READ_U(1, slot)
+READ_F(2, share)
+WRITE_F(3, distance_out)
 PARAMS(field_params)
 #include "field/lattice.glsl"
+
+float share_of(ivec3 c)
+{
+    uint s = LOAD_U(slot, brick_of(c));
+    return s == 0u ? 0.0 : LOAD_F(share, slot_sample(s, c));
+}
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    ivec3 c = lattice_of(i), last = ivec3(k.fx, k.fy, k.fz) - 1;
+    ivec3 c = brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES), last = ivec3(k.fx, k.fy, k.fz) - 1;
+    if (lattice_beyond(c)) {
+        AT(distance_out, i) = 3.0 * k.h;
+        return;
+    }
     float own = 0.5 - LOAD_F(share, i), inverse = 0.0;
     bool beside = false;
     for (int axis = 0; axis < 3; axis++) {
         float steepest = 0.0; // share of the way to 1/2 that a voxel along this axis makes
         for (int side = -1; side <= 1; side += 2) {
             ivec3 d = ivec3(axis == 0, axis == 1, axis == 2) * side;
-            float other = 0.5 - LOAD_F(share, lattice_index(clamp(c + d, ivec3(0), last)));
+            float other = 0.5 - share_of(clamp(c + d, ivec3(0), last));
             beside = beside || (own > 0.0) != (other > 0.0);
             steepest = max(steepest, own != 0.0 ? (own - other) / own : 1e3);
         }

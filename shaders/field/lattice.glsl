@@ -1,11 +1,38 @@
-// The field's samples, numbered (k fy + j) fx + i. Needs k.fx, k.fy, k.fz.
+// The field's samples: k.fx by k.fy by k.fz of them, kept by bricks of 8^3 as particles/grids.h numbers them. Sample i of the
+// buffers is sample i % 512 of the brick list[i / 512].
 
-uint lattice_index(ivec3 c)
+const uint BRICK_SAMPLES = 512u;
+
+uvec3 bricks_across()
 {
-    return (uint(c.z) * k.fy + uint(c.y)) * k.fx + uint(c.x);
+    return (uvec3(k.fx, k.fy, k.fz) + 7u) >> 3;
 }
 
-ivec3 lattice_of(uint i)
+ivec3 brick_first(uint brick)
 {
-    return ivec3(i % k.fx, (i / k.fx) % k.fy, i / (k.fx * k.fy));
+    uvec3 n = bricks_across();
+    return ivec3(uvec3(brick % n.x, brick / n.x % n.y, brick / (n.x * n.y)) << 3);
+}
+
+// Sample s of a brick; maybe beyond the lattice.
+ivec3 brick_sample(uint brick, uint s)
+{
+    return brick_first(brick) + ivec3(s & 7u, (s >> 3) & 7u, s >> 6);
+}
+
+bool lattice_beyond(ivec3 c)
+{
+    return any(lessThan(c, ivec3(0))) || any(greaterThanEqual(c, ivec3(k.fx, k.fy, k.fz)));
+}
+
+uint brick_of(ivec3 c)
+{
+    uvec3 n = bricks_across(), b = uvec3(c) >> 3;
+    return (b.z * n.y + b.y) * n.x + b.x;
+}
+
+// Where a sample is in the buffers, by the slot of its brick.
+uint slot_sample(uint slot, ivec3 c)
+{
+    return (slot - 1u) * BRICK_SAMPLES + uint(((c.z & 7) << 6) | ((c.y & 7) << 3) | (c.x & 7));
 }

@@ -7,9 +7,10 @@
 #include "shared/params.h"
 #include "shared/random.glsl"
 
-READ_F(0, distance_field)
-WRITE_V(1, hit)
-WRITE_V(2, facing)
+READ_U(0, slot)
+READ_F(1, distance_field)
+WRITE_V(2, hit)
+WRITE_V(3, facing)
 PARAMS(march_params)
 #include "field/trilinear.glsl"
 

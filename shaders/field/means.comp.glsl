@@ -11,8 +11,9 @@ READ_F(1, stress)
 READ_F(2, von_mises)
 READ_F(3, viability)
 READ_U(4, phase)
-READ_F(5, share)
-WRITE_V(6, means)
+READ_U(5, list)
+READ_F(6, share)
+WRITE_V(7, means)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
@@ -39,6 +40,6 @@ void main()
     if (i >= k.n)
         return;
     if (LOAD_F(share, i) > 0.0)
-        add_around(lattice_of(i) - int(k.margin));
+        add_around(brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES) - int(k.margin));
     AT(means, i) = weights > 0.0 ? sum / weights : vec4(0.0);
 }

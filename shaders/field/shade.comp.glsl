@@ -19,6 +19,7 @@ READ_V(8, palette)
 WRITE_V(9, color)
 WRITE_V(10, fields)
 WRITE_U(11, ids)
+READ_U(12, slot)
 PARAMS(shade_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
@@ -65,7 +66,8 @@ void main()
     for (int b = 0; b < 8; b++) {
         ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2);
         vec3 near = mix(1.0 - f, f, vec3(corner));
-        vec4 mean = LOAD_V(means, lattice_index(c + corner));
+        uint brick = LOAD_U(slot, brick_of(c + corner));
+        vec4 mean = brick == 0u ? vec4(0.0) : LOAD_V(means, slot_sample(brick, c + corner));
         float weight = mean.z > 0.0 ? near.x * near.y * near.z : 0.0; // no particle near: nothing to say
         weights += weight;
         sum += weight * mean;

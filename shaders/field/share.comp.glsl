@@ -5,8 +5,9 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_F(0, fill)
-WRITE_F(1, share)
+READ_U(0, list)
+READ_F(1, fill)
+WRITE_F(2, share)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
@@ -20,6 +21,8 @@ float fill_at(ivec3 v)
 void main()
 {
     uint i = THREAD;
-    if (i < k.n)
-        AT(share, i) = share_at(lattice_of(i) - int(k.margin));
+    if (i >= k.n)
+        return;
+    ivec3 c = brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES);
+    AT(share, i) = lattice_beyond(c) ? 0.0 : share_at(c - int(k.margin));
 }

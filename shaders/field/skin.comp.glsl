@@ -9,8 +9,9 @@
 READ_U(0, start)
 READ_V(1, normal)
 READ_F(2, value)
-READ_F(3, share)
-WRITE_F(4, mean)
+READ_U(3, list)
+READ_F(4, share)
+WRITE_F(5, mean)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
@@ -34,6 +35,6 @@ void main()
     if (i >= k.n)
         return;
     if (LOAD_F(share, i) > 0.0)
-        add_around(lattice_of(i) - int(k.margin));
+        add_around(brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES) - int(k.margin));
     AT(mean, i) = sum.y > 0.0 ? sum.x / sum.y : 0.0;
 }

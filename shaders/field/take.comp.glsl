@@ -1,14 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The samples of bricks, from `first` of the list on, one brick after the other.
+// A rock's share that is known at every sample of the lattice, brought into bricks.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_F(1, from)
-WRITE_F(2, to)
-PARAMS(field_brick_params)
-#include "field/brick.glsl"
+READ_F(1, known)
+WRITE_F(2, share)
+PARAMS(field_params)
 #include "field/lattice.glsl"
 
 void main()
@@ -16,6 +15,6 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    ivec3 c = brick_sample(LOAD_U(list, k.first + i / BRICK_SAMPLES), i % BRICK_SAMPLES);
-    AT(to, i) = brick_beyond(c) ? k.background : LOAD_F(from, lattice_index(c));
+    ivec3 c = brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES);
+    AT(share, i) = lattice_beyond(c) ? 0.0 : LOAD_F(known, (uint(c.z) * k.fy + uint(c.y)) * k.fx + uint(c.x));
 }

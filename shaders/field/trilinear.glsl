@@ -1,4 +1,4 @@
-// The distance field between its samples. Needs READ_F(distance_field) and k.voxel, k.origin_*, k.fx...
+// The distance field between its samples. Needs READ_U(slot), READ_F(distance_field) and k.voxel, k.origin_*, k.fx...
 #include "field/lattice.glsl"
 
 // x in samples from the first.
@@ -7,16 +7,32 @@ vec3 lattice_position(vec3 x)
     return (x - vec3(k.origin_x, k.origin_y, k.origin_z)) / k.voxel;
 }
 
+float sample_at(ivec3 c)
+{
+    uint s = LOAD_U(slot, brick_of(c));
+    return s == 0u ? 3.0 * k.voxel : LOAD_F(distance_field, slot_sample(s, c));
+}
+
 float distance_at(vec3 x)
 {
     vec3 at = clamp(lattice_position(x), vec3(0.0), vec3(k.fx, k.fy, k.fz) - 1.001);
     ivec3 c = ivec3(at);
     vec3 f = at - vec3(c);
-    uint i = lattice_index(c), dy = k.fx, dz = k.fx * k.fy;
-    vec4 low = vec4(LOAD_F(distance_field, i), LOAD_F(distance_field, i + dy), LOAD_F(distance_field, i + dz),
-                    LOAD_F(distance_field, i + dy + dz));
-    vec4 high = vec4(LOAD_F(distance_field, i + 1u), LOAD_F(distance_field, i + dy + 1u),
-                     LOAD_F(distance_field, i + dz + 1u), LOAD_F(distance_field, i + dy + dz + 1u));
+    vec4 low, high;
+    if (all(lessThan(c & 7, ivec3(7)))) { // all eight are in one brick
+        uint s = LOAD_U(slot, brick_of(c));
+        if (s == 0u)
+            return 3.0 * k.voxel;
+        uint i = slot_sample(s, c);
+        low = vec4(LOAD_F(distance_field, i), LOAD_F(distance_field, i + 8u), LOAD_F(distance_field, i + 64u),
+                   LOAD_F(distance_field, i + 72u));
+        high = vec4(LOAD_F(distance_field, i + 1u), LOAD_F(distance_field, i + 9u), LOAD_F(distance_field, i + 65u),
+                    LOAD_F(distance_field, i + 73u));
+    } else {
+        low = vec4(sample_at(c), sample_at(c + ivec3(0, 1, 0)), sample_at(c + ivec3(0, 0, 1)), sample_at(c + ivec3(0, 1, 1)));
+        high = vec4(sample_at(c + ivec3(1, 0, 0)), sample_at(c + ivec3(1, 1, 0)), sample_at(c + ivec3(1, 0, 1)),
+                    sample_at(c + ivec3(1, 1, 1)));
+    }
     vec4 along_x = mix(low, high, f.x);
     vec2 along_y = mix(along_x.xz, along_x.yw, f.y);
     return mix(along_y.x, along_y.y, f.z);

@@ -367,16 +367,8 @@ struct field_params {
 };
 SHARED_SIZE(field_params, 36)
 
-/* Bricks of the field, as host memory keeps them (particles/grids.h). */
-struct field_brick_params {
-    uint n;
-    uint fx, fy, fz; /* samples of the field */
-    uint bx, by, bz; /* bricks */
-    uint first;      /* of the list */
-    uint component;  /* of the means */
-    float background;
-};
-SHARED_SIZE(field_brick_params, 40)
+/* Words of field/extent. */
+#define EXTENT_ANY 0x80000000u
 
 struct march_params {
     uint n;

@@ -10,44 +10,66 @@ static struct field geometry(const int voxels[3], double h)
     return f;
 }
 
-static size_t sample_count(const struct field *f)
+static size_t all_bricks(const struct field *f)
 {
-    return (size_t)f->n[0] * (size_t)f->n[1] * (size_t)f->n[2];
+    int bricks[3];
+    return grid_bricks_of(f->n, bricks);
 }
 
-uint64_t field_bytes(const int voxels[3])
+/* Of a sample: share, distance twice, means. */
+enum { SAMPLE_BYTES = 3 * 4 + 16 };
+
+/* Some more than are asked for, so that growing rock does not ask again in every frame. */
+static size_t room_for(size_t bricks)
+{
+    return bricks + bricks / 8 + 1;
+}
+
+uint64_t field_bytes(const int voxels[3], uint64_t samples)
 {
     struct field f = geometry(voxels, 1);
-    return (uint64_t)sample_count(&f) * (16 + 3 * 4);
+    return (uint64_t)all_bricks(&f) * 4 * 4 +
+           (uint64_t)room_for(samples / BRICK_SAMPLES) * BRICK_SAMPLES * SAMPLE_BYTES;
 }
 
 status field_create(struct gpu *gpu, const int voxels[3], double h, struct field *f)
 {
     status st = OK;
     *f = geometry(voxels, h);
-    size_t n = sample_count(f);
-    TRY(gpu_buffer_create(gpu, "rock share", n, 4, &f->share));
-    TRY(gpu_buffer_create(gpu, "field means", n, 16, &f->means));
-    TRY(gpu_buffer_create(gpu, "distance", n, 4, &f->distance));
-    TRY(gpu_buffer_create(gpu, "distance (other)", n, 4, &f->other));
+    const size_t n = all_bricks(f);
+    TRY(gpu_buffer_create(gpu, "slots of bricks", n, 4, &f->slot));
+    TRY(gpu_buffer_create(gpu, "bricks", n, 4, &f->list));
+    TRY(gpu_buffer_create(gpu, "held bricks", n, 4, &f->held));
+    TRY(gpu_buffer_create(gpu, "places of bricks", n, 4, &f->place));
+    TRY(field_keep(gpu, f, 0));
 done:
     if (st != OK)
         field_destroy(gpu, f);
     return st;
 }
 
-void field_destroy(struct gpu *gpu, struct field *f)
+static void destroy_samples(struct gpu *gpu, struct field *f)
 {
     gpu_buffer_destroy(gpu, &f->share);
     gpu_buffer_destroy(gpu, &f->means);
     gpu_buffer_destroy(gpu, &f->distance);
     gpu_buffer_destroy(gpu, &f->other);
+    f->room = 0;
+}
+
+void field_destroy(struct gpu *gpu, struct field *f)
+{
+    destroy_samples(gpu, f);
+    gpu_buffer_destroy(gpu, &f->slot);
+    gpu_buffer_destroy(gpu, &f->list);
+    gpu_buffer_destroy(gpu, &f->held);
+    gpu_buffer_destroy(gpu, &f->place);
 }
 
 static struct field_params params_of(const struct field *f, const struct particles *p)
 {
     return (struct field_params){
-        .n = (uint)sample_count(f),
+        .n = (uint)(f->n_bricks * BRICK_SAMPLES),
         .nx = (uint)p->voxels[0],
         .ny = (uint)p->voxels[1],
         .nz = (uint)p->voxels[2],
@@ -71,39 +93,107 @@ int field_mean(enum value_id value)
     return -1;
 }
 
+/* ---- bricks */
+
+status field_keep(struct gpu *gpu, struct field *f, size_t n)
+{
+    status st = OK;
+    const struct count_params k = {(uint)n};
+    if (n > f->room || f->room == 0) {
+        destroy_samples(gpu, f);
+        const size_t room = room_for(n), samples = room * BRICK_SAMPLES;
+        TRY(gpu_buffer_create(gpu, "rock share", samples, 4, &f->share));
+        TRY(gpu_buffer_create(gpu, "field means", samples, 16, &f->means));
+        TRY(gpu_buffer_create(gpu, "distance", samples, 4, &f->distance));
+        TRY(gpu_buffer_create(gpu, "distance (other)", samples, 4, &f->other));
+        f->room = room;
+    }
+    f->n_bricks = n;
+    gpu_fill(gpu, f->slot, 0);
+    if (n)
+        GPU_RUN(gpu, field_slots, n, k, f->list, f->slot);
+done:
+    return st;
+}
+
+/* Those near what is not 0 in a grid of `n` samples, the first of which is the field's sample `margin`. */
+static status choose(struct gpu *gpu, struct gpu_work *work, struct field *f, struct gpu_buffer *value,
+                     const int n[3], int margin)
+{
+    status st = OK;
+    size_t count;
+    const size_t all = all_bricks(f);
+    struct field_params k = {.n = (uint)all,
+                             .nx = (uint)n[0],
+                             .ny = (uint)n[1],
+                             .nz = (uint)n[2],
+                             .h = (float)f->voxel,
+                             .fx = (uint)f->n[0],
+                             .fy = (uint)f->n[1],
+                             .fz = (uint)f->n[2],
+                             .margin = (uint)margin};
+    GPU_RUN(gpu, field_extent, k.n, k, value, f->place);
+    GPU_RUN(gpu, field_held, k.n, k, f->place, f->held);
+    TRY(gpu_compact(gpu, work, f->held, f->place, f->list, all, &count));
+    TRY(field_keep(gpu, f, count));
+done:
+    return st;
+}
+
+/* ---- samples */
+
 /* Means and distance, from the share. */
 static void finish(struct gpu *gpu, struct field *f, struct particles *p)
 {
     struct field_params k = params_of(f, p);
+    if (k.n == 0)
+        return;
     GPU_RUN(gpu, field_means, k.n, k, p->start, p->field[ROCK_stress], p->field[ROCK_von_mises],
-            p->field[ROCK_viability], p->field[ROCK_phase], f->share, f->means);
-    GPU_RUN(gpu, field_front, k.n, k, f->share, f->distance);
+            p->field[ROCK_viability], p->field[ROCK_phase], f->list, f->share, f->means);
+    GPU_RUN(gpu, field_front, k.n, k, f->list, f->slot, f->share, f->distance);
     /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
-        GPU_RUN(gpu, field_distance, k.n, k, f->distance, f->other);
-        GPU_RUN(gpu, field_distance, k.n, k, f->other, f->distance);
+        GPU_RUN(gpu, field_distance, k.n, k, f->list, f->slot, f->distance, f->other);
+        GPU_RUN(gpu, field_distance, k.n, k, f->list, f->slot, f->other, f->distance);
     }
 }
 
-void field_build(struct gpu *gpu, struct field *f, struct particles *p)
+status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p)
 {
-    struct field_params k = params_of(f, p);
+    status st = OK;
     particles_fill(gpu, p);
-    GPU_RUN(gpu, field_share, k.n, k, p->fill, f->share);
+    TRY(choose(gpu, work, f, p->fill, p->voxels, FIELD_MARGIN));
+    const struct field_params k = params_of(f, p);
+    if (k.n)
+        GPU_RUN(gpu, field_share, k.n, k, f->list, p->fill, f->share);
     finish(gpu, f, p);
+done:
+    return st;
 }
 
-status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, const float *share)
+status field_build_share(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p,
+                         const float *share)
 {
-    status st = gpu_upload(gpu, f->share, 0, share, sample_count(f));
-    if (st == OK)
-        finish(gpu, f, p);
+    status st = OK;
+    struct gpu_buffer *known = NULL;
+    const size_t n = (size_t)f->n[0] * (size_t)f->n[1] * (size_t)f->n[2];
+    TRY(gpu_buffer_create(gpu, "known share", n, 4, &known));
+    TRY(gpu_upload(gpu, known, 0, share, n));
+    TRY(choose(gpu, work, f, known, f->n, 0));
+    const struct field_params k = params_of(f, p);
+    if (k.n)
+        GPU_RUN(gpu, field_take, k.n, k, f->list, known, f->share);
+    finish(gpu, f, p);
+    TRY(gpu_wait(gpu));
+done:
+    gpu_buffer_destroy(gpu, &known);
     return st;
 }
 
 void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which)
 {
     const struct field_params k = params_of(f, p);
-    GPU_RUN(gpu, field_skin, k.n, k, p->start, p->field[ROCK_N], p->field[value_field[which]], f->share,
-            f->other);
+    if (k.n)
+        GPU_RUN(gpu, field_skin, k.n, k, p->start, p->field[ROCK_N], p->field[value_field[which]], f->list,
+                f->share, f->other);
 }

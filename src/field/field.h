@@ -14,31 +14,42 @@
 #include "particles/particles.h"
 
 struct field {
-    int n[3];                 /* samples: the domain and FIELD_MARGIN voxels around */
-    double voxel, origin[3];  /* m: the particle spacing; sample 0 */
-    struct gpu_buffer *share; /* float [samples]: of rock, 0..1 */
-    struct gpu_buffer
-        *means; /* vec4 [samples]: stress (Pa), von Mises (Pa), viability, share of deposits; 0 where no
+    int n[3];                /* samples: the domain and FIELD_MARGIN voxels around */
+    double voxel, origin[3]; /* m: the particle spacing; sample 0 */
+    /* Samples are kept in the bricks (particles/grids.h) that rock is in or near; elsewhere the share and the means are 0, and
+     * the distance is that of the band's end. */
+    size_t n_bricks, room;           /* bricks kept, and those there is room for */
+    struct gpu_buffer *slot;         /* uint [bricks of the lattice]: place in the list and one more, or 0 */
+    struct gpu_buffer *list;         /* uint [bricks of the lattice]: numbers, ascending */
+    struct gpu_buffer *held, *place; /* scratch, likewise */
+    struct gpu_buffer *share;        /* float [n_bricks * 512]: of rock, 0..1 */
+    struct gpu_buffer *
+        means; /* vec4 [n_bricks * 512]: stress (Pa), von Mises (Pa), viability, share of deposits; 0 where no
                    * particle is near */
-    struct gpu_buffer *distance, *other; /* float [samples]: m, negative inside, at most 3 voxels */
+    struct gpu_buffer *distance, *other; /* float [n_bricks * 512]: m, negative inside, at most 3 voxels */
 };
 
 enum { FIELD_MARGIN = 4, FIELD_BAND = GRID_BAND };
 
-uint64_t field_bytes(const int voxels[3]);
+/* Bytes on the device, with so many samples kept. */
+uint64_t field_bytes(const int voxels[3], uint64_t samples);
 MUST_USE status field_create(struct gpu *gpu, const int voxels[3], double h, struct field *out);
 void field_destroy(struct gpu *gpu, struct field *f);
 
-/* From the particles, whose stress must be current. Records only. */
-void field_build(struct gpu *gpu, struct field *f, struct particles *p);
+/* From the particles, whose stress must be current. Waits, to know how many bricks there are. */
+MUST_USE status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p);
 
 /* The same from a rock's share that is known at every sample (host memory, 0..1; 1/2 on the surface); the
  * particles only say what lies near it. Waits. */
-MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct particles *p, const float *share);
+MUST_USE status field_build_share(struct gpu *gpu, struct gpu_work *work, struct field *f,
+                                  struct particles *p, const float *share);
 
 /* The field of a frame that was written: surface, stress, von_mises, viability and deposit from its grids, what
  * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
 MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);
+
+/* Room on the device for the list's n bricks, which are in their slots then. Records only. */
+MUST_USE status field_keep(struct gpu *gpu, struct field *f, size_t n);
 
 /* The mean of a value of the particles over those at the surface goes to `other`. Records only. */
 void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which);
@@ -46,9 +57,9 @@ void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum valu
 /* Which of the means' four components a value is; -1 if it is none. */
 int field_mean(enum value_id value);
 
-/* The grids of the volumes that come of the particles, of a frame that `has` (HAS_*) what they need (values.def): the bricks
- * with rock or surface in them, brought over a few at a time. frame_grids_free(). Waits. */
-MUST_USE status field_download(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p,
-                               unsigned has, struct frame_grids *out);
+/* The grids of the volumes that come of the particles, of a frame that `has` (HAS_*) what they need (values.def), in the
+ * field's bricks. frame_grids_free(). Waits. */
+MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p, unsigned has,
+                               struct frame_grids *out);
 
 #endif

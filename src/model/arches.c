@@ -168,11 +168,11 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
     TRY(terrain_look(&v));
     TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, m->voxels, m->h, &p));
     gpu_stage(m->gpu, "field");
-    TRY(field_build_share(m->gpu, &m->field, &p, v.share));
+    TRY(field_build_share(m->gpu, m->work, &m->field, &p, v.share));
     if (wants.points)
         TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
     if (wants.volumes) {
-        TRY(field_download(m->gpu, m->work, &m->field, &p, HAS_ALWAYS, &out->grids));
+        TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
         TRY(add_ratios(&v, &out->grids));
     }
     if (wants.pictures) {
@@ -336,6 +336,8 @@ static status estimate(const struct job *job, struct model_needs *needs)
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
     needs->samples = host_grid_samples(n, ground.n_particles, ground.n_surface);
     needs->frame_bytes = value_grids(HAS_TERRAIN) * needs->samples * sizeof(float);
+    /* On the device, the shares come as a lattice. */
+    needs->device_bytes = terrain_samples(n) * sizeof(float);
     /* The stacks, and what frames are made from: shares and materials of every sample of the field. */
     needs->host_bytes =
         (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) + terrain_view_bytes(n);

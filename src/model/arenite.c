@@ -356,12 +356,12 @@ static status output(struct model *m, struct frame *out)
         TRY(show_water(a));
     gpu_stage(m->gpu, "field");
     if (wants.volumes || wants.pictures)
-        field_build(m->gpu, &m->field, &a->particles);
+        TRY(field_build(m->gpu, m->work, &m->field, &a->particles));
     if (wants.points || (wants.volumes && a->tile.n))
         TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
     if (wants.volumes) {
         TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
-        TRY(field_download(m->gpu, m->work, &m->field, &a->particles, has, &out->grids));
+        TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
     }
     if (wants.volumes || wants.pictures)
         TRY(air_add(m->gpu, &a->wind, m->job, m->frame, &out->grids));

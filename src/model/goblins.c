@@ -146,11 +146,11 @@ static status show(struct goblins *g, struct frame_wants wants, struct particles
     }
     gpu_stage(g->m.gpu, "field");
     if (wants.volumes || wants.pictures)
-        field_build(g->m.gpu, &g->m.field, p);
+        TRY(field_build(g->m.gpu, g->m.work, &g->m.field, p));
     if (wants.points)
         TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
     if (wants.volumes)
-        TRY(field_download(g->m.gpu, g->m.work, &g->m.field, p, HAS_ALWAYS, &out->grids));
+        TRY(field_download(g->m.gpu, &g->m.field, p, HAS_ALWAYS, &out->grids));
     if (wants.pictures) {
         gpu_stage(g->m.gpu, "pictures");
         TRY(aov_render_all(g->m.gpu, &g->m.aov, job, &g->m.field, p, NULL, out));

@@ -40,6 +40,9 @@ struct terrain_view {
 MUST_USE status terrain_look(struct terrain_view *v);
 void terrain_view_free(struct terrain_view *v);
 
+/* The samples that are looked at, for a domain of these voxels. */
+uint64_t terrain_samples(const int voxels[3]);
+
 /* What looking takes in host memory, for a domain of these voxels, but for the rock. */
 uint64_t terrain_view_bytes(const int voxels[3]);
 

@@ -70,12 +70,17 @@ struct found {
     uint8_t is_one;
 };
 
-uint64_t terrain_view_bytes(const int voxels[3])
+uint64_t terrain_samples(const int voxels[3])
 {
     uint64_t n = 1;
     for (int a = 0; a < 3; a++)
         n *= (uint64_t)voxels[a] + 2 * FIELD_MARGIN;
-    return n * ((1 + TERRAIN_RATIOS) * sizeof(float) + sizeof(struct found));
+    return n;
+}
+
+uint64_t terrain_view_bytes(const int voxels[3])
+{
+    return terrain_samples(voxels) * ((1 + TERRAIN_RATIOS) * sizeof(float) + sizeof(struct found));
 }
 
 static void look_at(const struct terrain_view *v, const struct surface *s, const int x[3], struct found *out)

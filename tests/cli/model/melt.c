@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "frame/host.h"
 #include "model/sections.h"
 #include "model/type.h"
 #include "particles/particles.h"
@@ -27,6 +28,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
     status st = OK;
     TRY(scene_estimate(job, &needs->size));
     needs->disk = (struct disk_particle){.inside = 10, .bare = 30, .volumes_bare = 50, .channel = 1.5};
+    needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     needs->checkpoint_bytes = 4 * (uint64_t)needs->size.n_particles;
     needs->steps = job->frames.last - job->frames.first;
 done:
@@ -87,7 +89,7 @@ static status output(struct model *m, struct frame *out)
     struct particles p = {0};
     TRY(particles_create(m->gpu, m->work, &of(m)->rock, STATE, m->voxels, m->h, &p));
     TRY(particles_surface(m->gpu, m->work, &p));
-    field_build(m->gpu, &m->field, &p);
+    TRY(field_build(m->gpu, m->work, &m->field, &p));
     TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
     TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
     TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &p, NULL, out));

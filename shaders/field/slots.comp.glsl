@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Each kept brick's place in the list, and one more.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+WRITE_U(1, slot)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(slot, LOAD_U(list, i)) = i + 1u;
+}
