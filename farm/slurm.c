@@ -343,6 +343,7 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
     if (!o->dry_run) {
         TRY(path_join(&path, f->root.text, "farm/slurm"));
         TRY(folder_make(path.text));
+        atomic_file_sweep(path.text);
         TRY(slurm_active(f, job));
     }
     for (size_t i = 0; i < g->n; i++) {

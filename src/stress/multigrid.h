@@ -46,7 +46,8 @@ uint64_t multigrid_bytes(const int cells[3]);
 MUST_USE status multigrid_create(struct gpu *gpu, const int cells[3], struct multigrid *out);
 void multigrid_destroy(struct gpu *gpu, struct multigrid *m);
 
-/* For a shape: fill and params of the finest level, which the caller has set, are taken to the coarser ones. `flags` and `place` (a word for each node of the finest) are scratch. Waits. */
+/* For a shape: fill and params of the finest level, which the caller has set, are taken to the coarser ones. `flags` and
+ * `place` (a word for each node of the finest) are scratch. Waits. */
 MUST_USE status multigrid_assemble(struct gpu *gpu, struct gpu_work *work, struct multigrid *m,
                                    struct gpu_buffer *flags, struct gpu_buffer *place);
 
