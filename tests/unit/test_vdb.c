@@ -144,6 +144,14 @@ static void write_points(const char *path, double h, const struct vdb_options *o
     rock_free(&rock);
 }
 
+/* Member by member: there is room between them that holds anything. */
+static void assert_same_lattice(const struct grid_lattice *a, const struct grid_lattice *b)
+{
+    assert_memory_equal(a->n, b->n, sizeof a->n);
+    assert_true(a->voxel == b->voxel);
+    assert_memory_equal(a->origin, b->origin, sizeof a->origin);
+}
+
 /* With the ball's, as a file has it: cut at the background, and nothing where no rock is. */
 static void compare_sample(const struct frame_grids *out, const int c[3])
 {
@@ -170,7 +178,7 @@ static void volumes_come_back(void **state)
             write_volumes("round.vdb", 0.25, &options);
             assert_int_equal(sample_grids(0.25, &in), OK);
             assert_int_equal(vdb_volumes_read("round.vdb", &out), OK);
-            assert_memory_equal(&in.lattice, &out.lattice, sizeof in.lattice);
+            assert_same_lattice(&in.lattice, &out.lattice);
             assert_int_equal(out.n_grids, in.n_grids);
             assert_true(out.bricks.count > 10 && out.bricks.count <= in.bricks.count);
             assert_true(codec > 0 || in.bricks.count < grid_bricks_of(in.lattice.n, bricks));
@@ -206,9 +214,9 @@ static void a_grid_with_its_own_lattice_comes_back(void **state)
         assert_int_equal(vdb_volumes(&in, &options, &file), OK);
         assert_int_equal(atomic_file_write("own.vdb", file.bytes, file.size), OK);
         assert_int_equal(vdb_volumes_read("own.vdb", &out), OK);
-        assert_memory_equal(&in.lattice, &out.lattice, sizeof in.lattice);
+        assert_same_lattice(&in.lattice, &out.lattice);
         assert_string_equal(out.grid[3].name, "vel");
-        assert_memory_equal(&out.grid[3].own, &in.grid[3].own, sizeof in.grid[3].own);
+        assert_same_lattice(&out.grid[3].own, &in.grid[3].own);
         assert_int_equal(out.grid[2].own.n[0], 0);
         assert_memory_equal(out.grid[3].value, wind, sizeof wind);
         in.grid[3].value = NULL;
