@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/version.h"
+#include "bench/help.h"
 #include "model/model.h"
 #include "output/folder.h"
 #include "run/writer.h"
@@ -15,34 +15,6 @@
 #include "tests/ref/elastic_ref.h"
 
 enum { CELLS = 128, REPEATS = 7, FRAMES = 8 };
-
-static double clock_at(clockid_t id)
-{
-    struct timespec t;
-    clock_gettime(id, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double now(void)
-{
-    return clock_at(CLOCK_MONOTONIC);
-}
-
-static void check(status st)
-{
-    if (st == OK)
-        return;
-    fprintf(stderr, "bench: %s\n", status_message());
-    exit((int)st);
-}
-
-static void *need(size_t n, size_t size)
-{
-    void *memory = calloc(n, size);
-    if (!memory)
-        check(fail(E_MEMORY, "no memory for %zu items", n));
-    return memory;
-}
 
 /* ---- K u in plain C: rows of nodes, element by element, as the compiler vectorises it best */
 
@@ -160,14 +132,14 @@ static void matvec(void)
                                    .dx = (float)g.dx};
     double device = INFINITY, plain = INFINITY;
     for (int r = 0; r <= REPEATS; r++) { /* the first compiles */
-        double start = now();
+        double start = clock_seconds();
         GPU_RUN(gpu, stress_matvec, n, params, d_list, d_u, d_fill, d_q, d_product);
         check(gpu_wait(gpu));
         if (r > 0)
-            device = fmin(device, now() - start);
-        start = now();
+            device = fmin(device, clock_seconds() - start);
+        start = clock_seconds();
         apply_in_c((const float(*)[8][3][3])blocks, g.cells, fill, split, result);
-        plain = fmin(plain, now() - start);
+        plain = fmin(plain, clock_seconds() - start);
     }
     check(gpu_download(gpu, d_q, 0, image, n));
     double error = 0, most = 0;
@@ -214,7 +186,7 @@ static double demo(const struct job *job, const char *root, int stages, double *
         check(folder_prepare(root));
         check(writer_create(job, 0, root, &writer));
     }
-    double start = now(), cpu_start = clock_at(CLOCK_PROCESS_CPUTIME_ID);
+    double start = clock_seconds(), cpu_start = cpu_seconds();
     for (int f = 0; f < FRAMES; f++) {
         check(model_step(model));
         check(model_output(model, &frame));
@@ -224,8 +196,8 @@ static double demo(const struct job *job, const char *root, int stages, double *
             frame_free(&frame);
     }
     check(writer_finish(&writer));
-    double seconds = now() - start, cpu_seconds = clock_at(CLOCK_PROCESS_CPUTIME_ID) - cpu_start;
-    *cpu = fmin(*cpu, cpu_seconds);
+    double seconds = clock_seconds() - start;
+    *cpu = fmin(*cpu, cpu_seconds() - cpu_start);
     if (stages) {
         const struct gpu_time *times;
         size_t n = gpu_stage_times(gpu, &times);

@@ -7,21 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "base/clock.h"
-#include "base/status.h"
+#include "bench/help.h"
 #include "scene/scene.h"
 #include "voxels/voxels.h"
-
-static void check(status st)
-{
-    if (st == OK)
-        return;
-    fprintf(stderr, "goblins: %s\n", status_message());
-    exit(1);
-}
 
 /* A block of n voxels that fills its domain, bubbles of so many voxels. */
 static struct job *block(const int n[3], int radius)

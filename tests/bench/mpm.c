@@ -5,36 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#include "base/clock.h"
+#include "bench/help.h"
 #include "mpm/internal.h"
 
 enum { CELLS = 128, SIDE = 100, REPEATS = 7 }; /* 100^3 particles: 50^3 cells of them */
-
-/* s of the processors' time, of all threads: what a busy machine leaves alone. */
-static double spent(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void check(status st)
-{
-    if (st == OK)
-        return;
-    fprintf(stderr, "mpm: %s\n", status_message());
-    exit((int)st);
-}
-
-static void *need(size_t n, size_t size)
-{
-    void *memory = calloc(n, size);
-    if (!memory)
-        check(fail(E_MEMORY, "no memory for %zu items", n));
-    return memory;
-}
 
 /* ---- plain C */
 
@@ -334,18 +309,18 @@ static void compare(void)
     double device = INFINITY, plain = INFINITY, sorted = INFINITY, error = 0;
     double device_cpu = INFINITY, plain_cpu = INFINITY;
     for (int i = 0; i <= REPEATS; i++) { /* the first compiles */
-        double begin = clock_seconds(), cpu = spent();
+        double begin = clock_seconds(), cpu = cpu_seconds();
         mpm_step(gpu, &m, &k, false);
         check(gpu_wait(gpu));
         if (i > 0)
             device = fmin(device, clock_seconds() - begin);
         if (i > 0)
-            device_cpu = fmin(device_cpu, spent() - cpu);
+            device_cpu = fmin(device_cpu, cpu_seconds() - cpu);
         begin = clock_seconds();
-        cpu = spent();
+        cpu = cpu_seconds();
         step_in_c(&r, p, n, start, grid);
         plain = fmin(plain, clock_seconds() - begin);
-        plain_cpu = fmin(plain_cpu, spent() - cpu);
+        plain_cpu = fmin(plain_cpu, cpu_seconds() - cpu);
     }
     check(gpu_download(gpu, m.vector[MPM_VELOCITY], 0, speed, n));
     for (size_t i = 0; i < n; i++)

@@ -5,36 +5,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/version.h"
+#include "bench/help.h"
 #include "stress/elastic.h"
 #include "tests/ref/multigrid_ref.h"
 
 #define GOAL 1e-3
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void check(status st)
-{
-    if (st == OK)
-        return;
-    fprintf(stderr, "bench: %s\n", status_message());
-    exit((int)st);
-}
-
-static void *need(size_t n, size_t size)
-{
-    void *memory = calloc(n, size);
-    if (!memory)
-        check(fail(E_MEMORY, "no memory for %zu items", n));
-    return memory;
-}
 
 /* ---- the shapes, in a cube of 64 m */
 
@@ -126,10 +103,10 @@ static double solve(struct bench *b, bool multigrid, int iterations, double tole
     e->options.tolerance = tolerance;
     gpu_fill(b->gpu, e->u, 0);
     check(gpu_wait(b->gpu));
-    double start = now();
+    double start = clock_seconds();
     check(elastic_solve(b->gpu, b->work, e));
     check(gpu_wait(b->gpu));
-    start = now() - start;
+    start = clock_seconds() - start;
     GPU_RUN(b->gpu, stress_recover, k.n, k, e->u, e->fill, e->normal_stress, e->shear_stress);
     check(gpu_download(b->gpu, e->normal_stress, 0, stress, elastic_cells(e)));
     return start;
@@ -198,9 +175,9 @@ static void compare(int shape, int cells)
     struct multigrid_ref *ref = multigrid_ref_create(&g, fill);
     if (!ref)
         check(fail(E_MEMORY, "no memory for plain C"));
-    start = now();
+    start = clock_seconds();
     multigrid_ref_solve(ref, 2300 * 9.81 * pow(b.e.dx, 3), cycles < 1024 ? cycles : 1024, taken, u);
-    start = now() - start;
+    start = clock_seconds() - start;
     printf("%-10s %4d^3 cells, %8zu nodes: multigrid %3d iterations %7.2f s; Jacobi %5d %7.2f s, ratio %5.1f "
            "(goal "
            "4); plain C multigrid %6.2f s, ratio %4.2f (goal 0.7); memory %.2f of Jacobi's (goal 1.35)\n",

@@ -7,40 +7,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/random.h"
 #include "base/version.h"
+#include "bench/help.h"
 #include "tests/ref/flow_ref.h"
 #include "water/water.h"
 
 enum { VOXELS = 256, REPEATS = 5 };
-
-static double clock_at(clockid_t id)
-{
-    struct timespec t;
-    clock_gettime(id, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double now(void)
-{
-    return clock_at(CLOCK_MONOTONIC);
-}
-
-/* Of all threads: what others do on the machine does not show in it. */
-static double cpu(void)
-{
-    return clock_at(CLOCK_PROCESS_CPUTIME_ID);
-}
-
-static void check(status st)
-{
-    if (st == OK)
-        return;
-    fprintf(stderr, "water: %s\n", status_message());
-    exit(1);
-}
 
 /* Noise between -1 and 1, smooth over `size` voxels. */
 static double smooth(double x, double y, double z, double size, uint32_t seed)
@@ -116,19 +90,19 @@ int main(int argc, char **argv)
     for (int r = 0; r <= REPEATS; r++) {
         if (r == 1)
             gpu_times_reset(gpu);
-        double start = now();
+        double start = clock_seconds();
         how.cells = false;
         check(water_route(gpu, work, &w, &how, &p));
         check(gpu_wait(gpu));
-        device = r ? fmin(device, now() - start) : device;
-        start = now();
-        double start_cpu = cpu();
+        device = r ? fmin(device, clock_seconds() - start) : device;
+        start = clock_seconds();
+        double start_cpu = cpu_seconds();
         how.cells = true;
         check(water_route(gpu, work, &w, &how, &p));
         check(water_discharge(gpu, work, &w, &job, 1, &p));
         check(gpu_wait(gpu));
-        all = r ? fmin(all, now() - start) : all;
-        all_cpu = r ? fmin(all_cpu, cpu() - start_cpu) : all_cpu;
+        all = r ? fmin(all, clock_seconds() - start) : all;
+        all_cpu = r ? fmin(all_cpu, cpu_seconds() - start_cpu) : all_cpu;
     }
     for (int i = 0; i < KERNELS; i++) {
         const struct gpu_time *t = gpu_kernel_time(gpu, (enum gpu_kernel)i);
@@ -140,10 +114,10 @@ int main(int argc, char **argv)
     struct flow_ref f = {0};
     for (int r = 0; r < 2; r++) {
         flow_ref_free(&f);
-        double start = now(), start_cpu = cpu();
+        double start = clock_seconds(), start_cpu = cpu_seconds();
         f = flow_ref_route(&rock, n, 1, w.shift, random, false);
-        plain = fmin(plain, now() - start);
-        plain_cpu = fmin(plain_cpu, cpu() - start_cpu);
+        plain = fmin(plain, clock_seconds() - start);
+        plain_cpu = fmin(plain_cpu, cpu_seconds() - start_cpu);
     }
     check(gpu_download(gpu, w.receiver, 0, receiver, f.n));
     printf("routing on %d^3 cells, %zu spans, %zu basins: device %.1f ms (with discharge and every cell's "

@@ -3,23 +3,14 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
-#include "base/clock.h"
+#include "bench/help.h"
 #include "gpu/primitives.h"
 #include "particles/particles.h"
 #include "scene/scene.h"
 #include "wind/flow.h"
 
 enum { STEPS = 12, REPEATS = 7 };
-
-static void check(status st)
-{
-    if (st == OK)
-        return;
-    fprintf(stderr, "bench: %s\n", status_message());
-    exit((int)st);
-}
 
 static void *copy(struct gpu *gpu, struct gpu_buffer *b, size_t n)
 {
