@@ -2,12 +2,7 @@
 # A process is six files: its own three, its keys with its row, what it has on the device, and its place in the frame. A copy of the
 # tree gets one more that way, exfoliation; it must be in every place where processes are, with nothing else changed.
 set -u
-say() {
-    if [ "$1" = 0 ]; then echo "ok $2"; else echo "not ok $2"; fi
-}
-mkdir tree
-(cd "$HOODOO_TOP" && cp -a Makefile src shaders render farm jobs tests "$OLDPWD/tree") || exit 1
-cp -a "$(dirname "$HOODOO")" tree/build || exit 1
+. "$HOODOO_TOP/tests/long/lib/tree.sh"
 own=$HOODOO_TOP/tests/long/one_process
 mkdir tree/src/exfoliation tree/shaders/exfoliation
 cp "$own/exfoliation.c" "$own/exfoliation.h" tree/src/exfoliation
@@ -47,13 +42,7 @@ sed 's/^/# /' touched
 [ "$(wc -l <touched)" = 6 ]
 say $? "six files are touched"
 
-make -C tree build/hoodoo >make.log 2>&1 || {
-    grep -E 'error|warning' make.log | head -20
-    echo "not ok the tree builds with one more process"
-    exit 1
-}
-! grep -q warning make.log
-say $? "the tree builds with one more process, without warnings"
+build_tree process
 make -C tree reference >make.log 2>&1 && grep -q '^| `exfoliation` | arenite | sheets that come off | skin that bare rock sheds |$' tree/jobs/README.md
 say $? "the page of jobs lists it"
 
@@ -67,8 +56,6 @@ scene: {box: {min_m: [3, 3, 0], max_m: [9, 7, 8]}}
 strata: [{weak_m_per_kyr: 0.1, interlock_MPa: 0.1}]
 checkpoint: {every: 2}
 J
-hoodoo=$PWD/tree/build/hoodoo
-export HOODOO_LIBEXEC="$PWD/tree/build"
 try() {
     name=$1
     shift
