@@ -8,6 +8,8 @@ import subprocess
 import sys
 import time
 
+from script import finish, ok
+
 HOODOO = os.environ["HOODOO"]
 JOB = os.path.join(os.environ["HOODOO_TOP"], "tests/restart/twelve.yaml")
 FIRST, LAST = 1001, 1012
@@ -132,20 +134,6 @@ class Truth:
         return "; ".join(bad)
 
 
-failures = 0
-
-
-def ok(good, name, *notes):
-    global failures
-    print("ok" if good else "not ok", name, flush=True)
-    if not good:
-        failures += 1
-        for note in notes:
-            for line in str(note).splitlines():
-                print("#", line, flush=True)
-    return good
-
-
 def stop(out, frame, number, times=1):
     """A run stopped by a signal once `frame` is written: exit code and what it said."""
     held = Held(out)
@@ -159,10 +147,6 @@ def errors(said):
     """The lines that are neither progress nor information nor warnings: those after the last of them."""
     return [line for line in said.splitlines() if not line.startswith(
         ("hoodoo: frame", "hoodoo: about ", "hoodoo: continuing ", "hoodoo: device time", "hoodoo: warning: ", "hoodoo: all "))]
-
-
-def finish():
-    sys.exit(1 if failures else 0)
 
 
 SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1)
