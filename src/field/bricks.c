@@ -17,7 +17,7 @@ static size_t chunk_of(size_t count, size_t first)
 /* Room for the means of a few bricks. */
 static status chunk_create(size_t count, float **out)
 {
-    return memory_alloc(4 * chunk_of(count, 0), sizeof **out, "field means", out);
+    return memory_alloc(FIELD_MEANS * chunk_of(count, 0), sizeof **out, "field means", out);
 }
 
 /* ---- to the host */
@@ -35,8 +35,13 @@ done:
     return st;
 }
 
-/* One component of the means. */
-static status download_mean(struct gpu *gpu, const struct field *f, int component, float *out)
+/* The grids that have one of the means' components; NULL where there is none. */
+struct mean_grids {
+    float *value[FIELD_MEANS];
+};
+
+/* All of them at once, so that the means come over once. */
+static status download_means(struct gpu *gpu, const struct field *f, const struct mean_grids *to)
 {
     status st = OK;
     float *chunk = NULL;
@@ -44,37 +49,34 @@ static status download_mean(struct gpu *gpu, const struct field *f, int componen
     for (size_t first = 0; first < f->n_bricks; first += TOGETHER) {
         const size_t n = chunk_of(f->n_bricks, first);
         TRY(gpu_download(gpu, f->means, first * BRICK_SAMPLES, chunk, n));
-        for (size_t i = 0; i < n; i++)
-            out[first * BRICK_SAMPLES + i] = chunk[4 * i + (size_t)component];
+        for (size_t c = 0; c < FIELD_MEANS; c++)
+            for (size_t i = 0; to->value[c] && i < n; i++)
+                to->value[c][first * BRICK_SAMPLES + i] = chunk[FIELD_MEANS * i + c];
     }
 done:
     free(chunk);
     return st;
 }
 
+/* All but the means. */
 static status download_value(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which,
-                             struct frame_grid *grid)
+                             float *out)
 {
     status st = OK;
     const size_t n = f->n_bricks * BRICK_SAMPLES;
-    TRY(memory_alloc(n, sizeof(float), grid->name, &grid->value));
     if (n == 0)
-        goto done;
+        return OK;
     switch (value_table[which].from) {
     case FROM_DISTANCE:
-        TRY(gpu_download(gpu, f->distance, 0, grid->value, n));
-        break;
+        return gpu_download(gpu, f->distance, 0, out, n);
     case FROM_SHARE:
-        TRY(gpu_download(gpu, f->share, 0, grid->value, n));
+        TRY(gpu_download(gpu, f->share, 0, out, n));
         for (size_t i = 0; i < n; i++)
-            grid->value[i] = fminf(grid->value[i], 1);
-        break;
-    case FROM_MEANS:
-        TRY(download_mean(gpu, f, field_mean(which), grid->value));
+            out[i] = fminf(out[i], 1);
         break;
     default: /* means over the surface's particles. `other` is free once the distances are there */
         field_skin(gpu, f, p, which);
-        TRY(gpu_download(gpu, f->other, 0, grid->value, n));
+        return gpu_download(gpu, f->other, 0, out, n);
     }
 done:
     return st;
@@ -91,6 +93,7 @@ status field_download(struct gpu *gpu, struct field *f, struct particles *p, uns
                       struct frame_grids *out)
 {
     status st = OK;
+    struct mean_grids means = {0};
     struct grid_lattice lattice = {.voxel = f->voxel};
     memcpy(lattice.n, f->n, sizeof lattice.n);
     memcpy(lattice.origin, f->origin, sizeof lattice.origin);
@@ -101,8 +104,13 @@ status field_download(struct gpu *gpu, struct field *f, struct particles *p, uns
         if (!makes((enum value_id)v, has))
             continue;
         TRY(frame_grids_add(out, (enum value_id)v, &grid));
-        TRY(download_value(gpu, f, p, (enum value_id)v, grid));
+        TRY(memory_alloc(f->n_bricks * BRICK_SAMPLES, sizeof *grid->value, grid->name, &grid->value));
+        if (field_mean((enum value_id)v) >= 0)
+            means.value[field_mean((enum value_id)v)] = grid->value;
+        else
+            TRY(download_value(gpu, f, p, (enum value_id)v, grid->value));
     }
+    TRY(download_means(gpu, f, &means));
 done:
     if (st != OK)
         frame_grids_free(out);
@@ -119,13 +127,13 @@ static status upload_means(struct gpu *gpu, struct field *f, const struct frame_
     TRY(chunk_create(f->n_bricks, &chunk));
     for (size_t first = 0; first < f->n_bricks; first += TOGETHER) {
         const size_t n = chunk_of(f->n_bricks, first);
-        memset(chunk, 0, 4 * n * sizeof *chunk);
+        memset(chunk, 0, FIELD_MEANS * n * sizeof *chunk);
         for (int v = 1; v < VALUES; v++) {
             const int component = field_mean((enum value_id)v);
             const struct frame_grid *grid =
                 component < 0 ? NULL : frame_grid_named(grids, value_table[v].name);
             for (size_t i = 0; grid && i < n; i++)
-                chunk[4 * i + (size_t)component] = grid->value[first * BRICK_SAMPLES + i];
+                chunk[FIELD_MEANS * i + (size_t)component] = grid->value[first * BRICK_SAMPLES + i];
         }
         TRY(gpu_upload(gpu, f->means, first * BRICK_SAMPLES, chunk, n));
     }

@@ -82,12 +82,12 @@ static struct field_params params_of(const struct field *f, const struct particl
 }
 
 /* What finish() takes the means of, in their order. */
-enum { MEANS = 4 };
-static const enum value_id means_of[MEANS] = {VALUE_stress, VALUE_von_mises, VALUE_viability, VALUE_deposit};
+static const enum value_id means_of[FIELD_MEANS] = {VALUE_stress, VALUE_von_mises, VALUE_viability,
+                                                    VALUE_deposit};
 
 int field_mean(enum value_id value)
 {
-    for (int c = 0; c < MEANS; c++)
+    for (int c = 0; c < FIELD_MEANS; c++)
         if (means_of[c] == value)
             return c;
     return -1;

@@ -29,7 +29,7 @@ struct field {
     struct gpu_buffer *distance, *other; /* float [n_bricks * 512]: m, negative inside, at most 3 voxels */
 };
 
-enum { FIELD_MARGIN = 4, FIELD_BAND = GRID_BAND };
+enum { FIELD_MARGIN = 4, FIELD_BAND = GRID_BAND, FIELD_MEANS = 4 };
 
 /* Bytes on the device, with so many samples kept. */
 uint64_t field_bytes(const int voxels[3], uint64_t samples);
@@ -48,7 +48,8 @@ MUST_USE status field_build_share(struct gpu *gpu, struct gpu_work *work, struct
  * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
 MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);
 
-/* Room on the device for the list's n bricks, which are in their slots then. Records only. */
+/* Room on the device for the list's n bricks, which are in their slots then. What was in the samples is lost where there was less
+ * room. */
 MUST_USE status field_keep(struct gpu *gpu, struct field *f, size_t n);
 
 /* The mean of a value of the particles over those at the surface goes to `other`. Records only. */

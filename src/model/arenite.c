@@ -295,17 +295,12 @@ done:
 
 /* ---- what a frame shows */
 
-/* Volume and largest stress, of all there is: also in frames that show nothing. */
-static status measure(const struct arenite *a, struct frame *out)
+/* Volume and largest stress, of all n particles. */
+static status measure(const struct arenite *a, const float *stress, const float *viability, struct frame *out)
 {
-    const struct particles *p = &a->particles;
     status st = OK;
-    float *stress = NULL, *viability = NULL;
+    const struct particles *p = &a->particles;
     double most = 0;
-    TRY(memory_alloc(p->n, sizeof *stress, "stresses", &stress));
-    TRY(memory_alloc(p->n, sizeof *viability, "viabilities", &viability));
-    TRY(gpu_download(a->m.gpu, p->field[ROCK_stress], 0, stress, p->n));
-    TRY(gpu_download(a->m.gpu, p->field[ROCK_viability], 0, viability, p->n));
     for (size_t i = 0; i < p->n; i++) {
         if (!isfinite(stress[i]) || !isfinite(viability[i])) {
             uint32_t id;
@@ -319,6 +314,21 @@ static status measure(const struct arenite *a, struct frame *out)
     }
     out->volume_m3 = model_sum(viability, p->n) * pow(a->m.h, 3);
     out->max_stress_Pa = most;
+done:
+    return st;
+}
+
+/* The same of a frame without its particles: what is measured comes over alone. */
+static status measure_alone(const struct arenite *a, struct frame *out)
+{
+    const struct particles *p = &a->particles;
+    status st = OK;
+    float *stress = NULL, *viability = NULL;
+    TRY(memory_alloc(p->n, sizeof *stress, "stresses", &stress));
+    TRY(memory_alloc(p->n, sizeof *viability, "viabilities", &viability));
+    TRY(gpu_download(a->m.gpu, p->field[ROCK_stress], 0, stress, p->n));
+    TRY(gpu_download(a->m.gpu, p->field[ROCK_viability], 0, viability, p->n));
+    TRY(measure(a, stress, viability, out));
 done:
     free(stress);
     free(viability);
@@ -351,14 +361,17 @@ static status output(struct model *m, struct frame *out)
     const unsigned has = arenite_has(water_ever_flows(m->job), a->plants, a->deposits);
     struct aov_air air = {0};
     out->stress_iterations = a->elastic.iterations;
-    TRY(measure(a, out));
     if (wants.points || wants.volumes || wants.pictures)
         TRY(show_water(a));
     gpu_stage(m->gpu, "field");
     if (wants.volumes || wants.pictures)
         TRY(field_build(m->gpu, m->work, &m->field, &a->particles));
-    if (wants.points || (wants.volumes && a->tile.n))
+    if (wants.points || (wants.volumes && a->tile.n)) {
         TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
+        TRY(measure(a, out->rock.stress, out->rock.viability, out));
+    } else {
+        TRY(measure_alone(a, out));
+    }
     if (wants.volumes) {
         TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
         TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
