@@ -103,6 +103,8 @@ status child_start(const struct child_options *o, struct child *out)
     status st = make_environment(o, &environment);
     if (st != OK)
         return st;
+    /* Where it is ignored, as whoever started us may have left it, nobody is told how a child ended. */
+    signal(SIGCHLD, SIG_DFL);
     fflush(NULL); /* what we have said stands before what it says */
     pid_t pid = launch(o, environment);
     int error = errno;
