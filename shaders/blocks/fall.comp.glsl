@@ -11,8 +11,12 @@ READ_U(3, start)
 READ_U(4, phase)
 WRITE_F(5, viability)
 WRITE_U(6, counts)
+READ_U(7, words)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 #include "blocks/stands.glsl"
 
 void main()

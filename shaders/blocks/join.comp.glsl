@@ -7,33 +7,39 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, solid)
-READ_U(1, root)
-WRITE_U(2, pointer)
-WRITE_U(3, counts)
+READ_U(0, words)
+READ_U(1, list)
+READ_U(2, solid)
+READ_U(3, root)
+WRITE_U(4, pointer)
+WRITE_U(5, counts)
 PARAMS(voxel_params)
+#include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
 
-bool rock(uint v)
+// The lower one of a root and that of the neighbour v.
+uint lower(uint least, ivec3 v)
 {
-    return LOAD_U(solid, v) != 0u;
+    uint s = voxel_inside(v) ? voxel_slot(v) : NOT_HELD;
+    if (s == NOT_HELD)
+        return least;
+    // Roots differ only across a boundary of blocks: look there before asking whether there is rock.
+    uint other = LOAD_U(root, s);
+    return other < least && LOAD_U(solid, s) != 0u ? other : least;
 }
 
 void main()
 {
-    uint v = THREAD;
-    if (v >= k.n || !rock(v))
+    uint i = THREAD;
+    if (i >= k.n || LOAD_U(solid, i) == 0u)
         return;
-    uint x = v % k.nx, y = (v / k.nx) % k.ny, own = LOAD_U(root, v), least = own;
-    // A root differs from the own only across a boundary of blocks: look there before asking whether there is
-    // rock.
-    if (x > 0u && LOAD_U(root, v - 1u) < least && rock(v - 1u))
-        least = LOAD_U(root, v - 1u);
-    if (x + 1u < k.nx && LOAD_U(root, v + 1u) < least && rock(v + 1u))
-        least = LOAD_U(root, v + 1u);
-    if (y > 0u && LOAD_U(root, v - k.nx) < least && rock(v - k.nx))
-        least = LOAD_U(root, v - k.nx);
-    if (y + 1u < k.ny && LOAD_U(root, v + k.nx) < least && rock(v + k.nx))
-        least = LOAD_U(root, v + k.nx);
+    ivec3 v = voxel_at(LOAD_U(list, i));
+    uint own = LOAD_U(root, i), least = own;
+    least = lower(least, v - ivec3(1, 0, 0));
+    least = lower(least, v + ivec3(1, 0, 0));
+    least = lower(least, v - ivec3(0, 1, 0));
+    least = lower(least, v + ivec3(0, 1, 0));
     if (least < own) {
         atomicMin(AT(pointer, own), least);
         AT(counts, COUNT_CHANGED) = 1u;

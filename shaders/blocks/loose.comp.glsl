@@ -10,8 +10,12 @@ READ_U(2, root)
 READ_U(3, start)
 READ_U(4, phase)
 WRITE_U(5, flags)
+READ_U(6, words)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 #include "blocks/stands.glsl"
 
 void main()

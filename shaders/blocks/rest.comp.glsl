@@ -5,21 +5,28 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, solid)
+READ_U(0, words)
 READ_U(1, start)
-READ_U(2, phase)
-WRITE_U(3, bridged)
+READ_U(2, list)
+READ_U(3, solid)
+READ_U(4, phase)
+WRITE_U(5, bridged)
 PARAMS(voxel_params)
+#include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
-bool solid_at(uint x, uint y, int z)
+bool solid_at(ivec3 v)
 {
-    return z < 0 || (uint(z) < k.nz && LOAD_U(solid, (uint(z) * k.ny + y) * k.nx + x) != 0u);
+    uint s = voxel_inside(v) ? voxel_slot(v) : NOT_HELD;
+    return v.z < 0 || (s != NOT_HELD && LOAD_U(solid, s) != 0u);
 }
 
-bool rubble_at(uint x, uint y, int z)
+bool rubble_at(ivec3 v)
 {
-    uint v = (uint(z) * k.ny + y) * k.nx + x, first = LOAD_U(start, v);
-    return first < LOAD_U(start, v + 1u) && LOAD_U(phase, first) == PHASE_FALLING;
+    uvec2 in_voxel = voxel_inside(v) ? voxel_particles(v) : uvec2(0u);
+    return in_voxel.x < in_voxel.y && LOAD_U(phase, in_voxel.x) == PHASE_FALLING;
 }
 
 void main()
@@ -27,13 +34,13 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint x = i % k.nx, y = (i / k.nx) % k.ny;
-    int z = int(i / (k.nx * k.ny));
+    ivec3 v = voxel_at(LOAD_U(list, i));
+    const ivec3 up = ivec3(0, 0, 1);
     bool rests = LOAD_U(solid, i) != 0u;
     if (!rests) {
-        int above = solid_at(x, y, z + 1) ? 1 : solid_at(x, y, z + 2) ? 2 : 3;
-        int below = solid_at(x, y, z - 1) ? 1 : solid_at(x, y, z - 2) ? 2 : 3;
-        rests = above + below <= 3 && rubble_at(x, y, z + above);
+        int above = solid_at(v + up) ? 1 : solid_at(v + 2 * up) ? 2 : 3;
+        int below = solid_at(v - up) ? 1 : solid_at(v - 2 * up) ? 2 : 3;
+        rests = above + below <= 3 && rubble_at(v + above * up);
     }
     AT(bridged, i) = rests ? 1u : 0u;
 }

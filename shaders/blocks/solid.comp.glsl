@@ -5,15 +5,20 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_F(0, fill)
-WRITE_U(1, solid)
+READ_U(0, words)
+READ_U(1, list)
+READ_F(2, fill)
+WRITE_U(3, solid)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
 
 float fill_at(ivec3 v)
 {
     v.z = max(v.z, 0);
-    return voxel_inside(v) ? LOAD_F(fill, voxel_index(v)) : 0.0;
+    uint s = voxel_inside(v) ? voxel_slot(v) : NOT_HELD;
+    return s == NOT_HELD ? 0.0 : LOAD_F(fill, s);
 }
 #include "particles/share.glsl"
 
@@ -24,6 +29,6 @@ void main()
         return;
     bool inside = false;
     if (LOAD_F(fill, i) > 0.0)
-        inside = share_at(ivec3(i % k.nx, (i / k.nx) % k.ny, i / (k.nx * k.ny))) >= 0.5;
+        inside = share_at(voxel_at(LOAD_U(list, i))) >= 0.5;
     AT(solid, i) = inside ? 1u : 0u;
 }

@@ -1,14 +1,14 @@
 // Does what stands on the ground hold a particle of this phase in this voxel? The voxel, or one across a face of
 // it, must belong to a block that does. Deposits lie loose, grain by grain: they stay if the rock that the column
 // of deposits below them lies on stays, however thin it is; what lies on nothing is deposition's to move. Needs
-// READ_U of solid, root, start and phase, and particles/voxel.glsl.
+// READ_U of solid, root, words, start and phase, and particles/within.glsl.
 
 bool stands(ivec3 v)
 {
     if (!voxel_inside(v))
         return false;
-    uint i = voxel_index(v);
-    return LOAD_U(solid, i) != 0u && LOAD_U(root, i) < k.nx * k.ny;
+    uint s = voxel_slot(v), ground = voxel_rank(ivec3(0, 0, 1));
+    return s != NOT_HELD && LOAD_U(solid, s) != 0u && LOAD_U(root, s) < ground;
 }
 
 bool holds(ivec3 v)
@@ -21,11 +21,11 @@ bool held(ivec3 v, uint own_phase)
 {
     bool stays = holds(v), loose = own_phase == PHASE_DEPOSIT;
     for (v.z--; !stays && loose; v.z--) {
-        uint c = v.z < 0 ? 0u : voxel_index(v), first = LOAD_U(start, c);
-        if (v.z < 0 || first == LOAD_U(start, c + 1u))
+        uvec2 below = v.z < 0 ? uvec2(0u) : voxel_particles(v);
+        if (below.x == below.y)
             stays = true;
         else {
-            loose = LOAD_U(phase, first) == PHASE_DEPOSIT;
+            loose = LOAD_U(phase, below.x) == PHASE_DEPOSIT;
             stays = holds(v);
         }
     }

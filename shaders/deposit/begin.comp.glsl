@@ -15,8 +15,12 @@ WRITE_U(6, crumb_id)
 WRITE_U(7, cell)
 WRITE_U(8, place)
 WRITE_U(9, bits)
+READ_U(10, words)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 #include "deposit/grid.glsl"
 
 bool open(ivec3 c)
@@ -40,9 +44,9 @@ void main()
     AT(cell, i) = cell_index(from);
     AT(place, i) = open(from) ? DEPOSIT_WAITS : DEPOSIT_LEFT;
 
-    uint index = voxel_index(v), end = LOAD_U(start, index + 1u);
+    uvec2 in_voxel = voxel_particles(v);
     bool empty = true;
-    for (uint other = LOAD_U(start, index); other < end; other++)
+    for (uint other = in_voxel.x; other < in_voxel.y; other++)
         empty = empty && LOAD_U(crumb, other) != 0u;
     if (empty)
         atomicAnd(AT(bits, (uint(v.z >> 5) * k.ny + uint(v.y)) * k.nx + uint(v.x)), ~(1u << (v.z & 31)));

@@ -7,8 +7,12 @@
 READ_U(0, start)
 READ_U(1, crumb)
 WRITE_U(2, bits)
+READ_U(3, words)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
 void main()
 {
@@ -17,8 +21,8 @@ void main()
         return;
     uint x = i % k.nx, y = (i / k.nx) % k.ny, z = i / (k.nx * k.ny) * 32u, word = 0u;
     for (uint b = 0u; b < 32u && z + b < k.nz; b++) {
-        uint v = ((z + b) * k.ny + y) * k.nx + x, end = LOAD_U(start, v + 1u);
-        for (uint j = LOAD_U(start, v); j < end; j++)
+        uvec2 in_voxel = voxel_particles(ivec3(x, y, z + b));
+        for (uint j = in_voxel.x; j < in_voxel.y; j++)
             if (LOAD_U(crumb, j) == 0u)
                 word |= 1u << b;
     }

@@ -9,14 +9,19 @@ READ_V(1, position)
 READ_U(2, phase)
 READ_U(3, start)
 WRITE_U(4, crumb)
+READ_U(5, words)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
 // What is in a voxel: 0 nothing, 1 deposits alone, 2 rock.
 uint inside(ivec3 v)
 {
-    uint c = voxel_index(v), end = LOAD_U(start, c + 1u), most = 0u;
-    for (uint j = LOAD_U(start, c); j < end; j++)
+    uvec2 in_voxel = voxel_particles(v);
+    uint most = 0u;
+    for (uint j = in_voxel.x; j < in_voxel.y; j++)
         if (LOAD_F(viability, j) > 0.0)
             most = max(most, LOAD_U(phase, j) == 1u ? 1u : 2u);
     return most;

@@ -13,8 +13,12 @@ READ_U(2, start)
 READ_U(3, phase)
 WRITE_U(4, crumb)
 WRITE_U(5, counts)
+READ_U(6, words)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 #include "deposit/grid.glsl"
 #include "deposit/column.glsl"
 #include "deposit/slope.glsl"
@@ -26,8 +30,8 @@ void look(ivec3 base, int x, int y, inout int highest, inout uint found)
     ivec3 v = ivec3(base.x + x, base.y + y, z);
     if (z <= highest || z < base.z || z > base.z + 1 || !voxel_inside(v))
         return;
-    uint i = voxel_index(v), end = LOAD_U(start, i + 1u);
-    for (uint j = LOAD_U(start, i); j < end; j++)
+    uvec2 in_voxel = voxel_particles(v);
+    for (uint j = in_voxel.x; j < in_voxel.y; j++)
         if (LOAD_U(phase, j) == 1u && AT(crumb, j) == 0u) {
             highest = z;
             found = j;

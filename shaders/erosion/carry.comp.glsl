@@ -15,8 +15,12 @@ WRITE_F(5, viability)
 READ_U(6, shares)  // of the particles that are gone: by what
 WRITE_U(7, spent) // quanta
 WRITE_U(8, parts) // by what
+READ_U(9, words)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 #include "erosion/budget.glsl"
 
 // The step that comes through the face towards v, along an axis; and the parts that processes have in it.
@@ -25,8 +29,8 @@ vec3 through(ivec3 v, int axis)
     vec3 sum = vec3(0.0);
     if (!voxel_inside(v))
         return sum;
-    uint c = voxel_index(v), end = LOAD_U(start, c + 1u);
-    for (uint j = LOAD_U(start, c); j < end; j++) {
+    uvec2 in_voxel = voxel_particles(v);
+    for (uint j = in_voxel.x; j < in_voxel.y; j++) {
         float left = LOAD_F(unspent, j);
         if (left > 0.0)
             sum += left * abs(LOAD_V(normal, j)[axis]) * vec3(1.0, unpackUnorm2x16(LOAD_U(shares, j)));

@@ -15,7 +15,7 @@ READ_V(1, position)
 READ_V(2, normal)
 READ_F(3, intensity) // by place in the list
 READ_F(4, erodibility)
-READ_U(5, start)
+READ_U(5, occupied)
 WRITE_F(6, viability)
 WRITE_F(7, unspent)
 WRITE_U(8, counts)
@@ -24,6 +24,7 @@ WRITE_U(10, spent)  // likewise: quanta
 WRITE_U(11, shares) // of those that are gone: their parts
 PARAMS(erosion_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
 #include "particles/empty.glsl"
 #include "erosion/budget.glsl"
 

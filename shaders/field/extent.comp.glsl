@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where in each brick anything is: the corners of the box of its samples that are not 0, three bits a number, and EXTENT_ANY; 0
-// where there is nothing. `value` lies on a grid of its own, k.nx by k.ny by k.nz, whose first is the field's sample k.margin.
+// Where in each brick a grid is not 0: see field/extent.glsl.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -11,22 +10,15 @@ PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
 
+float value_at(ivec3 v)
+{
+    return LOAD_F(value, voxel_index(v));
+}
+#include "field/extent.glsl"
+
 void main()
 {
     uint brick = THREAD;
-    if (brick >= k.n)
-        return;
-    ivec3 first = brick_first(brick), low = ivec3(8), high = ivec3(-1);
-    ivec3 from = max(first - int(k.margin), ivec3(0)), to = min(first - int(k.margin) + 7, ivec3(k.nx, k.ny, k.nz) - 1);
-    for (int z = from.z; z <= to.z; z++)
-        for (int y = from.y; y <= to.y; y++)
-            for (int x = from.x; x <= to.x; x++)
-                if (LOAD_F(value, voxel_index(ivec3(x, y, z))) > 0.0) {
-                    ivec3 c = ivec3(x, y, z) + int(k.margin) - first;
-                    low = min(low, c);
-                    high = max(high, c);
-                }
-    AT(extent, brick) = high.x < 0 ? 0u
-                                   : EXTENT_ANY | uint(low.x | (low.y << 3) | (low.z << 6) | (high.x << 9) |
-                                                       (high.y << 12) | (high.z << 15));
+    if (brick < k.n)
+        AT(extent, brick) = extent_of(brick);
 }

@@ -6,17 +6,21 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, start)
-READ_F(1, stress)
-READ_F(2, von_mises)
-READ_F(3, viability)
-READ_U(4, phase)
-READ_U(5, list)
-READ_F(6, share)
-WRITE_V(7, means)
+READ_U(0, words)
+READ_U(1, start)
+READ_F(2, stress)
+READ_F(3, von_mises)
+READ_F(4, viability)
+READ_U(5, phase)
+READ_U(6, list)
+READ_F(7, share)
+WRITE_V(8, means)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
 vec4 sum = vec4(0.0);
 float weights = 0.0;
@@ -25,8 +29,8 @@ void add(ivec3 v, float weight)
 {
     if (!voxel_inside(v))
         return;
-    uint c = voxel_index(v), end = LOAD_U(start, c + 1u);
-    for (uint j = LOAD_U(start, c); j < end; j++) {
+    uvec2 in_voxel = voxel_particles(v);
+    for (uint j = in_voxel.x; j < in_voxel.y; j++) {
         sum += weight * vec4(LOAD_F(stress, j), LOAD_F(von_mises, j), LOAD_F(viability, j),
                              LOAD_U(phase, j) == PHASE_DEPOSIT ? 1.0 : 0.0);
         weights += weight;

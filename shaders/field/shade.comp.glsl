@@ -20,9 +20,13 @@ WRITE_V(9, color)
 WRITE_V(10, fields)
 WRITE_U(11, ids)
 READ_U(12, slot)
+READ_U(13, words)
 PARAMS(shade_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
 const vec3 SAND = vec3(0.52, 0.36, 0.22);
 const vec3 GREEN = vec3(0.085, 0.115, 0.045); // dry shrubs
@@ -47,9 +51,8 @@ void main()
     uint found = 0u;
     for (int z = low.z; z <= high.z; z++)
         for (int y = low.y; y <= high.y; y++) {
-            uint row = voxel_index(ivec3(0, y, z));
-            uint end = LOAD_U(start, row + uint(high.x) + 1u);
-            for (uint j = LOAD_U(start, row + uint(low.x)); j < end; j++) {
+            uvec2 row = row_particles(low.x, high.x, y, z);
+            for (uint j = row.x; j < row.y; j++) {
                 vec3 d = LOAD_V(position, j).xyz - x;
                 float d2 = dot(d, d);
                 if (d2 < nearest) {

@@ -6,16 +6,15 @@
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_F(1, fill)
-WRITE_F(2, share)
+READ_U(1, words)
+READ_F(2, fill)
+WRITE_F(3, share)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
-
-float fill_at(ivec3 v)
-{
-    return voxel_inside(v) ? LOAD_F(fill, voxel_index(v)) : 0.0;
-}
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/fill.glsl"
 #include "particles/share.glsl"
 
 void main()

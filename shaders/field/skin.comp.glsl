@@ -6,15 +6,19 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, start)
-READ_V(1, normal)
-READ_F(2, value)
-READ_U(3, list)
-READ_F(4, share)
-WRITE_F(5, mean)
+READ_U(0, words)
+READ_U(1, start)
+READ_V(2, normal)
+READ_F(3, value)
+READ_U(4, list)
+READ_F(5, share)
+WRITE_F(6, mean)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
 vec2 sum = vec2(0.0);
 
@@ -22,8 +26,8 @@ void add(ivec3 v, float weight)
 {
     if (!voxel_inside(v))
         return;
-    uint c = voxel_index(v), end = LOAD_U(start, c + 1u);
-    for (uint j = LOAD_U(start, c); j < end; j++)
+    uvec2 in_voxel = voxel_particles(v);
+    for (uint j = in_voxel.x; j < in_voxel.y; j++)
         if (LOAD_V(normal, j).xyz != vec3(0.0))
             sum += weight * vec2(LOAD_F(value, j), 1.0);
 }

@@ -12,7 +12,7 @@ READ_V(3, stretch_x)
 READ_V(4, stretch_y)
 READ_F(5, apart)
 READ_F(6, strength)
-READ_F(7, fill)
+READ_U(7, full)
 READ_U(8, reach)
 WRITE_V(9, place_out)
 WRITE_V(10, velocity_out)
@@ -23,15 +23,14 @@ WRITE_V(14, stretch_y_out)
 WRITE_F(15, apart_out)
 PARAMS(mpm_params)
 #include "mpm/grid.glsl"
+#include "mpm/voxels.glsl"
 #include "mpm/collect.glsl"
 #include "mpm/rock.glsl"
 
 bool resting_rock(vec3 x)
 {
-    ivec3 n = 2 * ivec3(k.cx, k.cy, k.cz), v = ivec3(floor(x / (0.5 * k.dx)));
-    if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, n)))
-        return false;
-    return LOAD_F(fill, (uint(v.z) * uint(n.y) + uint(v.y)) * uint(n.x) + uint(v.x)) > 0.5;
+    ivec3 v = ivec3(floor(x / (0.5 * k.dx)));
+    return voxel_inside(v) && (LOAD_U(full, voxel_word(v)) & voxel_bit(v)) != 0u;
 }
 
 // What is left of v once axis a is stopped: nothing along it, and less across it, by friction.

@@ -6,18 +6,14 @@
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_F(1, fill)
-WRITE_V(2, wall)
+READ_U(1, words)
+READ_F(2, fill)
+WRITE_V(3, wall)
 PARAMS(mpm_params)
 #include "mpm/grid.glsl"
-
-float fill_at(ivec3 v)
-{
-    ivec3 n = 2 * ivec3(k.cx, k.cy, k.cz);
-    if (any(lessThan(v, ivec3(0))) || any(greaterThanEqual(v, n)))
-        return 0.0;
-    return LOAD_F(fill, (uint(v.z) * uint(n.y) + uint(v.y)) * uint(n.x) + uint(v.x));
-}
+#include "mpm/voxels.glsl"
+#include "particles/held.glsl"
+#include "particles/fill.glsl"
 
 void main()
 {

@@ -6,10 +6,11 @@
 #include "shared/params.h"
 
 READ_V(0, position)
-READ_U(1, start)
+READ_U(1, occupied)
 WRITE_U(2, exposed)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
 #include "particles/empty.glsl"
 
 void main()

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much of each voxel is rock: the viability of its particles.
+// How much of each held voxel is rock: the viability of its particles.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -11,12 +11,12 @@ PARAMS(voxel_params)
 
 void main()
 {
-    uint v = THREAD;
-    if (v >= k.n)
+    uint s = THREAD;
+    if (s >= k.n)
         return;
-    uint end = LOAD_U(start, v + 1u);
+    uint end = LOAD_U(start, s + 1u);
     float sum = 0.0;
-    for (uint j = LOAD_U(start, v); j < end; j++)
+    for (uint j = LOAD_U(start, s); j < end; j++)
         sum += LOAD_F(viability, j);
-    AT(fill, v) = min(sum, 1.0);
+    AT(fill, s) = min(sum, 1.0);
 }

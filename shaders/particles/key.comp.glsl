@@ -1,14 +1,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A particle's sort key: its voxel, or the number of voxels once nothing is left of it.
+// A particle's sort key: its voxel's slot, or the number of held voxels once nothing is left of it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_V(0, position)
 READ_F(1, viability)
-WRITE_U(2, key)
+READ_U(2, words)
+WRITE_U(3, key)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
 
 void main()
 {
@@ -16,5 +19,5 @@ void main()
     if (i >= k.n)
         return;
     bool dead = LOAD_F(viability, i) <= 0.0;
-    AT(key, i) = dead ? k.nx * k.ny * k.nz : voxel_index(voxel_of(LOAD_V(position, i).xyz));
+    AT(key, i) = voxel_rank(dead ? ivec3(0, 0, k.nz) : voxel_of(LOAD_V(position, i).xyz));
 }

@@ -11,10 +11,14 @@
 
 READ_U(0, list)
 READ_V(1, position)
-READ_U(2, start)
-WRITE_V(3, normal)
+READ_U(2, words)
+READ_U(3, start)
+WRITE_V(4, normal)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
 const uint NEIGHBOURS = 20u;
 const float REACH2 = 6.25; // h^2
@@ -23,9 +27,8 @@ const float REACH2 = 6.25; // h^2
 #define EACH_NEIGHBOUR(BODY)                                                                              \
     for (int z = low.z; z <= high.z; z++)                                                                 \
         for (int y = low.y; y <= high.y; y++) {                                                           \
-            uint row = voxel_index(ivec3(0, y, z));                                                       \
-            uint end = LOAD_U(start, row + uint(high.x) + 1u);                                            \
-            for (uint j = LOAD_U(start, row + uint(low.x)); j < end; j++) {                               \
+            uvec2 row = row_particles(low.x, high.x, y, z);                                               \
+            for (uint j = row.x; j < row.y; j++) {                                                        \
                 vec3 d = (LOAD_V(position, j).xyz - x) / k.h;                                             \
                 BODY                                                                                      \
             }                                                                                             \

@@ -1,4 +1,4 @@
-// The share of space that is rock around a voxel's middle. Needs READ_F(fill), voxel.glsl, and fill_at().
+// The share of space that is rock around a voxel's middle. Needs fill_at().
 
 float share_at(ivec3 v)
 {

@@ -1,29 +1,34 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much of each voxel is rock where particles have left their voxels' middles: each is spread over the eight
+// How much of each held voxel is rock where particles have left their voxels' middles: each is spread over the eight
 // voxels around it by trilinear weights, so that the surface does not boil while rock moves.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, start)
-READ_V(1, position)
-READ_F(2, viability)
-WRITE_F(3, fill)
+READ_U(0, words)
+READ_U(1, start)
+READ_U(2, list)
+READ_V(3, position)
+READ_F(4, viability)
+WRITE_F(5, fill)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    ivec3 v = ivec3(i % k.nx, (i / k.nx) % k.ny, i / (k.nx * k.ny));
+    ivec3 v = voxel_at(LOAD_U(list, i));
     ivec3 low = max(v - 1, ivec3(0)), high = min(v + 1, ivec3(k.nx, k.ny, k.nz) - 1);
     float sum = 0.0;
     for (int z = low.z; z <= high.z; z++)
         for (int y = low.y; y <= high.y; y++) {
-            uint row = voxel_index(ivec3(0, y, z)), end = LOAD_U(start, row + uint(high.x) + 1u);
-            for (uint j = LOAD_U(start, row + uint(low.x)); j < end; j++) {
+            uvec2 row = row_particles(low.x, high.x, y, z);
+            for (uint j = row.x; j < row.y; j++) {
                 vec3 x = LOAD_V(position, j).xyz / k.h - 0.5;
                 // The ground holds what would lie below it.
                 vec3 w = max(1.0 - abs(max(x, vec3(-1e9, -1e9, 0.0)) - vec3(v)), vec3(0.0));

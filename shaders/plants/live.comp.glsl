@@ -8,10 +8,11 @@
 READ_V(0, position)
 READ_V(1, normal)
 READ_U(2, phase)
-READ_U(3, start)
+READ_U(3, occupied)
 WRITE_F(4, vegetation)
 PARAMS(plants_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
 #include "particles/empty.glsl"
 #include "plants/stand.glsl"
 

@@ -13,8 +13,13 @@ READ_U(4, start)
 READ_F(5, before)
 READ_U(6, id)
 WRITE_F(7, vegetation)
+READ_U(8, words)
+READ_U(9, occupied)
 PARAMS(plants_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 #include "particles/empty.glsl"
 #include "plants/stand.glsl"
 #include "shared/random.glsl"
@@ -26,8 +31,8 @@ bool covered(ivec3 v)
 {
     if (!voxel_inside(v))
         return false;
-    uint i = voxel_index(v), end = LOAD_U(start, i + 1u);
-    for (uint j = LOAD_U(start, i); j < end; j++)
+    uvec2 in_voxel = voxel_particles(v);
+    for (uint j = in_voxel.x; j < in_voxel.y; j++)
         if (LOAD_F(before, j) > 0.0)
             return true;
     return false;

@@ -1,5 +1,5 @@
-// Where plants can stand: ground that is not too steep, under the open sky. Needs READ_U(start), voxel.glsl and
-// empty.glsl.
+// Where plants can stand: ground that is not too steep, under the open sky. Needs particles/voxel.glsl and
+// particles/empty.glsl.
 
 bool stands(vec3 x, vec3 n)
 {

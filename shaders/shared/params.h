@@ -56,6 +56,13 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
+struct hold_params {
+    uint n; /* words of bits, and one */
+    uint nx, ny, nz;
+    uint around; /* 1: the voxels around occupied ones are held too */
+};
+SHARED_SIZE(hold_params, 20)
+
 #define PHASE_ROCK 0u
 #define PHASE_DEPOSIT 1u
 #define PHASE_FALLING 2u

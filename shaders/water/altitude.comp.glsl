@@ -8,12 +8,18 @@
 #include "shared/random.glsl"
 
 READ_U(0, cell)
-READ_U(1, start)
-READ_F(2, viability)
-WRITE_U(3, altitude)
+READ_U(1, words)
+READ_U(2, start)
+READ_F(3, viability)
+WRITE_U(4, altitude)
 PARAMS(water_params)
 #include "water/cell_of.glsl"
 #include "water/voxels.glsl"
+#define HELD_NX k.vx
+#define HELD_NY k.vy
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
 
 void main()
 {
@@ -27,8 +33,8 @@ void main()
     float sum = 0.0;
     for (uint z = low.z; z < high.z; z++)
         for (uint y = low.y; y < high.y; y++) {
-            uint row = (z * k.vy + y) * k.vx, end = LOAD_U(start, row + high.x);
-            for (uint j = LOAD_U(start, row + low.x); j < end; j++) {
+            uvec2 row = row_particles(int(low.x), int(high.x) - 1, int(y), int(z));
+            for (uint j = row.x; j < row.y; j++) {
                 sum += LOAD_F(viability, j);
                 rock = true;
             }

@@ -1,13 +1,29 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which of 32 cells of a row along x have particles, as bits: memory is read in its own order.
+// Which of 32 cells of a row along x have particles, as bits.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, start)
+READ_U(0, occupied)
 WRITE_U(1, rows)
 PARAMS(water_params)
 #include "water/voxels.glsl"
+
+// Word `w` of the voxels' row that begins at word `row`; 0 beyond its ends.
+uint word_of(uint row, int w, int across)
+{
+    return w >= 0 && w < across ? LOAD_U(occupied, row + uint(w)) : 0u;
+}
+
+// Bits 0, 2, 4, ... of a word, together.
+uint even_bits(uint b)
+{
+    b &= 0x55555555u;
+    b = (b | b >> 1) & 0x33333333u;
+    b = (b | b >> 2) & 0x0f0f0f0fu;
+    b = (b | b >> 4) & 0x00ff00ffu;
+    return (b | b >> 8) & 0xffffu;
+}
 
 void main()
 {
@@ -15,19 +31,17 @@ void main()
     if (i >= k.n)
         return;
     uint words = (k.cx + 31u) / 32u, x = i % words * 32u, row = i / words;
+    int across = int((k.vx + 31u) >> 5), first = int(2u * x >> 5);
     uvec3 low, high;
     cell_voxels(uvec3(x, row % k.cy, row / k.cy), low, high);
-    uvec4 line = uvec4(low.z * k.vy + low.y, low.z * k.vy + high.y - 1u, (high.z - 1u) * k.vy + low.y,
-                       (high.z - 1u) * k.vy + high.y - 1u) * k.vx;
-    uvec4 before = uvec4(LOAD_U(start, line.x + low.x), LOAD_U(start, line.y + low.x), LOAD_U(start, line.z + low.x),
-                         LOAD_U(start, line.w + low.x));
-    uint bits = 0u;
-    for (uint b = 0u; b < 32u && x + b < k.cx; b++) {
-        uint end = min(2u * (x + b) + 2u - k.sx, k.vx);
-        uvec4 after = uvec4(LOAD_U(start, line.x + end), LOAD_U(start, line.y + end), LOAD_U(start, line.z + end),
-                            LOAD_U(start, line.w + end));
-        bits |= any(notEqual(before, after)) ? 1u << b : 0u;
-        before = after;
-    }
-    AT(rows, i) = bits;
+    uvec3 bits = uvec3(0u); // of the 96 voxels from `first` - 1 words on
+    for (uint z = low.z; z < high.z; z++)
+        for (uint y = low.y; y < high.y; y++) {
+            uint line = (z * k.vy + y) * uint(across);
+            bits |= uvec3(word_of(line, first - 1, across), word_of(line, first, across), word_of(line, first + 1, across));
+        }
+    if (k.sx != 0u)
+        bits.yz = bits.yz << 1 | bits.xy >> 31;
+    bits |= bits >> 1;
+    AT(rows, i) = even_bits(bits.y) | even_bits(bits.z) << 16;
 }

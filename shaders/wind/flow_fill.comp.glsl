@@ -4,7 +4,7 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, voxel_start)
+READ_U(0, occupied)
 WRITE_V(1, position)
 WRITE_V(2, velocity)
 WRITE_U(3, id)

@@ -14,12 +14,13 @@ READ_U(0, list)
 READ_V(1, position)
 READ_V(2, normal)
 READ_F(3, stress)
-READ_U(4, start)
+READ_U(4, occupied)
 READ_V(5, air)
 WRITE_F(6, intensity)
 WRITE_U(7, parts) // deflation's and water's share in it
 PARAMS(wind_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
 #include "particles/empty.glsl"
 #include "wind/deflation.glsl"
 

@@ -1,17 +1,29 @@
 #include "blocks/blocks.h"
 
-uint64_t blocks_bytes(const int voxels[3])
+uint64_t blocks_bytes(size_t n)
 {
-    return (uint64_t)voxel_count(voxels) * 12;
+    return (uint64_t)n * 12;
 }
 
-status blocks_create(struct gpu *gpu, const int voxels[3], struct blocks *b)
+/* For so many held voxels: what is in the buffers is lost where they are too small. */
+static status keep(struct gpu *gpu, struct blocks *b, size_t n)
+{
+    status st = OK;
+    if (b->solid && gpu_buffer_count(b->solid) >= n)
+        return OK;
+    blocks_destroy(gpu, b);
+    TRY(gpu_buffer_create(gpu, "solid voxels", n, 4, &b->solid));
+    TRY(gpu_buffer_create(gpu, "block pointers", n, 4, &b->pointer));
+    TRY(gpu_buffer_create(gpu, "block pointers (other)", n, 4, &b->other));
+done:
+    return st;
+}
+
+status blocks_create(struct gpu *gpu, size_t n, struct blocks *b)
 {
     status st = OK;
     *b = (struct blocks){0};
-    TRY(gpu_buffer_create(gpu, "solid voxels", voxel_count(voxels), 4, &b->solid));
-    TRY(gpu_buffer_create(gpu, "block pointers", voxel_count(voxels), 4, &b->pointer));
-    TRY(gpu_buffer_create(gpu, "block pointers (other)", voxel_count(voxels), 4, &b->other));
+    TRY(keep(gpu, b, n));
 done:
     if (st != OK)
         blocks_destroy(gpu, b);
@@ -25,23 +37,23 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b)
     gpu_buffer_destroy(gpu, &b->other);
 }
 
-status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const int voxels[3])
+status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct held_voxels *h)
 {
     status st = OK;
-    size_t n = voxel_count(voxels), columns = n / (size_t)voxels[2];
-    struct voxel_params k = {
-        .n = (uint)columns, .nx = (uint)voxels[0], .ny = (uint)voxels[1], .nz = (uint)voxels[2]};
+    const size_t n = h->n;
+    const struct voxel_params k = {
+        .n = (uint)n, .nx = (uint)h->voxels[0], .ny = (uint)h->voxels[1], .nz = (uint)h->voxels[2]};
     struct gpu_buffer *counts = gpu_work_words(work);
-    uint32_t changed = 1;
-    GPU_RUN(gpu, blocks_column, columns, k, b->solid, b->pointer);
-    k.n = (uint)n;
+    uint32_t changed = n > 0;
+    if (n == 0)
+        return OK;
+    GPU_RUN(gpu, blocks_below, n, k, h->words, h->list, b->solid, b->pointer);
     while (changed) {
+        TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
         gpu_fill(gpu, counts, 0);
         gpu_copy(gpu, b->other, b->pointer, n);
-        GPU_RUN(gpu, blocks_join, n, k, b->solid, b->other, b->pointer, counts);
+        GPU_RUN(gpu, blocks_join, n, k, h->words, h->list, b->solid, b->other, b->pointer, counts);
         TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
-        if (changed)
-            TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
     }
 done:
     return st;
@@ -50,15 +62,20 @@ done:
 /* What stands on the ground, of the particles as they are. Waits. */
 static status find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p)
 {
-    size_t n = voxel_count(p->voxels);
-    struct voxel_params k = particles_params(p, n);
+    status st = OK;
+    const size_t n = p->held.n;
+    const struct voxel_params k = particles_params(p, n);
+    TRY(keep(gpu, b, n));
     particles_fill(gpu, p);
-    GPU_RUN(gpu, blocks_solid, n, k, p->fill, b->solid);
+    GPU_RUN(gpu, blocks_solid, n, k, p->held.words, p->held.list, p->fill, b->solid);
     if (b->rubble) {
-        GPU_RUN(gpu, blocks_rest, n, k, b->solid, p->start, p->field[ROCK_phase], b->other);
+        GPU_RUN(gpu, blocks_rest, n, k, p->held.words, p->start, p->held.list, b->solid, p->field[ROCK_phase],
+                b->other);
         gpu_copy(gpu, b->solid, b->other, n);
     }
-    return blocks_join(gpu, work, b, p->voxels);
+    TRY(blocks_join(gpu, work, b, &p->held));
+done:
+    return st;
 }
 
 status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p, size_t *n)
@@ -67,7 +84,7 @@ status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, st
     TRY(find(gpu, work, b, p));
     struct voxel_params k = particles_params(p, p->n);
     GPU_RUN(gpu, blocks_loose, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->start,
-            p->field[ROCK_phase], p->flags);
+            p->field[ROCK_phase], p->flags, p->held.words);
     TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, n));
     p->n_surface = 0;
 done:
@@ -82,7 +99,7 @@ status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
     struct gpu_buffer *counts = gpu_work_words(work);
     TRY(find(gpu, work, b, p));
     GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->start, p->field[ROCK_phase],
-            p->field[ROCK_viability], counts);
+            p->field[ROCK_viability], counts, p->held.words);
     TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_fallen, 1));
 done:
     return st;

@@ -12,18 +12,22 @@
 #include "particles/particles.h"
 
 struct blocks {
-    struct gpu_buffer *solid;           /* uint [voxels]: 1 inside the surface */
-    struct gpu_buffer *pointer, *other; /* uint [voxels]: towards a block's lowest voxel */
+    struct gpu_buffer *solid;           /* uint [held voxels]: 1 inside the surface */
+    struct gpu_buffer *pointer, *other; /* uint [held voxels]: towards a block's lowest voxel, as slots */
     bool rubble;                        /* may there be any? It rests on what lies below, across small gaps */
 };
 
-uint64_t blocks_bytes(const int voxels[3]);
-MUST_USE status blocks_create(struct gpu *gpu, const int voxels[3], struct blocks *out);
+/* Bytes on the device where n voxels are held. */
+uint64_t blocks_bytes(size_t n);
+
+/* Room for n held voxels; what is more gets room when it is looked at. */
+MUST_USE status blocks_create(struct gpu *gpu, size_t n, struct blocks *out);
 void blocks_destroy(struct gpu *gpu, struct blocks *b);
 
 /* From `solid`, which the caller filled, to `pointer`: each solid voxel's is its block's lowest voxel, which
  * is in the first slab if the block stands on the ground. Leaves gpu_work_words() zero. Waits. */
-MUST_USE status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const int voxels[3]);
+MUST_USE status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b,
+                            const struct held_voxels *held);
 
 /* Lists unsupported particles in p->surface, ascending; the surface is to be found anew after this. Waits. */
 MUST_USE status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,

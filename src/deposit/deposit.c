@@ -115,9 +115,9 @@ static status begin(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
     struct count_params list = {(uint)d->n_cells};
     k.n = (uint)p->n;
     GPU_RUN(gpu, deposit_mark, k.n, k, p->field[ROCK_viability], p->field[ROCK_P], p->field[ROCK_phase],
-            p->start, p->flags);
+            p->start, p->flags, p->held.words);
     k.n = k.nx * k.ny * k.words;
-    GPU_RUN(gpu, deposit_bits, k.n, k, p->start, p->flags, d->bits);
+    GPU_RUN(gpu, deposit_bits, k.n, k, p->start, p->flags, d->bits, p->held.words);
     GPU_RUN(gpu, deposit_list, list.n, list, routing->tag, d->pointer);
     TRY(gpu_compact(gpu, work, d->pointer, d->other, d->ground, d->n_cells, &d->n_ground));
     gpu_fill(gpu, d->room, 0);
@@ -175,7 +175,8 @@ status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, c
     TRY(begin(gpu, work, d, routing, k, p));
     gpu_fill(gpu, counts, 0);
     k.n = (uint)d->n_ground;
-    GPU_RUN(gpu, deposit_slide, k.n, k, d->ground, d->bits, p->start, p->field[ROCK_phase], p->flags, counts);
+    GPU_RUN(gpu, deposit_slide, k.n, k, d->ground, d->bits, p->start, p->field[ROCK_phase], p->flags, counts,
+            p->held.words);
     TRY(gpu_download(gpu, counts, 0, gone, COUNT_WAITING + 1));
     out->slid = gone[COUNT_SLID];
     TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, &n_crumbs));
@@ -185,7 +186,7 @@ status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, c
     TRY(reserve(gpu, d, n_crumbs));
     k.n = (uint)n_crumbs;
     GPU_RUN(gpu, deposit_begin, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_id], routing->tag,
-            p->start, p->flags, d->id, d->cell, d->place, d->bits);
+            p->start, p->flags, d->id, d->cell, d->place, d->bits, p->held.words);
     for (k.round = 0; k.round < ROUNDS && waiting > 0; k.round++) {
         k.last = k.round + 1 == ROUNDS;
         TRY(advance(gpu, work, d, routing, k, n_crumbs, &waiting));

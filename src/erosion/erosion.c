@@ -111,11 +111,12 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
     gpu_fill(gpu, counts, 0);
     gpu_fill(gpu, e->unspent, 0);
     GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            e->intensity, p->field[ROCK_erodibility], p->start, p->field[ROCK_viability], e->unspent, counts,
-            e->parts, e->spent, e->shares);
+            e->intensity, p->field[ROCK_erodibility], p->held.occupied, p->field[ROCK_viability], e->unspent,
+            counts, e->parts, e->spent, e->shares);
     budget_split(gpu, budget, e->spent, e->parts, p->n_surface);
     GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->field[ROCK_N], p->start,
-            p->field[ROCK_erodibility], e->unspent, p->field[ROCK_viability], e->shares, e->spent, e->parts);
+            p->field[ROCK_erodibility], e->unspent, p->field[ROCK_viability], e->shares, e->spent, e->parts,
+            p->held.words);
     budget_split(gpu, budget, e->spent, e->parts, p->n);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
 done:

@@ -144,7 +144,7 @@ static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c
     GPU_RUN(gpu, field_march, march.n, march, f->slot, f->distance, a->hit, a->facing);
     GPU_RUN(gpu, field_shade, shade.n, shade, a->hit, a->facing, f->means, p->field[ROCK_P], p->start,
             p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_vegetation], a->palette, a->color,
-            a->means, a->ids, f->slot);
+            a->means, a->ids, f->slot, p->held.words);
 }
 
 /* The samples, the pixel's middle last; each is counted into the mattes. */

@@ -116,23 +116,27 @@ done:
     return st;
 }
 
-/* Those near what is not 0 in a grid of `n` samples, the first of which is the field's sample `margin`. */
-static status choose(struct gpu *gpu, struct gpu_work *work, struct field *f, struct gpu_buffer *value,
-                     const int n[3], int margin)
+/* For a grid of `n` samples, the first of which is the field's sample `margin`. */
+static struct field_params extent_params(const struct field *f, const int n[3], int margin)
+{
+    return (struct field_params){.n = (uint)all_bricks(f),
+                                 .nx = (uint)n[0],
+                                 .ny = (uint)n[1],
+                                 .nz = (uint)n[2],
+                                 .h = (float)f->voxel,
+                                 .fx = (uint)f->n[0],
+                                 .fy = (uint)f->n[1],
+                                 .fz = (uint)f->n[2],
+                                 .margin = (uint)margin};
+}
+
+/* The bricks near what is in f->place, each brick's extent. */
+static status choose(struct gpu *gpu, struct gpu_work *work, struct field *f)
 {
     status st = OK;
     size_t count;
     const size_t all = all_bricks(f);
-    struct field_params k = {.n = (uint)all,
-                             .nx = (uint)n[0],
-                             .ny = (uint)n[1],
-                             .nz = (uint)n[2],
-                             .h = (float)f->voxel,
-                             .fx = (uint)f->n[0],
-                             .fy = (uint)f->n[1],
-                             .fz = (uint)f->n[2],
-                             .margin = (uint)margin};
-    GPU_RUN(gpu, field_extent, k.n, k, value, f->place);
+    const struct field_params k = extent_params(f, f->n, 0);
     GPU_RUN(gpu, field_held, k.n, k, f->place, f->held);
     TRY(gpu_compact(gpu, work, f->held, f->place, f->list, all, &count));
     TRY(field_keep(gpu, f, count));
@@ -148,8 +152,9 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
     struct field_params k = params_of(f, p);
     if (k.n == 0)
         return;
-    GPU_RUN(gpu, field_means, k.n, k, p->start, p->field[ROCK_stress], p->field[ROCK_von_mises],
-            p->field[ROCK_viability], p->field[ROCK_phase], f->list, f->share, f->means);
+    GPU_RUN(gpu, field_means, k.n, k, p->held.words, p->start, p->field[ROCK_stress],
+            p->field[ROCK_von_mises], p->field[ROCK_viability], p->field[ROCK_phase], f->list, f->share,
+            f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->list, f->slot, f->share, f->distance);
     /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
@@ -162,10 +167,12 @@ status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, stru
 {
     status st = OK;
     particles_fill(gpu, p);
-    TRY(choose(gpu, work, f, p->fill, p->voxels, FIELD_MARGIN));
+    const struct field_params rock = extent_params(f, p->voxels, FIELD_MARGIN);
+    GPU_RUN(gpu, field_reach, rock.n, rock, p->held.words, p->fill, f->place);
+    TRY(choose(gpu, work, f));
     const struct field_params k = params_of(f, p);
     if (k.n)
-        GPU_RUN(gpu, field_share, k.n, k, f->list, p->fill, f->share);
+        GPU_RUN(gpu, field_share, k.n, k, f->list, p->held.words, p->fill, f->share);
     finish(gpu, f, p);
 done:
     return st;
@@ -179,7 +186,9 @@ status field_build_share(struct gpu *gpu, struct gpu_work *work, struct field *f
     const size_t n = (size_t)f->n[0] * (size_t)f->n[1] * (size_t)f->n[2];
     TRY(gpu_buffer_create(gpu, "known share", n, 4, &known));
     TRY(gpu_upload(gpu, known, 0, share, n));
-    TRY(choose(gpu, work, f, known, f->n, 0));
+    const struct field_params all = extent_params(f, f->n, 0);
+    GPU_RUN(gpu, field_extent, all.n, all, known, f->place);
+    TRY(choose(gpu, work, f));
     const struct field_params k = params_of(f, p);
     if (k.n)
         GPU_RUN(gpu, field_take, k.n, k, f->list, known, f->share);
@@ -194,6 +203,6 @@ void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum valu
 {
     const struct field_params k = params_of(f, p);
     if (k.n)
-        GPU_RUN(gpu, field_skin, k.n, k, p->start, p->field[ROCK_N], p->field[value_field[which]], f->list,
-                f->share, f->other);
+        GPU_RUN(gpu, field_skin, k.n, k, p->held.words, p->start, p->field[ROCK_N],
+                p->field[value_field[which]], f->list, f->share, f->other);
 }

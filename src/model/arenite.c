@@ -205,6 +205,8 @@ static status edit(struct arenite *a)
         collapse_destroy(a->m.gpu, &a->collapse);
         TRY(collapse_create(a->m.gpu, a->m.job, &a->particles, &a->collapse));
         a->blocks.rubble |= a->collapse.falls;
+        if (a->blocks.rubble || a->collapse.shot)
+            TRY(particles_hold_around(a->m.gpu, a->m.work, &a->particles));
     }
     if (kind == EDITS_ROCK) {
         weigh(a, PROCESS_EDITS, false);

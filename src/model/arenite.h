@@ -23,7 +23,7 @@
     PART(elastic, LASTS_RUN, elastic_bytes(voxels),                                                          \
          elastic_create(a->m.gpu, a->m.voxels, a->m.h,                                                       \
                         (const struct elastic_options[]){elastic_options(a->m.job)}, &a->elastic))           \
-    PART(blocks, LASTS_RUN, blocks_bytes(voxels), blocks_create(a->m.gpu, a->m.voxels, &a->blocks))          \
+    PART(blocks, LASTS_ROCK, blocks_bytes(n), blocks_create(a->m.gpu, a->particles.held.n, &a->blocks))      \
     PART(wind, LASTS_RUN, wind_bytes(job, voxels), wind_create(a->m.gpu, a->m.whole, a->m.voxels, &a->wind)) \
     PART(deposit, LASTS_JOB, arenite_ever(job, deposit_wanted) ? deposit_bytes(voxels) : 0,                  \
          a->deposits ? deposit_create(a->m.gpu, a->m.voxels, &a->deposit) : OK)                              \

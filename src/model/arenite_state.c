@@ -41,6 +41,8 @@ status arenite_create_particles(struct arenite *a, const struct rock *rock)
     a->blocks.rubble |= a->collapse.falls;
     for (size_t i = 0; i < rock->n && !a->blocks.rubble; i++)
         a->blocks.rubble = rock->phase[i] == PHASE_FALLING;
+    if (a->blocks.rubble || a->collapse.shot)
+        TRY(particles_hold_around(a->m.gpu, a->m.work, &a->particles));
 done:
     return st;
 }

@@ -280,12 +280,11 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
     if (n == 0)
         return OK;
     mpm_load(gpu, &c->mpm, p, p->surface, n);
-    particles_fill(gpu, p);
-    c->mpm.fill = p->fill;
+    mpm_obstacle(gpu, &c->mpm, p);
     TRY(fall_to_rest(gpu, work, c, &seconds));
     mpm_store(gpu, &c->mpm, p, false);
     TRY(mpm_settle(gpu, &c->mpm, p, c->rubble));
-    c->mpm.fill = NULL;
+    mpm_obstacle(gpu, &c->mpm, NULL);
     gpu_fill(gpu, p->field[ROCK_v], 0);
     TRY(particles_index(gpu, work, p));
     TRY(blocks_fall(gpu, work, b, p, &crumbs));

@@ -28,6 +28,7 @@
 struct goblins {
     struct model m; /* shared by all models */
     struct voxels voxels;
+    struct held_voxels held; /* all voxels, for the blocks */
     struct blocks blocks;
     struct elastic elastic;
 };
@@ -53,7 +54,7 @@ static status remove_unsupported(struct goblins *g)
     gpu_stage(g->m.gpu, "blocks");
     weigh(g, PROCESS_BLOCKS, false);
     voxels_solid(g->m.gpu, &g->voxels, g->blocks.solid);
-    TRY(blocks_join(g->m.gpu, g->m.work, &g->blocks, g->m.voxels));
+    TRY(blocks_join(g->m.gpu, g->m.work, &g->blocks, &g->held));
     TRY(voxels_fall(g->m.gpu, g->m.work, &g->voxels, g->blocks.solid, g->blocks.pointer, g->blocks.other));
     TRY(voxels_remove(g->m.gpu, g->m.work, &g->voxels, &n_fallen));
     weigh(g, PROCESS_BLOCKS, true);
@@ -260,7 +261,9 @@ static status create(struct model *m)
     status st = OK;
     struct goblins *g = of(m);
     const struct elastic_options options = elastic_options(m->job);
-    TRY(blocks_create(m->gpu, m->voxels, &g->blocks));
+    TRY(held_create(m->gpu, m->voxels, voxel_count(m->voxels), &g->held));
+    TRY(held_all(m->gpu, m->work, &g->held));
+    TRY(blocks_create(m->gpu, g->held.n, &g->blocks));
     if (m->job->goblins.stress)
         TRY(elastic_create(m->gpu, m->voxels, m->h, &options, &g->elastic));
 done:
@@ -272,6 +275,7 @@ static void destroy(struct model *m)
     struct goblins *g = of(m);
     elastic_destroy(m->gpu, &g->elastic);
     blocks_destroy(m->gpu, &g->blocks);
+    held_destroy(m->gpu, &g->held);
     voxels_destroy(m->gpu, &g->voxels);
 }
 
@@ -307,7 +311,8 @@ static status estimate(const struct job *job, struct model_needs *needs)
     TRY(scene_estimate(job, &needs->size));
     /* A third of the rock active is more than most have. */
     needs->device_bytes = voxels_bytes(job, needs->voxels, needs->size.n_particles / 3, &words) +
-                          blocks_bytes(needs->voxels) +
+                          blocks_bytes(voxel_count(needs->voxels)) +
+                          held_bytes(needs->voxels, voxel_count(needs->voxels)) +
                           (job->goblins.stress ? elastic_bytes(needs->voxels) : 0);
     /* What frames are made from: the voxels, and as particles. */
     needs->host_bytes = state + host_rock_bytes(needs->size.n_particles);

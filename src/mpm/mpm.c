@@ -32,8 +32,8 @@ uint64_t mpm_bytes(size_t n_max, const int voxels[3], double h, double block)
 {
     /* An eighth of the particles is cells; a third more for those cut by the surface. */
     return (uint64_t)n_max * ((MPM_VECTORS + 1) * 16 + (MPM_WORDS + 10) * 4) +
-           (uint64_t)mpm_nodes(voxels) * (16 + 9 * 4) + (uint64_t)n_max / 4 * (27 * 20 + 40) +
-           mpm_pieces_bytes(voxels, h, block);
+           (uint64_t)mpm_nodes(voxels) * (16 + 9 * 4) + (uint64_t)held_words(voxels) * 4 +
+           (uint64_t)n_max / 4 * (27 * 20 + 40) + mpm_pieces_bytes(voxels, h, block);
 }
 
 status mpm_create(struct gpu *gpu, const int voxels[3], double h, size_t n_max,
@@ -77,7 +77,7 @@ status mpm_create(struct gpu *gpu, const int voxels[3], double h, size_t n_max,
         {"mpm walls", nodes, 16, &m->wall},
         {"mpm products", nodes > n_max ? nodes : n_max, 4, &m->product},
         {"mpm scalars", SCALARS, 4, &m->scalars},
-        {"mpm no rock", 1, 4, &m->nothing},
+        {"mpm resting rock", held_words(voxels), 4, &m->full},
     };
     for (size_t i = 0; i < sizeof buffer / sizeof *buffer; i++)
         TRY(gpu_buffer_create(gpu, buffer[i].name, buffer[i].n, buffer[i].item, buffer[i].out));
@@ -96,7 +96,7 @@ void mpm_destroy(struct gpu *gpu, struct mpm *m)
         &m->flags,      &m->place,       &m->node_list,  &m->mixed,     &m->slot,         &m->many,
         &m->first,      &m->meeting,     &m->wall,       &m->partial,   &m->reach,        &m->entry_node,
         &m->entry_body, &m->entry_group, &m->mass,       &m->velocity,  &m->product,      &m->scalars,
-        &m->nothing};
+        &m->full};
     mpm_pieces_destroy(gpu, m);
     for (int v = 0; v < MPM_VECTORS; v++)
         gpu_buffer_destroy(gpu, &m->vector[v]);
@@ -118,7 +118,7 @@ struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt)
         .cz = (uint)m->cells[2],
         .n_parts = (uint)m->n_parts,
         .bodies = m->pieces.n[0] > 0,
-        .rock = m->fill != NULL,
+        .rock = m->resting != NULL,
         .dx = (float)m->dx,
         .dt = (float)dt,
         .lambda = (float)o->lambda,
@@ -148,6 +148,16 @@ void mpm_load(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_bu
             p->field[ROCK_viability], m->vector[MPM_PLACE], m->word[MPM_SHARE], m->word[MPM_APART],
             m->word[MPM_STRENGTH], m->word[MPM_ID], m->word[MPM_ORIGIN], m->word[MPM_PIECE],
             m->word[MPM_JOINT]);
+}
+
+void mpm_obstacle(struct gpu *gpu, struct mpm *m, struct particles *p)
+{
+    m->resting = p;
+    if (!p)
+        return;
+    struct mpm_params k = mpm_params_of(m, held_words(p->voxels), 0);
+    particles_fill(gpu, p);
+    GPU_RUN(gpu, mpm_full, k.n, k, p->held.words, p->fill, m->full);
 }
 
 void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p, bool moving)

@@ -91,8 +91,8 @@ struct mpm {
     struct gpu_buffer *partial, *reach;                           /* for each part, by node; see room */
     struct gpu_buffer *entry_node, *entry_body, *entry_group, *mass, *velocity, *product;
     struct gpu_buffer *scalars;
-    struct gpu_buffer *fill; /* float [voxels]: resting rock; borrowed, NULL: none */
-    struct gpu_buffer *nothing;
+    const struct particles *resting; /* an obstacle; borrowed, NULL: none */
+    struct gpu_buffer *full; /* uint [words of voxels]: bits of those that it fills by more than a half */
     struct mpm_pieces {
         int n[3];                          /* seeds; 0: no joints */
         struct gpu_buffer *counts, *holds; /* uint: by joint, two each, and by piece; by joint */
@@ -115,9 +115,11 @@ MUST_USE status mpm_create(struct gpu *gpu, const int voxels[3], double h, size_
 void mpm_destroy(struct gpu *gpu, struct mpm *m);
 
 /* The particles of p whose number is in `list` become material points at rest. Their viability in p is 0 from
- * here until mpm_store(). `resting`: the voxels' fill as of particles_fill() is an obstacle; take it after
- * this. */
+ * here until mpm_store(). */
 void mpm_load(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_buffer *list, size_t n);
+
+/* What is left in p is an obstacle from now on, until p is indexed; NULL: nothing is. p stays the caller's. Records only. */
+void mpm_obstacle(struct gpu *gpu, struct mpm *m, struct particles *p);
 
 /* Simulates `seconds` in equal steps no longer than the CFL number allows. Waits. E_NUMERIC if speeds are not
  * finite. */

@@ -46,7 +46,7 @@ status mpm_rest(struct gpu *gpu, struct gpu_work *work, struct mpm *m, struct pa
     gpu_copy(gpu, m->speed, p->field[ROCK_viability], p->n);
     mpm_load(gpu, m, p, m->order, p->n);
     gpu_copy(gpu, p->field[ROCK_viability], m->speed, p->n);
-    m->fill = NULL;
+    m->resting = NULL;
     TRY(mpm_sort(gpu, work, m));
     gpu_fill(gpu, m->scalars, 0);
     struct mpm_params k = mpm_params_of(m, m->n, m->options.cfl * m->dx / mpm_wave(&m->options));

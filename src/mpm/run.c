@@ -63,10 +63,9 @@ void mpm_step(struct gpu *gpu, struct mpm *m, const struct mpm_params *params, b
     if (last) /* the next frame's steps may have another length: mpm_prime */
         k.push = 0;
     GPU_RUN(gpu, mpm_gather, k.n, k, m->part, m->velocity, m->vector[MPM_PLACE], m->vector[MPM_STRETCH_X],
-            m->vector[MPM_STRETCH_Y], m->word[MPM_APART], m->word[MPM_STRENGTH],
-            m->fill ? m->fill : m->nothing, m->reach, m->vector[MPM_PLACE], m->vector[MPM_VELOCITY],
-            m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y], m->vector[MPM_STRETCH_X],
-            m->vector[MPM_STRETCH_Y], m->word[MPM_APART]);
+            m->vector[MPM_STRETCH_Y], m->word[MPM_APART], m->word[MPM_STRENGTH], m->full, m->reach,
+            m->vector[MPM_PLACE], m->vector[MPM_VELOCITY], m->vector[MPM_AFFINE_X], m->vector[MPM_AFFINE_Y],
+            m->vector[MPM_STRETCH_X], m->vector[MPM_STRETCH_Y], m->word[MPM_APART]);
     m->steps++;
 }
 

@@ -101,8 +101,9 @@ static status find_entries(struct gpu *gpu, struct gpu_work *work, struct mpm *m
         GPU_RUN(gpu, mpm_bond, m->n_mixed, seeds, m->mixed, m->node_list, m->first, m->meeting, m->entry_body,
                 m->pieces.holds, m->entry_group);
     }
-    if (m->fill)
-        GPU_RUN(gpu, mpm_walls, m->n_nodes, k, m->node_list, m->fill, m->wall);
+    if (m->resting)
+        GPU_RUN(gpu, mpm_walls, m->n_nodes, k, m->node_list, m->resting->held.words, m->resting->fill,
+                m->wall);
 done:
     return st;
 }

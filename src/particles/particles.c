@@ -2,10 +2,10 @@
 
 uint64_t particles_bytes(size_t n, const int voxels[3])
 {
-    uint64_t item = 4 * 4 + 16; /* surface, flags, place, spares */
+    uint64_t item = 4 * 4 + 16 + 3 * 4; /* surface, flags, place, spares; start, fill, taken: a voxel each */
     for (int f = 0; f < ROCK_FIELDS; f++)
         item += rock_field_size((enum rock_field)f);
-    return (uint64_t)n * item + (uint64_t)voxel_count(voxels) * 12;
+    return (uint64_t)n * item + held_bytes(voxels, n);
 }
 
 struct voxel_params particles_params(const struct particles *p, size_t n)
@@ -17,25 +17,44 @@ struct voxel_params particles_params(const struct particles *p, size_t n)
                                  .h = (float)p->h};
 }
 
+/* Of what there is a word for each held voxel. */
+static status keep_voxels(struct gpu *gpu, struct particles *p)
+{
+    status st = OK;
+    if (p->start && gpu_buffer_count(p->fill) >= p->held.room)
+        return OK;
+    gpu_buffer_destroy(gpu, &p->start);
+    gpu_buffer_destroy(gpu, &p->fill);
+    gpu_buffer_destroy(gpu, &p->taken);
+    TRY(gpu_buffer_create(gpu, "voxel start", p->held.room + 2, 4, &p->start));
+    TRY(gpu_buffer_create(gpu, "voxel fill", p->held.room, 4, &p->fill));
+    TRY(gpu_buffer_create(gpu, "voxel scratch", p->held.room + 1, 4, &p->taken));
+done:
+    return st;
+}
+
 /* The order of particles_index(), for fields up to `keep`. */
 static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep)
 {
     status st = OK;
-    size_t n_voxels = voxel_count(p->voxels);
-    struct voxel_params k = particles_params(p, p->n);
+    const struct voxel_params k = particles_params(p, p->n);
     uint32_t alive;
-    struct gpu_sort sort = {.keys = p->flags,
-                            .ids = p->field[ROCK_id],
-                            .start = p->start,
-                            .order = p->surface, /* found anew after this */
-                            .taken = p->taken,
-                            .unordered = p->place,
-                            .n = p->n,
-                            .n_keys = n_voxels + 1,
-                            .n_ordered = n_voxels};
-    GPU_RUN(gpu, particles_key, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->flags);
+    gpu_fill(gpu, p->held.occupied, 0);
+    GPU_RUN(gpu, particles_occupy, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->held.occupied);
+    TRY(held_find(gpu, work, &p->held, p->around));
+    TRY(keep_voxels(gpu, p));
+    const struct gpu_sort sort = {.keys = p->flags,
+                                  .ids = p->field[ROCK_id],
+                                  .start = p->start,
+                                  .order = p->surface, /* found anew after this */
+                                  .taken = p->taken,
+                                  .unordered = p->place,
+                                  .n = p->n,
+                                  .n_keys = p->held.n + 1,
+                                  .n_ordered = p->held.n};
+    GPU_RUN(gpu, particles_key, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->held.words, p->flags);
     gpu_sort(gpu, work, &sort);
-    TRY(gpu_download(gpu, p->start, n_voxels, &alive, 1));
+    TRY(gpu_download(gpu, p->start, p->held.n, &alive, 1));
     for (int f = 0; f < ROCK_FIELDS; f++) {
         if (rock_field_table[f].keep > keep)
             continue;
@@ -64,9 +83,7 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
         if (rock_field_table[f].keep <= keep && rock->field[f])
             TRY(gpu_upload(gpu, p->field[f], 0, rock->field[f], rock->n));
     }
-    TRY(gpu_buffer_create(gpu, "voxel start", voxel_count(voxels) + 2, 4, &p->start));
-    TRY(gpu_buffer_create(gpu, "voxel fill", voxel_count(voxels), 4, &p->fill));
-    TRY(gpu_buffer_create(gpu, "voxel scratch", voxel_count(voxels) + 1, 4, &p->taken));
+    TRY(held_create(gpu, voxels, p->n_max, &p->held));
     TRY(gpu_buffer_create(gpu, "surface list", p->n_max, 4, &p->surface));
     TRY(gpu_buffer_create(gpu, "particle flags", p->n_max, 4, &p->flags));
     TRY(gpu_buffer_create(gpu, "particle places", p->n_max, 4, &p->place));
@@ -83,6 +100,7 @@ void particles_destroy(struct gpu *gpu, struct particles *p)
 {
     for (int f = 0; f < ROCK_FIELDS; f++)
         gpu_buffer_destroy(gpu, &p->field[f]);
+    held_destroy(gpu, &p->held);
     gpu_buffer_destroy(gpu, &p->start);
     gpu_buffer_destroy(gpu, &p->fill);
     gpu_buffer_destroy(gpu, &p->taken);
@@ -99,11 +117,20 @@ status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles 
     return index_fields(gpu, work, p, STATE);
 }
 
+status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct particles *p)
+{
+    if (p->around)
+        return OK;
+    p->around = true;
+    return index_fields(gpu, work, p, STATE);
+}
+
 void particles_fill(struct gpu *gpu, struct particles *p)
 {
-    struct voxel_params k = particles_params(p, voxel_count(p->voxels));
+    struct voxel_params k = particles_params(p, p->held.n);
     if (p->moving)
-        GPU_RUN(gpu, particles_spread, k.n, k, p->start, p->field[ROCK_P], p->field[ROCK_viability], p->fill);
+        GPU_RUN(gpu, particles_spread, k.n, k, p->held.words, p->start, p->held.list, p->field[ROCK_P],
+                p->field[ROCK_viability], p->fill);
     else
         GPU_RUN(gpu, particles_fill, k.n, k, p->start, p->field[ROCK_viability], p->fill);
 }
@@ -112,11 +139,12 @@ status particles_surface(struct gpu *gpu, struct gpu_work *work, struct particle
 {
     status st = OK;
     struct voxel_params k = particles_params(p, p->n);
-    GPU_RUN(gpu, particles_exposed, p->n, k, p->field[ROCK_P], p->start, p->flags);
+    GPU_RUN(gpu, particles_exposed, p->n, k, p->field[ROCK_P], p->held.occupied, p->flags);
     TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, &p->n_surface));
     gpu_fill(gpu, p->field[ROCK_N], 0);
     k.n = (uint)p->n_surface;
-    GPU_RUN(gpu, particles_normal, p->n_surface, k, p->surface, p->field[ROCK_P], p->start, p->field[ROCK_N]);
+    GPU_RUN(gpu, particles_normal, p->n_surface, k, p->surface, p->field[ROCK_P], p->held.words, p->start,
+            p->field[ROCK_N]);
 done:
     return st;
 }

@@ -1,14 +1,15 @@
 /* The rock on the device: every field of particles.def as a buffer, ordered by voxel, and the surface found
  * in it.
  *
- * Particles are sorted by the voxel they lie in, those of one voxel by id; start[v] is the first of voxel v.
- * Passes over neighbours walk voxels, rows of which are contiguous.
+ * Particles are sorted by the voxel they lie in, those of one voxel by id. Voxels that have none take no memory but a bit
+ * (held.h). Passes over neighbours walk voxels, rows of which are contiguous.
  */
 #ifndef HOODOO_PARTICLES_H
 #define HOODOO_PARTICLES_H
 
 #include "gpu/gpu.h"
 #include "gpu/primitives.h"
+#include "particles/held.h"
 #include "particles/rock.h"
 
 struct particles {
@@ -16,8 +17,10 @@ struct particles {
     int voxels[3];
     double h;                              /* m: spacing, and a voxel's size */
     struct gpu_buffer *field[ROCK_FIELDS]; /* n_max items each */
-    struct gpu_buffer *start;              /* uint [voxels + 1] */
-    struct gpu_buffer *fill;    /* float [voxels]: how much of each is rock, as of particles_fill() */
+    struct held_voxels held;               /* voxels with particles; with `around`, those around them too */
+    bool around;                           /* particles_hold_around() */
+    struct gpu_buffer *start;              /* uint [held + 1]: the first particle of each, and the end */
+    struct gpu_buffer *fill;    /* float [held]: how much of each is rock, as of particles_fill() */
     struct gpu_buffer *surface; /* uint [n_surface]: the particles with a bare face, ascending */
     size_t n_surface;
     struct gpu_buffer *flags, *place; /* scratch, uint [n_max] */
@@ -25,12 +28,7 @@ struct particles {
     bool moving; /* particles are not in their voxels' middles: particles_fill() spreads them */
 };
 
-static inline size_t voxel_count(const int voxels[3])
-{
-    return (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2];
-}
-
-/* Bytes on the device for n particles in that many voxels. */
+/* Bytes on the device for n particles in a domain of so many voxels. */
 uint64_t particles_bytes(size_t n, const int voxels[3]);
 
 /* Uploads the rock's fields up to `keep` (STATE, or DERIVED for all; NULL ones are zero) and orders them. The
@@ -43,7 +41,11 @@ void particles_destroy(struct gpu *gpu, struct particles *p);
  * */
 MUST_USE status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p);
 
-/* Takes the particles' viability into the voxels' fill. Records only. */
+/* From now on the voxels around those with particles are held too, as long as there may be rubble or rock in motion: it fills
+ * voxels that have none. As particles_index(). Waits. */
+MUST_USE status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct particles *p);
+
+/* Takes the particles' viability into the held voxels' fill, which holds until they are indexed anew. Records only. */
 void particles_fill(struct gpu *gpu, struct particles *p);
 
 /* Finds the surface and its normals (field N; 0 inside). Waits. */

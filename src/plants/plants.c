@@ -58,8 +58,8 @@ void plants_grow(struct gpu *gpu, const struct job *job, int frame, struct parti
     k.seed = random_hash((uint32_t)job->seed, (uint32_t)frame, 0, RANDOM_PLANTS);
     k.growth = (float)exp(fmin(growth * kyr, 50));
     k.death = (float)exp(-job->vegetation.death_per_kyr * kyr);
-    GPU_RUN(gpu, plants_live, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->field[ROCK_phase], p->start,
-            p->field[ROCK_vegetation]);
+    GPU_RUN(gpu, plants_live, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->field[ROCK_phase],
+            p->held.occupied, p->field[ROCK_vegetation]);
     if (growth <= 0)
         return;
     k.n = (uint)p->n_surface;
@@ -67,6 +67,7 @@ void plants_grow(struct gpu *gpu, const struct job *job, int frame, struct parti
         k.spread = (uint)s;
         gpu_copy(gpu, p->spare_word, p->field[ROCK_vegetation], p->n);
         GPU_RUN(gpu, plants_spread, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-                p->field[ROCK_phase], p->start, p->spare_word, p->field[ROCK_id], p->field[ROCK_vegetation]);
+                p->field[ROCK_phase], p->start, p->spare_word, p->field[ROCK_id], p->field[ROCK_vegetation],
+                p->held.words, p->held.occupied);
     }
 }

@@ -111,7 +111,7 @@ status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct elastic *
     status st = OK;
     size_t inner = (size_t)(e->cells[0] - 2) * (size_t)(e->cells[1] - 2) * (size_t)(e->cells[2] - 2);
     struct stress_params k = params(e, inner);
-    GPU_RUN(gpu, stress_fill, inner, k, p->start, p->field[ROCK_viability], e->fill);
+    GPU_RUN(gpu, stress_fill, inner, k, p->held.words, p->start, p->field[ROCK_viability], e->fill);
     k.n = (uint)elastic_nodes(e);
     GPU_RUN(gpu, stress_active, k.n, k, e->fill, e->flags);
     TRY(gpu_compact(gpu, work, e->flags, e->place, e->list, elastic_nodes(e), &e->n_active));

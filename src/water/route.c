@@ -44,7 +44,7 @@ static status find_nodes(struct gpu *gpu, struct gpu_work *work, struct water *w
     uint32_t n_nodes;
     gpu_fill(gpu, w->first, 0);
     k.n = (uint)(((size_t)w->cells[0] + 31) / 32 * (size_t)w->cells[1] * (size_t)w->cells[2]);
-    GPU_RUN(gpu, water_rows, k.n, k, p->start, w->rows);
+    GPU_RUN(gpu, water_rows, k.n, k, p->held.occupied, w->rows);
     k.n = (uint)n_words;
     GPU_RUN(gpu, water_columns, n_words, k, w->rows, w->occupied, w->floors, w->first);
     gpu_scan(gpu, work, w->first, n_words + 1);
@@ -53,8 +53,8 @@ static status find_nodes(struct gpu *gpu, struct gpu_work *work, struct water *w
     TRY(water_reserve(gpu, w, w->n_nodes));
     GPU_RUN(gpu, water_nodes, n_words, k, w->floors, w->first, w->node[WATER_CELL]);
     k = water_params(w, w->n_nodes);
-    GPU_RUN(gpu, water_altitude, w->n_nodes, k, w->node[WATER_CELL], p->start, p->field[ROCK_viability],
-            w->node[WATER_Z]);
+    GPU_RUN(gpu, water_altitude, w->n_nodes, k, w->node[WATER_CELL], p->held.words, p->start,
+            p->field[ROCK_viability], w->node[WATER_Z]);
 done:
     return st;
 }

@@ -162,8 +162,8 @@ static void step(struct gpu *gpu, struct flow *f, struct flow_params k, struct p
             f->density_pressure[0]);
     solve(gpu, f, k, f->density_pressure[0], f->density_iterations);
     k.gain = DRIFT;
-    GPU_RUN(gpu, wind_flow_move, f->slots, k, f->start, f->crowd, p->start, f->position[0], f->velocity[0],
-            f->key);
+    GPU_RUN(gpu, wind_flow_move, f->slots, k, f->start, f->crowd, p->held.occupied, f->position[0],
+            f->velocity[0], f->key);
     emit(gpu, f, k);
     arrange(gpu, f, k);
     f->state.steps++;
@@ -202,12 +202,12 @@ static status begin(struct gpu *gpu, struct flow *f, struct flow_params k, struc
     size_t n_rock;
     if (f->state.steps == 0) {
         k.n = (uint)box_count(f);
-        GPU_RUN(gpu, wind_flow_fill, k.n, k, p->start, f->position[0], f->velocity[0], f->id[0]);
+        GPU_RUN(gpu, wind_flow_fill, k.n, k, p->held.occupied, f->position[0], f->velocity[0], f->id[0]);
         f->state.n = f->state.next_id = k.n;
         k.n = (uint)f->slots;
     }
     k.first = f->state.n;
-    GPU_RUN(gpu, wind_flow_begin, k.n, k, f->position[0], f->velocity[0], p->start, f->key);
+    GPU_RUN(gpu, wind_flow_begin, k.n, k, f->position[0], f->velocity[0], p->held.occupied, f->key);
     gpu_copy(gpu, f->surface, f->flags, box_count(f));
     TRY(gpu_compact(gpu, f->work, f->flags, f->place, f->surface_list, box_count(f), &n_rock));
     k.n = (uint)(ground_count(f) + n_rock);

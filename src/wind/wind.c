@@ -144,7 +144,7 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
     struct wind_lattice air;
     if (!wind_lattice(w, job, frame, &air)) {
         GPU_RUN(gpu, wind_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-                p->field[ROCK_stress], p->start, intensity, parts);
+                p->field[ROCK_stress], p->held.occupied, intensity, parts);
         return;
     }
     k.shelter = (float)air.cell;
@@ -154,5 +154,5 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
     k.origin_x = (float)air.origin[0];
     k.origin_y = (float)air.origin[1];
     GPU_RUN(gpu, wind_strike, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            p->field[ROCK_stress], p->start, air.velocity, intensity, parts);
+            p->field[ROCK_stress], p->held.occupied, air.velocity, intensity, parts);
 }

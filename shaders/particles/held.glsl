@@ -1,0 +1,18 @@
+// What there is of a voxel is kept only for some of them: those are held. `words` has two words for each word of bits, the bits
+// of held voxels and how many are held before them, and two more at the end. A held voxel's place among them, its slot, is its
+// place in buffers of voxels; so slots ascend as voxels do. Needs READ_U(words) and particles/bits.glsl.
+
+const uint NOT_HELD = 0xffffffffu;
+
+// How many voxels are held before this one, which may be one past the end of its row.
+uint voxel_rank(ivec3 v)
+{
+    uint w = 2u * voxel_word(v);
+    return LOAD_U(words, w + 1u) + uint(bitCount(LOAD_U(words, w) & (voxel_bit(v) - 1u)));
+}
+
+uint voxel_slot(ivec3 v)
+{
+    uint w = 2u * voxel_word(v), bits = LOAD_U(words, w), own = voxel_bit(v);
+    return (bits & own) == 0u ? NOT_HELD : LOAD_U(words, w + 1u) + uint(bitCount(bits & (own - 1u)));
+}

@@ -1,0 +1,44 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Which voxels are held: those that have particles, and with k.around those around them too. Their bits, and the number of
+// them; of the word after the last there are none.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, occupied)
+WRITE_U(1, words)
+WRITE_U(2, count)
+PARAMS(hold_params)
+#include "particles/bits.glsl"
+
+// 32 voxels of a row, and those before and behind them.
+uint along(int x, uint y, uint z)
+{
+    int across = int((k.nx + 31u) >> 5);
+    uint at = (z * k.ny + y) * uint(across) + uint(x), own = LOAD_U(occupied, at);
+    uint before = x > 0 ? LOAD_U(occupied, at - 1u) >> 31 : 0u;
+    uint behind = x + 1 < across ? LOAD_U(occupied, at + 1u) << 31 : 0u;
+    return own | own << 1 | own >> 1 | before | behind;
+}
+
+uint around(ivec3 v)
+{
+    uint sum = 0u;
+    for (int z = max(v.z - 1, 0); z <= min(v.z + 1, int(k.nz) - 1); z++)
+        for (int y = max(v.y - 1, 0); y <= min(v.y + 1, int(k.ny) - 1); y++)
+            sum |= along(v.x >> 5, uint(y), uint(z));
+    uint inside = k.nx - uint(v.x);
+    return inside < 32u ? sum & ((1u << inside) - 1u) : sum;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint bits = 0u;
+    if (i + 1u < k.n)
+        bits = k.around != 0u ? around(voxel_at(32u * i)) : LOAD_U(occupied, i);
+    AT(words, 2u * i) = bits;
+    AT(count, i) = uint(bitCount(bits));
+}

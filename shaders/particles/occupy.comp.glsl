@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The bits of the voxels that have particles; those of which nothing is left do not count.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_V(0, position)
+READ_F(1, viability)
+WRITE_U(2, occupied)
+PARAMS(voxel_params)
+#include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n || LOAD_F(viability, i) <= 0.0)
+        return;
+    ivec3 v = voxel_of(LOAD_V(position, i).xyz);
+    atomicOr(AT(occupied, voxel_word(v)), voxel_bit(v));
+}

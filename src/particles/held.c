@@ -1,0 +1,85 @@
+#include "particles/held.h"
+
+#include <stdlib.h>
+
+#include "base/memory.h"
+
+uint64_t held_bytes(const int voxels[3], size_t n)
+{
+    return (uint64_t)held_words(voxels) * 16 + (uint64_t)n * 4;
+}
+
+/* The list's room: all that is in it is lost. */
+static status make_room(struct gpu *gpu, struct held_voxels *h, size_t n)
+{
+    status st = OK;
+    gpu_buffer_destroy(gpu, &h->list);
+    h->room = 0;
+    TRY(gpu_buffer_create(gpu, "held voxels", n ? n : 1, 4, &h->list));
+    h->room = n;
+done:
+    return st;
+}
+
+status held_create(struct gpu *gpu, const int voxels[3], size_t n, struct held_voxels *h)
+{
+    status st = OK;
+    const size_t words = held_words(voxels);
+    *h = (struct held_voxels){.voxels = {voxels[0], voxels[1], voxels[2]}};
+    TRY(gpu_buffer_create(gpu, "occupied voxels", words, 4, &h->occupied));
+    TRY(gpu_buffer_create(gpu, "voxels' slots", 2 * (words + 1), 4, &h->words));
+    TRY(gpu_buffer_create(gpu, "voxels counted", words + 1, 4, &h->count));
+    TRY(make_room(gpu, h, n));
+done:
+    if (st != OK)
+        held_destroy(gpu, h);
+    return st;
+}
+
+void held_destroy(struct gpu *gpu, struct held_voxels *h)
+{
+    gpu_buffer_destroy(gpu, &h->occupied);
+    gpu_buffer_destroy(gpu, &h->words);
+    gpu_buffer_destroy(gpu, &h->list);
+    gpu_buffer_destroy(gpu, &h->count);
+    *h = (struct held_voxels){0};
+}
+
+status held_find(struct gpu *gpu, struct gpu_work *work, struct held_voxels *h, bool around)
+{
+    status st = OK;
+    const size_t words = held_words(h->voxels);
+    const struct hold_params k = {.n = (uint)words + 1,
+                                  .nx = (uint)h->voxels[0],
+                                  .ny = (uint)h->voxels[1],
+                                  .nz = (uint)h->voxels[2],
+                                  .around = around};
+    const struct count_params all = {(uint)words + 1};
+    uint32_t n;
+    GPU_RUN(gpu, particles_hold, k.n, k, h->occupied, h->words, h->count);
+    gpu_scan(gpu, work, h->count, words + 1);
+    TRY(gpu_download(gpu, h->count, words, &n, 1));
+    if (n > h->room)
+        TRY(make_room(gpu, h, n + n / 8));
+    h->n = n;
+    GPU_RUN(gpu, particles_rank, all.n, all, h->count, h->words, h->list);
+done:
+    return st;
+}
+
+status held_all(struct gpu *gpu, struct gpu_work *work, struct held_voxels *h)
+{
+    status st = OK;
+    uint32_t *bits = NULL;
+    const size_t words = held_words(h->voxels), across = ((size_t)h->voxels[0] + 31) / 32;
+    TRY(memory_alloc(words, sizeof *bits, "voxels' bits", &bits));
+    for (size_t w = 0; w < words; w++) {
+        const size_t left = (size_t)h->voxels[0] - 32 * (w % across);
+        bits[w] = left < 32 ? (1U << left) - 1 : ~0U;
+    }
+    TRY(gpu_upload(gpu, h->occupied, 0, bits, words));
+    TRY(held_find(gpu, work, h, false));
+done:
+    free(bits);
+    return st;
+}
