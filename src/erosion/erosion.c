@@ -7,7 +7,7 @@
 
 uint64_t erosion_bytes(size_t n)
 {
-    return (uint64_t)n * 20;
+    return (uint64_t)n * 8;
 }
 
 status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, struct erosion *e)
@@ -17,9 +17,6 @@ status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, stru
     TRY(gpu_buffer_create(gpu, "layers", e->n_layers, 16, &e->layers));
     TRY(gpu_buffer_create(gpu, "intensity", n_max, 4, &e->intensity));
     TRY(gpu_buffer_create(gpu, "intensity parts", n_max, 4, &e->parts));
-    TRY(gpu_buffer_create(gpu, "unspent steps", n_max, 4, &e->unspent));
-    TRY(gpu_buffer_create(gpu, "unspent parts", n_max, 4, &e->shares));
-    TRY(gpu_buffer_create(gpu, "spent quanta", n_max, 4, &e->spent));
 done:
     if (st != OK)
         erosion_destroy(gpu, e);
@@ -31,9 +28,6 @@ void erosion_destroy(struct gpu *gpu, struct erosion *e)
     gpu_buffer_destroy(gpu, &e->layers);
     gpu_buffer_destroy(gpu, &e->intensity);
     gpu_buffer_destroy(gpu, &e->parts);
-    gpu_buffer_destroy(gpu, &e->unspent);
-    gpu_buffer_destroy(gpu, &e->shares);
-    gpu_buffer_destroy(gpu, &e->spent);
 }
 
 /* By the plane face of unstressed rock of the weakest layer, across the wind. Edges, tension, noise and paint
@@ -86,8 +80,8 @@ status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, s
     float fastest = 0;
     struct count_params k = {(uint)p->n_surface};
     struct gpu_buffer *words = gpu_work_words(work);
-    GPU_RUN(gpu, erosion_pace, k.n, k, p->surface, e->intensity, p->field[ROCK_erodibility], e->unspent);
-    gpu_max(gpu, work, e->unspent, p->n_surface, words, COUNT_FASTEST);
+    GPU_RUN(gpu, erosion_pace, k.n, k, p->surface, e->intensity, p->field[ROCK_erodibility], p->flags);
+    gpu_max(gpu, work, p->flags, p->n_surface, words, COUNT_FASTEST);
     TRY(gpu_download(gpu, words, COUNT_FASTEST, &fastest, 1));
     *m_per_kyr = (double)fastest;
 done:
@@ -108,16 +102,18 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
     };
     struct voxel_params carry = particles_params(p, p->n);
     struct gpu_buffer *counts = gpu_work_words(work);
+    /* What is left of the step where a particle is gone, by what it went, and the quanta each process took. */
+    struct gpu_buffer *unspent = p->flags, *shares = p->place, *spent = p->taken;
     gpu_fill(gpu, counts, 0);
-    gpu_fill(gpu, e->unspent, 0);
+    gpu_fill(gpu, unspent, 0);
     GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            e->intensity, p->field[ROCK_erodibility], p->held.occupied, p->field[ROCK_viability], e->unspent,
-            counts, e->parts, e->spent, e->shares);
-    budget_split(gpu, budget, e->spent, e->parts, p->n_surface);
+            e->intensity, p->field[ROCK_erodibility], p->held.occupied, p->field[ROCK_viability], unspent,
+            counts, e->parts, spent, shares);
+    budget_split(gpu, budget, spent, e->parts, p->n_surface);
     GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->field[ROCK_N], p->start,
-            p->field[ROCK_erodibility], e->unspent, p->field[ROCK_viability], e->shares, e->spent, e->parts,
+            p->field[ROCK_erodibility], unspent, p->field[ROCK_viability], shares, spent, e->parts,
             p->held.words);
-    budget_split(gpu, budget, e->spent, e->parts, p->n);
+    budget_split(gpu, budget, spent, e->parts, p->n);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
 done:
     return st;

@@ -15,10 +15,7 @@ struct erosion {
     struct gpu_buffer *intensity;
     struct gpu_buffer
         *parts; /* uint [n_max], likewise: deflation's and water's share in it (packUnorm2x16) */
-    struct gpu_buffer *layers;  /* vec4 [n_layers]: weak, strong (m/kyr), I (Pa) in this frame */
-    struct gpu_buffer *unspent; /* float [n_max]: of a step, by the particles it took */
-    struct gpu_buffer *shares;  /* uint [n_max]: the parts of these */
-    struct gpu_buffer *spent;   /* uint [n_max]: scratch */
+    struct gpu_buffer *layers; /* vec4 [n_layers]: weak, strong (m/kyr), I (Pa) in this frame */
     size_t n_layers;
 };
 

@@ -182,7 +182,8 @@ static status find_motion(struct gpu *gpu, const struct job *job, const struct j
     overscan_of(camera, margin);
     size_t n = ((size_t)now.width + 2 * (size_t)margin[0]) * ((size_t)now.height + 2 * (size_t)margin[1]);
     TRY(memory_alloc(4 * p->n, sizeof *v, "velocities", &v));
-    TRY(gpu_download(gpu, p->field[ROCK_v], 0, v, p->n));
+    if (p->field[ROCK_v])
+        TRY(gpu_download(gpu, p->field[ROCK_v], 0, v, p->n));
     for (size_t i = 0; i < n; i++) {
         double from[2], to[2], x[3], then[3];
         if (hit[4 * i + 3] < 0)

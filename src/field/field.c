@@ -19,17 +19,17 @@ static size_t all_bricks(const struct field *f)
 /* Of a sample: share, distance twice, means. */
 enum { SAMPLE_BYTES = 3 * 4 + 16 };
 
-/* Some more than are asked for, so that growing rock does not ask again in every frame. */
-static size_t room_for(size_t bricks)
+/* At first as many as are asked for; where rock grows some more, so that it does not ask again in every frame. */
+static size_t room_for(const struct field *f, size_t bricks)
 {
-    return bricks + bricks / 8 + 1;
+    return bricks + (f->room > 1 ? bricks / 8 : 0) + 1;
 }
 
 uint64_t field_bytes(const int voxels[3], uint64_t samples)
 {
     struct field f = geometry(voxels, 1);
     return (uint64_t)all_bricks(&f) * 4 * 4 +
-           (uint64_t)room_for(samples / BRICK_SAMPLES) * BRICK_SAMPLES * SAMPLE_BYTES;
+           (uint64_t)room_for(&f, samples / BRICK_SAMPLES) * BRICK_SAMPLES * SAMPLE_BYTES;
 }
 
 status field_create(struct gpu *gpu, const int voxels[3], double h, struct field *f)
@@ -100,8 +100,8 @@ status field_keep(struct gpu *gpu, struct field *f, size_t n)
     status st = OK;
     const struct count_params k = {(uint)n};
     if (n > f->room || f->room == 0) {
+        const size_t room = room_for(f, n), samples = room * BRICK_SAMPLES;
         destroy_samples(gpu, f);
-        const size_t room = room_for(n), samples = room * BRICK_SAMPLES;
         TRY(gpu_buffer_create(gpu, "rock share", samples, 4, &f->share));
         TRY(gpu_buffer_create(gpu, "field means", samples, 16, &f->means));
         TRY(gpu_buffer_create(gpu, "distance", samples, 4, &f->distance));

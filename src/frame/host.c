@@ -7,7 +7,7 @@ uint64_t host_rock_bytes(size_t n)
 {
     uint64_t bytes = 0;
     for (int f = 0; f < ROCK_FIELDS; f++)
-        bytes += n * rock_field_size((enum rock_field)f);
+        bytes += f == ROCK_v ? 0 : n * rock_field_size((enum rock_field)f);
     return bytes;
 }
 
@@ -52,7 +52,8 @@ static uint64_t writing(const struct job *job, const struct scene_size *size, co
 uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
                            uint64_t own, const struct disk_frame *files)
 {
-    const uint64_t one = host_rock_bytes(size->n_particles) +
+    const bool moves = job->clock.seconds_per_frame > 0 || job->collapse.blocks == COLLAPSE_FALL;
+    const uint64_t one = host_rock_bytes(size->n_particles) + (moves ? 16 * size->n_particles : 0) +
                          value_grids(HAS_ALWAYS) * samples * sizeof(float) + own +
                          aov_picture_bytes(job) * job->output.aov.n_cameras;
     return 2 * one + making(job) + writing(job, size, files);

@@ -4,7 +4,7 @@
 
 #include "frame/disk.h"
 
-/* A rock of n particles, with every field. */
+/* A rock of n particles, with every field but their velocities: 16 more where it moves. */
 uint64_t host_rock_bytes(size_t n);
 
 /* Samples of a grid of a frame whose domain has these voxels: those of the bricks (particles/grids.h) that rock of so many

@@ -336,8 +336,8 @@ static status estimate(const struct job *job, struct model_needs *needs)
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
     needs->samples = host_grid_samples(n, ground.n_particles, ground.n_surface);
     needs->frame_bytes = value_grids(HAS_TERRAIN) * needs->samples * sizeof(float);
-    /* On the device, the shares come as a lattice. */
-    needs->device_bytes = terrain_samples(n) * sizeof(float);
+    /* On the device, the shares come as a lattice, and the rock is ordered with a vector and a word to spare. */
+    needs->device_bytes = terrain_samples(n) * sizeof(float) + 20 * needs->size.n_particles;
     /* The stacks, and what frames are made from: shares and materials of every sample of the field. */
     needs->host_bytes =
         (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) + terrain_view_bytes(n);

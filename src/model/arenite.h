@@ -27,7 +27,8 @@
     PART(wind, LASTS_RUN, wind_bytes(job, voxels), wind_create(a->m.gpu, a->m.whole, a->m.voxels, &a->wind)) \
     PART(deposit, LASTS_JOB, arenite_ever(job, deposit_wanted) ? deposit_bytes(voxels) : 0,                  \
          a->deposits ? deposit_create(a->m.gpu, a->m.voxels, &a->deposit) : OK)                              \
-    PART(water, LASTS_JOB, arenite_ever(job, arenite_routes) ? water_bytes(voxels) : 0,                      \
+    PART(water, LASTS_JOB,                                                                                   \
+         arenite_ever(job, arenite_routes) ? water_bytes(voxels, arenite_ever(job, deposit_wanted)) : 0,     \
          arenite_routes(a->m.job) ? water_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->water) : OK)   \
     PART(erosion, LASTS_ROCK, erosion_bytes(n),                                                              \
          erosion_create(a->m.gpu, a->m.job, a->particles.n_max, &a->erosion))                                \

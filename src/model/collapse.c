@@ -27,7 +27,7 @@ uint64_t collapse_checkpoint_bytes(const struct job *job, size_t n)
 uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3])
 {
     return collapse_wanted(job)
-               ? mpm_bytes(n, voxels, job->domain.spacing_m, job->collapse.joints_m) + 4 * (uint64_t)n
+               ? mpm_bytes(n, voxels, job->domain.spacing_m, job->collapse.joints_m) + (4 + 16) * (uint64_t)n
                : 0;
 }
 
@@ -47,7 +47,7 @@ done:
     return st;
 }
 
-status collapse_create(struct gpu *gpu, const struct job *job, const struct particles *p, struct collapse *c)
+status collapse_create(struct gpu *gpu, const struct job *job, struct particles *p, struct collapse *c)
 {
     status st = OK;
     size_t n_ids;
@@ -75,6 +75,7 @@ status collapse_create(struct gpu *gpu, const struct job *job, const struct part
     if (!collapse_wanted(job))
         return OK;
     mpm_soften(&options, j->wave_m_s);
+    TRY(particles_allow_motion(gpu, p));
     TRY(mpm_create(gpu, p->voxels, p->h, p->n_max, &options, &c->mpm));
     if (c->shot) {
         TRY(count_ids(gpu, p, &n_ids));

@@ -29,7 +29,7 @@ bool collapse_wanted(const struct job *job);
 uint64_t collapse_checkpoint_bytes(const struct job *job, size_t n);
 
 uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3]);
-MUST_USE status collapse_create(struct gpu *gpu, const struct job *job, const struct particles *p,
+MUST_USE status collapse_create(struct gpu *gpu, const struct job *job, struct particles *p,
                                 struct collapse *out);
 void collapse_destroy(struct gpu *gpu, struct collapse *c);
 

@@ -2,9 +2,9 @@
 
 uint64_t particles_bytes(size_t n, const int voxels[3])
 {
-    uint64_t item = 4 * 4 + 16 + 3 * 4; /* surface, flags, place, spares; start, fill, taken: a voxel each */
+    uint64_t item = 3 * 4 + 3 * 4; /* surface, flags, place; start, fill, taken: a voxel each */
     for (int f = 0; f < ROCK_FIELDS; f++)
-        item += rock_field_size((enum rock_field)f);
+        item += f == ROCK_v ? 0 : rock_field_size((enum rock_field)f);
     return (uint64_t)n * item + held_bytes(voxels, n);
 }
 
@@ -33,8 +33,19 @@ done:
     return st;
 }
 
-/* The order of particles_index(), for fields up to `keep`. */
-static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep)
+/* A field in the order in p->surface; its buffer becomes the spare one. */
+static void reorder(struct gpu *gpu, struct particles *p, struct gpu_buffer **field,
+                    struct gpu_buffer **spare, size_t n)
+{
+    struct gpu_buffer *old = *field;
+    gpu_gather(gpu, p->surface, old, *spare, n);
+    *field = *spare;
+    *spare = old;
+}
+
+/* The order of particles_index(), for fields up to `keep`. The spare buffers, of vectors and of words, are zero after it. */
+static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep,
+                           struct gpu_buffer **vector, struct gpu_buffer **word)
 {
     status st = OK;
     const struct voxel_params k = particles_params(p, p->n);
@@ -55,20 +66,44 @@ static status index_fields(struct gpu *gpu, struct gpu_work *work, struct partic
     GPU_RUN(gpu, particles_key, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->held.words, p->flags);
     gpu_sort(gpu, work, &sort);
     TRY(gpu_download(gpu, p->start, p->held.n, &alive, 1));
-    for (int f = 0; f < ROCK_FIELDS; f++) {
-        if (rock_field_table[f].keep > keep)
-            continue;
-        struct gpu_buffer **spare =
-            rock_field_size((enum rock_field)f) == 16 ? &p->spare_vector : &p->spare_word;
-        struct gpu_buffer *old = p->field[f];
-        gpu_gather(gpu, p->surface, old, *spare, alive);
-        p->field[f] = *spare;
-        *spare = old;
-    }
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (rock_field_table[f].keep <= keep && p->field[f])
+            reorder(gpu, p, &p->field[f], rock_field_size((enum rock_field)f) == 16 ? vector : word, alive);
+    gpu_fill(gpu, *vector, 0);
+    gpu_fill(gpu, *word, 0);
     p->n = alive;
     p->n_surface = 0;
 done:
     return st;
+}
+
+/* The fields of the state: two that are derived, and stale, serve as spare. */
+static status index_state(struct gpu *gpu, struct gpu_work *work, struct particles *p)
+{
+    return index_fields(gpu, work, p, STATE, &p->field[ROCK_N], &p->field[ROCK_stress]);
+}
+
+/* All fields. */
+static status index_derived(struct gpu *gpu, struct gpu_work *work, struct particles *p)
+{
+    status st = OK;
+    struct gpu_buffer *vector = NULL, *word = NULL;
+    TRY(gpu_buffer_create(gpu, "spare vectors", p->n_max, 16, &vector));
+    TRY(gpu_buffer_create(gpu, "spare words", p->n_max, 4, &word));
+    TRY(index_fields(gpu, work, p, DERIVED, &vector, &word));
+    TRY(gpu_wait(gpu));
+done:
+    gpu_buffer_destroy(gpu, &vector);
+    gpu_buffer_destroy(gpu, &word);
+    return st;
+}
+
+static bool moves(const struct rock *rock)
+{
+    for (size_t i = 0; rock->v && i < 4 * rock->n; i++)
+        if (rock->v[i] != 0)
+            return true;
+    return false;
 }
 
 status particles_create(struct gpu *gpu, struct gpu_work *work, const struct rock *rock, int keep,
@@ -78,6 +113,8 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     *p = (struct particles){
         .n = rock->n, .n_max = rock->n, .voxels = {voxels[0], voxels[1], voxels[2]}, .h = h};
     for (int f = 0; f < ROCK_FIELDS; f++) {
+        if (f == ROCK_v && !(keep == DERIVED && moves(rock)))
+            continue;
         TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f),
                               &p->field[f]));
         if (rock_field_table[f].keep <= keep && rock->field[f])
@@ -87,9 +124,7 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     TRY(gpu_buffer_create(gpu, "surface list", p->n_max, 4, &p->surface));
     TRY(gpu_buffer_create(gpu, "particle flags", p->n_max, 4, &p->flags));
     TRY(gpu_buffer_create(gpu, "particle places", p->n_max, 4, &p->place));
-    TRY(gpu_buffer_create(gpu, "spare words", p->n_max, 4, &p->spare_word));
-    TRY(gpu_buffer_create(gpu, "spare vectors", p->n_max, 16, &p->spare_vector));
-    TRY(index_fields(gpu, work, p, keep));
+    TRY(keep == STATE ? index_state(gpu, work, p) : index_derived(gpu, work, p));
 done:
     if (st != OK)
         particles_destroy(gpu, p);
@@ -107,14 +142,12 @@ void particles_destroy(struct gpu *gpu, struct particles *p)
     gpu_buffer_destroy(gpu, &p->surface);
     gpu_buffer_destroy(gpu, &p->flags);
     gpu_buffer_destroy(gpu, &p->place);
-    gpu_buffer_destroy(gpu, &p->spare_word);
-    gpu_buffer_destroy(gpu, &p->spare_vector);
     *p = (struct particles){0};
 }
 
 status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p)
 {
-    return index_fields(gpu, work, p, STATE);
+    return index_state(gpu, work, p);
 }
 
 status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct particles *p)
@@ -122,7 +155,15 @@ status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct part
     if (p->around)
         return OK;
     p->around = true;
-    return index_fields(gpu, work, p, STATE);
+    return index_state(gpu, work, p);
+}
+
+status particles_allow_motion(struct gpu *gpu, struct particles *p)
+{
+    if (p->field[ROCK_v])
+        return OK;
+    return gpu_buffer_create(gpu, rock_field_table[ROCK_v].name, p->n_max, rock_field_size(ROCK_v),
+                             &p->field[ROCK_v]);
 }
 
 void particles_fill(struct gpu *gpu, struct particles *p)
@@ -154,7 +195,7 @@ status particles_download(struct gpu *gpu, const struct particles *p, int keep, 
     status st = OK;
     TRY(rock_alloc(out, p->n, keep));
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (out->field[f])
+        if (out->field[f] && p->field[f])
             TRY(gpu_download(gpu, p->field[f], 0, out->field[f], p->n));
 done:
     if (st != OK)

@@ -16,15 +16,16 @@ struct particles {
     size_t n, n_max;
     int voxels[3];
     double h;                              /* m: spacing, and a voxel's size */
-    struct gpu_buffer *field[ROCK_FIELDS]; /* n_max items each */
+    struct gpu_buffer *field[ROCK_FIELDS]; /* n_max items each; v is NULL while nothing can move */
     struct held_voxels held;               /* voxels with particles; with `around`, those around them too */
     bool around;                           /* particles_hold_around() */
     struct gpu_buffer *start;              /* uint [held + 1]: the first particle of each, and the end */
     struct gpu_buffer *fill;    /* float [held]: how much of each is rock, as of particles_fill() */
     struct gpu_buffer *surface; /* uint [n_surface]: the particles with a bare face, ascending */
     size_t n_surface;
-    struct gpu_buffer *flags, *place; /* scratch, uint [n_max] */
-    struct gpu_buffer *spare_word, *spare_vector, *taken;
+    /* Scratch, uint [n_max]: what a process leaves in it is lost to the next. `taken` may have more, a word for each held
+     * voxel. */
+    struct gpu_buffer *flags, *place, *taken;
     bool moving; /* particles are not in their voxels' middles: particles_fill() spreads them */
 };
 
@@ -44,6 +45,9 @@ MUST_USE status particles_index(struct gpu *gpu, struct gpu_work *work, struct p
 /* From now on the voxels around those with particles are held too, as long as there may be rubble or rock in motion: it fills
  * voxels that have none. As particles_index(). Waits. */
 MUST_USE status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct particles *p);
+
+/* Makes room for velocities, 0 so far. */
+MUST_USE status particles_allow_motion(struct gpu *gpu, struct particles *p);
 
 /* Takes the particles' viability into the held voxels' fill, which holds until they are indexed anew. Records only. */
 void particles_fill(struct gpu *gpu, struct particles *p);

@@ -65,9 +65,9 @@ void plants_grow(struct gpu *gpu, const struct job *job, int frame, struct parti
     k.n = (uint)p->n_surface;
     for (int s = spread_steps(job, frame, p->h); s > 0; s--) {
         k.spread = (uint)s;
-        gpu_copy(gpu, p->spare_word, p->field[ROCK_vegetation], p->n);
+        gpu_copy(gpu, p->place, p->field[ROCK_vegetation], p->n);
         GPU_RUN(gpu, plants_spread, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-                p->field[ROCK_phase], p->start, p->spare_word, p->field[ROCK_id], p->field[ROCK_vegetation],
+                p->field[ROCK_phase], p->start, p->place, p->field[ROCK_id], p->field[ROCK_vegetation],
                 p->held.words, p->held.occupied);
     }
 }

@@ -133,9 +133,11 @@ status water_route(struct gpu *gpu, struct gpu_work *work, struct water *w, cons
     GPU_RUN(gpu, water_carve, k.n, k, node[WATER_COMPONENT], node[WATER_FROM], node[WATER_TO],
             node[WATER_INITIAL], node[WATER_FINAL]);
     k.n = (uint)(w->columns * (size_t)w->cells[2]);
-    if (how->cells)
+    if (how->cells) {
+        TRY(water_reserve_cells(gpu, w));
         GPU_RUN(gpu, water_cells, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
                 node[WATER_FINAL], node[WATER_BASIN], node[WATER_COMPONENT], w->tag, w->z, w->receiver);
+    }
 done:
     return st;
 }

@@ -27,11 +27,25 @@ static size_t usual_nodes(const struct most *m)
     return many < m->cells ? many : m->cells;
 }
 
-uint64_t water_bytes(const int voxels[3])
+uint64_t water_bytes(const int voxels[3], bool cells)
 {
     struct most m = most_of(voxels);
-    return 12 * (uint64_t)m.cells + 4 * (uint64_t)m.row_words + 12 * (uint64_t)(m.columns * m.words + 1) +
+    return (cells ? 12 * (uint64_t)m.cells : 0) + 4 * (uint64_t)m.row_words +
+           12 * (uint64_t)(m.columns * m.words + 1) +
            4 * (WATER_NODE_ARRAYS + 4) * (uint64_t)(usual_nodes(&m) + 1);
+}
+
+status water_reserve_cells(struct gpu *gpu, struct water *w)
+{
+    status st = OK;
+    const struct most m = most_of(w->voxels);
+    if (w->tag)
+        return OK;
+    TRY(gpu_buffer_create(gpu, "water cells' kinds", m.cells, 4, &w->tag));
+    TRY(gpu_buffer_create(gpu, "water cells' altitudes", m.cells, 4, &w->z));
+    TRY(gpu_buffer_create(gpu, "water cells' receivers", m.cells, 4, &w->receiver));
+done:
+    return st;
 }
 
 status water_reserve(struct gpu *gpu, struct water *w, size_t n)
@@ -80,9 +94,6 @@ status water_create(struct gpu *gpu, const struct job *job, const int voxels[3],
     uint32_t *source = NULL;
     struct most m = most_of(voxels);
     *w = (struct water){.n_sources = job->n_sources, .voxels = {voxels[0], voxels[1], voxels[2]}};
-    TRY(gpu_buffer_create(gpu, "water cells' kinds", m.cells, 4, &w->tag));
-    TRY(gpu_buffer_create(gpu, "water cells' altitudes", m.cells, 4, &w->z));
-    TRY(gpu_buffer_create(gpu, "water cells' receivers", m.cells, 4, &w->receiver));
     TRY(gpu_buffer_create(gpu, "rows of cells", m.row_words, 4, &w->rows));
     TRY(gpu_buffer_create(gpu, "occupied cells", m.columns * m.words + 1, 4, &w->occupied));
     TRY(gpu_buffer_create(gpu, "floors", m.columns * m.words + 1, 4, &w->floors));

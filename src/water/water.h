@@ -52,7 +52,7 @@ struct water {
     /* Of the last routing: voxels / 2, one more on shifted axes. Voxel v lies in cell (v + shift) / 2. */
     int cells[3], shift[3];
 
-    /* On request of the routing, for every cell:
+    /* On request of the routing, and made with the first such, for every cell:
      *   tag       uint: WATER_EMPTY, _SURF, _WALL or _SOLID (tag & WATER_KIND), and the flags WATER_OUT (what
      *             gets here leaves the domain), WATER_DEAD and, after water_sweep(), WATER_SWEPT (params.h)
      *   z         uint, 2^16 per cell's height, from cell 0's floor ((2 k - shift) h is cell k's): a SURF
@@ -78,8 +78,8 @@ struct water {
     bool entered;                  /* sources that enter elsewhere have been told of */
 };
 
-/* Bytes on the device, for a surface as large as is usual. */
-uint64_t water_bytes(const int voxels[3]);
+/* Bytes on the device, for a surface as large as is usual; with what is kept of every cell, or without. */
+uint64_t water_bytes(const int voxels[3], bool cells);
 
 /* E_USAGE: a source's first point is outside the domain. */
 MUST_USE status water_create(struct gpu *gpu, const struct job *job, const int voxels[3], double h,

@@ -82,6 +82,7 @@ static inline struct body body_of(const struct box *box, size_t n_boxes, const i
     assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &b.gpu));
     assert_ok(gpu_work_create(b.gpu, (n > nodes ? n : nodes) + 2, &b.work));
     assert_ok(particles_create(b.gpu, b.work, &rock, STATE, voxels, dx / 2, &b.p));
+    assert_ok(particles_allow_motion(b.gpu, &b.p));
     b.n = b.p.n;
     assert_ok(mpm_create(b.gpu, voxels, dx / 2, b.n, options, &b.m));
     struct count_params all = {(uint)b.n};
