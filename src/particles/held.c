@@ -4,19 +4,26 @@
 
 #include "base/memory.h"
 
-uint64_t held_bytes(const int voxels[3], size_t n)
+/* The list's: while voxels are counted it has a number for each word. */
+static size_t room_for(const int voxels[3], size_t n)
 {
-    return (uint64_t)held_words(voxels) * 16 + (uint64_t)n * 4;
+    const size_t words = held_words(voxels) + 1;
+    return n > words ? n : words;
 }
 
-/* The list's room: all that is in it is lost. */
+uint64_t held_bytes(const int voxels[3], size_t n)
+{
+    return (uint64_t)held_words(voxels) * 12 + (uint64_t)room_for(voxels, n) * 4;
+}
+
+/* All that is in the list is lost. */
 static status make_room(struct gpu *gpu, struct held_voxels *h, size_t n)
 {
     status st = OK;
     gpu_buffer_destroy(gpu, &h->list);
     h->room = 0;
-    TRY(gpu_buffer_create(gpu, "held voxels", n ? n : 1, 4, &h->list));
-    h->room = n;
+    TRY(gpu_buffer_create(gpu, "held voxels", room_for(h->voxels, n), 4, &h->list));
+    h->room = room_for(h->voxels, n);
 done:
     return st;
 }
@@ -28,7 +35,6 @@ status held_create(struct gpu *gpu, const int voxels[3], size_t n, struct held_v
     *h = (struct held_voxels){.voxels = {voxels[0], voxels[1], voxels[2]}};
     TRY(gpu_buffer_create(gpu, "occupied voxels", words, 4, &h->occupied));
     TRY(gpu_buffer_create(gpu, "voxels' slots", 2 * (words + 1), 4, &h->words));
-    TRY(gpu_buffer_create(gpu, "voxels counted", words + 1, 4, &h->count));
     TRY(make_room(gpu, h, n));
 done:
     if (st != OK)
@@ -41,7 +47,6 @@ void held_destroy(struct gpu *gpu, struct held_voxels *h)
     gpu_buffer_destroy(gpu, &h->occupied);
     gpu_buffer_destroy(gpu, &h->words);
     gpu_buffer_destroy(gpu, &h->list);
-    gpu_buffer_destroy(gpu, &h->count);
     *h = (struct held_voxels){0};
 }
 
@@ -56,13 +61,14 @@ status held_find(struct gpu *gpu, struct gpu_work *work, struct held_voxels *h, 
                                   .around = around};
     const struct count_params all = {(uint)words + 1};
     uint32_t n;
-    GPU_RUN(gpu, particles_hold, k.n, k, h->occupied, h->words, h->count);
-    gpu_scan(gpu, work, h->count, words + 1);
-    TRY(gpu_download(gpu, h->count, words, &n, 1));
+    GPU_RUN(gpu, particles_hold, k.n, k, h->occupied, h->words, h->list);
+    gpu_scan(gpu, work, h->list, words + 1);
+    GPU_RUN(gpu, particles_rank, all.n, all, h->list, h->words);
+    TRY(gpu_download(gpu, h->list, words, &n, 1));
     if (n > h->room)
         TRY(make_room(gpu, h, n + n / 8));
     h->n = n;
-    GPU_RUN(gpu, particles_rank, all.n, all, h->count, h->words, h->list);
+    GPU_RUN(gpu, particles_list, all.n, all, h->words, h->list);
 done:
     return st;
 }

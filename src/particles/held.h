@@ -12,12 +12,11 @@
 
 struct held_voxels {
     int voxels[3];
-    size_t n, room;              /* held voxels; as many as there is room for in the list */
+    size_t n, room;              /* held voxels; numbers there is room for in the list */
     struct gpu_buffer *occupied; /* uint [words]: a bit for each voxel, set by the caller */
-    struct gpu_buffer
-        *words; /* uint [2 (words + 1)]: bits of held voxels, and how many are held before them */
-    struct gpu_buffer *list;  /* uint [room]: 32 times its word and its bit, of each held voxel */
-    struct gpu_buffer *count; /* uint [words + 1]: scratch */
+    /* uint [2 (words + 1)]: bits of held voxels, and how many are held before them */
+    struct gpu_buffer *words;
+    struct gpu_buffer *list; /* uint [room]: 32 times its word and its bit, of each held voxel */
 };
 
 static inline size_t voxel_count(const int voxels[3])

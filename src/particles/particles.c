@@ -21,14 +21,15 @@ struct voxel_params particles_params(const struct particles *p, size_t n)
 static status keep_voxels(struct gpu *gpu, struct particles *p)
 {
     status st = OK;
-    if (p->start && gpu_buffer_count(p->fill) >= p->held.room)
+    if (p->start && gpu_buffer_count(p->fill) >= p->held.n)
         return OK;
+    const size_t n = p->held.n > p->n_max ? p->held.n + p->held.n / 8 : p->n_max;
     gpu_buffer_destroy(gpu, &p->start);
     gpu_buffer_destroy(gpu, &p->fill);
     gpu_buffer_destroy(gpu, &p->taken);
-    TRY(gpu_buffer_create(gpu, "voxel start", p->held.room + 2, 4, &p->start));
-    TRY(gpu_buffer_create(gpu, "voxel fill", p->held.room, 4, &p->fill));
-    TRY(gpu_buffer_create(gpu, "voxel scratch", p->held.room + 1, 4, &p->taken));
+    TRY(gpu_buffer_create(gpu, "voxel start", n + 2, 4, &p->start));
+    TRY(gpu_buffer_create(gpu, "voxel fill", n, 4, &p->fill));
+    TRY(gpu_buffer_create(gpu, "voxel scratch", n + 1, 4, &p->taken));
 done:
     return st;
 }

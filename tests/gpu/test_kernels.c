@@ -260,7 +260,7 @@ static void the_same_blocks_fall(void **state)
         uint8_t *falls = rock_ref_falls(&bed.rock, bed.n, bed.h);
         float *viability = malloc(bed.rock.n * sizeof *viability);
         size_t expected = 0;
-        assert_ok(blocks_create(bed.gpu, bed.n, &blocks));
+        assert_ok(blocks_create(bed.gpu, bed.p.held.n, &blocks));
         assert_ok(blocks_fall(bed.gpu, bed.work, &blocks, &bed.p, &n_fallen));
         assert_ok(gpu_download(bed.gpu, bed.p.field[ROCK_viability], 0, viability, bed.rock.n));
         for (size_t i = 0; i < bed.rock.n; i++) {

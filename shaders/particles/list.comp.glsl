@@ -1,0 +1,19 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Which voxel each held one is.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, words)
+WRITE_U(1, list)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint slot = LOAD_U(words, 2u * i + 1u);
+    for (uint bits = LOAD_U(words, 2u * i); bits != 0u; bits &= bits - 1u)
+        AT(list, slot++) = 32u * i + uint(findLSB(bits));
+}
