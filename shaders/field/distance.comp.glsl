@@ -15,7 +15,7 @@ PARAMS(field_params)
 float before_at(ivec3 c)
 {
     uint s = LOAD_U(slot, brick_of(c));
-    return s == 0u ? 3.0 * k.h : LOAD_F(before, slot_sample(s, c));
+    return slot_kept(s) ? LOAD_F(before, slot_sample(s, c)) : slot_distance(s, k.h);
 }
 
 void main()

@@ -16,7 +16,7 @@ PARAMS(field_params)
 float share_of(ivec3 c)
 {
     uint s = LOAD_U(slot, brick_of(c));
-    return s == 0u ? 0.0 : LOAD_F(share, slot_sample(s, c));
+    return slot_kept(s) ? LOAD_F(share, slot_sample(s, c)) : slot_share(s);
 }
 
 void main()

@@ -31,6 +31,22 @@ uint brick_of(ivec3 c)
     return (b.z * n.y + b.y) * n.x + b.x;
 }
 
+// Whether samples of the brick that has this slot are kept. Those of others are all outside, or all inside.
+bool slot_kept(uint slot)
+{
+    return slot != 0u && slot != SLOT_INSIDE;
+}
+
+// What samples that are not kept hold.
+float slot_share(uint slot)
+{
+    return slot == 0u ? 0.0 : 1.0;
+}
+float slot_distance(uint slot, float voxel)
+{
+    return slot == 0u ? 3.0 * voxel : -3.0 * voxel;
+}
+
 // Where a sample is in the buffers, by the slot of its brick.
 uint slot_sample(uint slot, ivec3 c)
 {

@@ -70,7 +70,7 @@ void main()
         ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2);
         vec3 near = mix(1.0 - f, f, vec3(corner));
         uint brick = LOAD_U(slot, brick_of(c + corner));
-        vec4 mean = brick == 0u ? vec4(0.0) : LOAD_V(means, slot_sample(brick, c + corner));
+        vec4 mean = slot_kept(brick) ? LOAD_V(means, slot_sample(brick, c + corner)) : vec4(0.0);
         float weight = mean.z > 0.0 ? near.x * near.y * near.z : 0.0; // no particle near: nothing to say
         weights += weight;
         sum += weight * mean;

@@ -10,7 +10,7 @@ vec3 lattice_position(vec3 x)
 float sample_at(ivec3 c)
 {
     uint s = LOAD_U(slot, brick_of(c));
-    return s == 0u ? 3.0 * k.voxel : LOAD_F(distance_field, slot_sample(s, c));
+    return slot_kept(s) ? LOAD_F(distance_field, slot_sample(s, c)) : slot_distance(s, k.voxel);
 }
 
 float distance_at(vec3 x)
@@ -21,8 +21,8 @@ float distance_at(vec3 x)
     vec4 low, high;
     if (all(lessThan(c & 7, ivec3(7)))) { // all eight are in one brick
         uint s = LOAD_U(slot, brick_of(c));
-        if (s == 0u)
-            return 3.0 * k.voxel;
+        if (!slot_kept(s))
+            return slot_distance(s, k.voxel);
         uint i = slot_sample(s, c);
         low = vec4(LOAD_F(distance_field, i), LOAD_F(distance_field, i + 8u), LOAD_F(distance_field, i + 64u),
                    LOAD_F(distance_field, i + 72u));

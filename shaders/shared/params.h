@@ -374,6 +374,9 @@ struct field_params {
 };
 SHARED_SIZE(field_params, 36)
 
+/* In a slot: all of the brick is inside, and none of its samples are kept. */
+#define SLOT_INSIDE 0xffffffffu
+
 /* Words of field/extent. */
 #define EXTENT_ANY 0x80000000u
 

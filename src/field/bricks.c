@@ -30,6 +30,7 @@ static status download_bricks(struct gpu *gpu, const struct field *f, struct fra
     if (f->n_bricks)
         TRY(gpu_download(gpu, f->list, 0, number, f->n_bricks));
     frame_grids_choose(out, &number, f->n_bricks);
+    TRY(gpu_download(gpu, f->slot, 0, out->bricks.slot, gpu_buffer_count(f->slot)));
 done:
     free(number);
     return st;
@@ -157,6 +158,7 @@ status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *
     if (n)
         TRY(gpu_upload(gpu, f->list, 0, grids->bricks.number, n));
     TRY(field_keep(gpu, f, n));
+    TRY(gpu_upload(gpu, f->slot, 0, grids->bricks.slot, gpu_buffer_count(f->slot)));
     if (n)
         TRY(gpu_upload(gpu, f->distance, 0, surface->value, n * BRICK_SAMPLES));
     TRY(upload_means(gpu, f, grids));

@@ -178,24 +178,20 @@ done:
     return st;
 }
 
-status field_build_share(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p,
-                         const float *share)
+status field_build_share(struct gpu *gpu, struct field *f, struct particles *p,
+                         const struct field_share *known)
 {
     status st = OK;
-    struct gpu_buffer *known = NULL;
-    const size_t n = (size_t)f->n[0] * (size_t)f->n[1] * (size_t)f->n[2];
-    TRY(gpu_buffer_create(gpu, "known share", n, 4, &known));
-    TRY(gpu_upload(gpu, known, 0, share, n));
-    const struct field_params all = extent_params(f, f->n, 0);
-    GPU_RUN(gpu, field_extent, all.n, all, known, f->place);
-    TRY(choose(gpu, work, f));
-    const struct field_params k = params_of(f, p);
-    if (k.n)
-        GPU_RUN(gpu, field_take, k.n, k, f->list, known, f->share);
+    const size_t n = known->n_bricks;
+    if (n)
+        TRY(gpu_upload(gpu, f->list, 0, known->number, n));
+    TRY(field_keep(gpu, f, n));
+    TRY(gpu_upload(gpu, f->slot, 0, known->slot, all_bricks(f)));
+    if (n)
+        TRY(gpu_upload(gpu, f->share, 0, known->share, n * BRICK_SAMPLES));
     finish(gpu, f, p);
     TRY(gpu_wait(gpu));
 done:
-    gpu_buffer_destroy(gpu, &known);
     return st;
 }
 

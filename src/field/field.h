@@ -17,9 +17,10 @@ struct field {
     int n[3];                /* samples: the domain and FIELD_MARGIN voxels around */
     double voxel, origin[3]; /* m: the particle spacing; sample 0 */
     /* Samples are kept in the bricks (particles/grids.h) that rock is in or near; elsewhere the share and the means are 0, and
-     * the distance is that of the band's end. */
-    size_t n_bricks, room;           /* bricks kept, and those there is room for */
-    struct gpu_buffer *slot;         /* uint [bricks of the lattice]: place in the list and one more, or 0 */
+     * the distance is that of the band's end. Where the slot is BRICK_INSIDE the share is 1, and the distance the other end's. */
+    size_t n_bricks, room; /* bricks kept, and those there is room for */
+    struct gpu_buffer
+        *slot; /* uint [bricks of the lattice]: place in the list and one more, 0, or BRICK_INSIDE */
     struct gpu_buffer *list;         /* uint [bricks of the lattice]: numbers, ascending */
     struct gpu_buffer *held, *place; /* scratch, likewise */
     struct gpu_buffer *share;        /* float [n_bricks * 512]: of rock, 0..1 */
@@ -39,10 +40,17 @@ void field_destroy(struct gpu *gpu, struct field *f);
 /* From the particles, whose stress must be current. Waits, to know how many bricks there are. */
 MUST_USE status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p);
 
-/* The same from a rock's share that is known at every sample (host memory, 0..1; 1/2 on the surface); the
- * particles only say what lies near it. Waits. */
-MUST_USE status field_build_share(struct gpu *gpu, struct gpu_work *work, struct field *f,
-                                  struct particles *p, const float *share);
+/* A rock's share that is known (host memory): 0..1, 1/2 on the surface. Kept are all bricks with samples that differ from a
+ * neighbour, or are within 3 voxels of one that does. */
+struct field_share {
+    size_t n_bricks;
+    const uint32_t *number, *slot; /* as in struct grid_bricks */
+    const float *share;            /* [n_bricks * 512]; 0 beyond the lattice */
+};
+
+/* The same from this; the particles only say what lies near it. Waits. */
+MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct particles *p,
+                                  const struct field_share *known);
 
 /* The field of a frame that was written: surface, stress, von_mises, viability and deposit from its grids, what
  * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */

@@ -139,7 +139,8 @@ static status step(struct model *m)
 
 /* ---- what a frame shows */
 
-static status add_ratios(const struct terrain_view *v, struct frame_grids *grids)
+/* The view's ratios become the frame's, whose bricks are the same. */
+static status take_ratios(struct terrain_view *v, struct frame_grids *grids)
 {
     status st = OK;
     for (int m = MATERIAL_BEDROCK; m < MATERIALS_OWN; m++)
@@ -148,7 +149,8 @@ static status add_ratios(const struct terrain_view *v, struct frame_grids *grids
             if (value_material[value] != m)
                 continue;
             TRY(frame_grids_add(grids, (enum value_id)value, &grid));
-            TRY(frame_grid_from_lattice(grids, v->ratio[m - MATERIAL_BEDROCK], grid));
+            grid->value = v->ratio[m - MATERIAL_BEDROCK];
+            v->ratio[m - MATERIAL_BEDROCK] = NULL;
         }
 done:
     return st;
@@ -167,13 +169,17 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
     gpu_stage(m->gpu, "surface");
     TRY(terrain_look(&v));
     TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, m->voxels, m->h, &p));
+    rock_free(&v.rock);
     gpu_stage(m->gpu, "field");
-    TRY(field_build_share(m->gpu, m->work, &m->field, &p, v.share));
+    const struct field_share known = {v.bricks.count, v.bricks.number, v.bricks.slot, v.share};
+    TRY(field_build_share(m->gpu, &m->field, &p, &known));
+    free(v.share);
+    v.share = NULL;
     if (wants.points)
         TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
     if (wants.volumes) {
         TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
-        TRY(add_ratios(&v, &out->grids));
+        TRY(take_ratios(&v, &out->grids));
     }
     if (wants.pictures) {
         gpu_stage(m->gpu, "pictures");
@@ -336,11 +342,11 @@ static status estimate(const struct job *job, struct model_needs *needs)
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
     needs->samples = host_grid_samples(n, ground.n_particles, ground.n_surface);
     needs->frame_bytes = value_grids(HAS_TERRAIN) * needs->samples * sizeof(float);
-    /* On the device, the shares come as a lattice, and the rock is ordered with a vector and a word to spare. */
-    needs->device_bytes = terrain_samples(n) * sizeof(float) + 20 * needs->size.n_particles;
-    /* The stacks, and what frames are made from: shares and materials of every sample of the field. */
-    needs->host_bytes =
-        (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) + terrain_view_bytes(n);
+    /* On the device the rock is ordered with a vector and a word to spare. */
+    needs->device_bytes = 20 * needs->size.n_particles;
+    /* The stacks, and what frames are made from: shares and materials of the samples. */
+    needs->host_bytes = (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) +
+                        terrain_view_bytes(needs->samples);
     needs->checkpoint_bytes = (uint64_t)(0.6 * stacks);
     if (job->arches.stacks == STACKS_ALL)
         needs->disk_other = needs->checkpoint_bytes;

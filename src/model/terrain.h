@@ -4,7 +4,7 @@
 
 #include "job/job.h"
 #include "particles/frame.h"
-#include "stacks/stacks.h"
+#include "stacks/surface.h"
 
 /* The job's materials, by the number layers have them. E_USAGE: too many. */
 MUST_USE status terrain_materials(const struct job *job, struct material table[MATERIALS_MAX], int *n);
@@ -23,28 +23,34 @@ void terrain_ledger(const struct stacks *s, const struct material *table, int n_
 enum { TERRAIN_RATIOS = MATERIALS_OWN - MATERIAL_BEDROCK };
 
 /* What of a frame is sampled from the stacks, on the lattice that the surface field has (field.h): n samples
- * on each axis from `origin`, `voxel` apart. */
+ * on each axis from `origin`, `voxel` apart; of these the bricks (particles/grids.h) that the surface is in or near, and those
+ * inside that are not all bedrock. */
 struct terrain_view {
     const struct job *job;
     const struct stacks *stacks;
     int n_materials;
     int n[3];
     double origin[3], voxel;
-    float *share; /* [samples]: of ground, 1/2 on the surface */
-    float *
-        ratio[TERRAIN_RATIOS]; /* [samples]: of each material from MATERIAL_BEDROCK on, in what shows there */
-    struct rock rock;          /* one particle for every voxel at the surface */
+    struct grid_bricks bricks;
+    float *share; /* [bricks * 512]: of ground, 1/2 on the surface; 0 beyond the lattice */
+    float
+        *ratio[TERRAIN_RATIOS]; /* likewise: of each material from MATERIAL_BEDROCK on, in what shows there */
+    struct rock
+        rock; /* one particle for every voxel at the surface; fields that are 0 everywhere are not there */
 };
 
-/* Fills share, ratio and rock; the caller frees them with terrain_view_free(). */
+/* Fills bricks, share, ratio and rock; the caller frees them with terrain_view_free(), or takes what it wants. */
 MUST_USE status terrain_look(struct terrain_view *v);
 void terrain_view_free(struct terrain_view *v);
 
-/* The samples that are looked at, for a domain of these voxels. */
-uint64_t terrain_samples(const int voxels[3]);
+/* Of a surface: what it is of, and how far its box reaches (stacks/surface.h). */
+struct surface terrain_surface(const struct terrain_view *v);
 
-/* What looking takes in host memory, for a domain of these voxels, but for the rock. */
-uint64_t terrain_view_bytes(const int voxels[3]);
+/* Finds the view's bricks. */
+MUST_USE status terrain_bricks(struct terrain_view *v, const struct surface *s);
+
+/* What looking takes in host memory where so many samples are in bricks, but for the rock. */
+uint64_t terrain_view_bytes(uint64_t samples);
 
 /* The heights and thicknesses of the layers as a picture from above, one pixel a stack: named "stacks". */
 MUST_USE status terrain_map(const struct stacks *s, int n_materials, struct aov_image *out);

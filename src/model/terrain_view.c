@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,13 +8,8 @@
 #include "model/terrain.h"
 #include "stacks/surface.h"
 
-static size_t sample_count(const struct terrain_view *v)
-{
-    return (size_t)v->n[0] * (size_t)v->n[1] * (size_t)v->n[2];
-}
-
 /* What the surface is of: all but air and water; and rock, where rocks stand for it. */
-static struct surface ground(const struct terrain_view *v)
+struct surface terrain_surface(const struct terrain_view *v)
 {
     uint32_t set = 0;
     bool piles = job_piles(v->job);
@@ -25,17 +21,46 @@ static struct surface ground(const struct terrain_view *v)
     return (struct surface){v->stacks, set, fmin(sigma, SURFACE_WIDEST * v->stacks->cell)};
 }
 
-/* Outside the domain is air. */
-static void cut_sides(const struct terrain_view *v)
+/* ---- samples */
+
+/* A sample: its place in the view's arrays, and in the lattice. */
+struct sample {
+    size_t at;
+    int x[3];
+};
+
+static struct sample sample_of(const struct terrain_view *v, size_t brick, int s)
 {
-    for (int k = 0, at = 0; k < v->n[2]; k++)
-        for (int j = 0; j < v->n[1]; j++)
-            for (int i = 0; i < v->n[0]; i++, at++) {
-                const int x[3] = {i, j, k};
-                for (int a = 0; a < 3; a++)
-                    if (x[a] < FIELD_MARGIN || x[a] >= v->n[a] - FIELD_MARGIN)
-                        v->share[at] = 0;
-            }
+    const uint32_t number = v->bricks.number[brick], nx = (uint32_t)v->bricks.n[0],
+                   ny = (uint32_t)v->bricks.n[1];
+    return (struct sample){brick * BRICK_SAMPLES + (size_t)s,
+                           {(int)(number % nx) * BRICK_SIDE + s % BRICK_SIDE,
+                            (int)(number / nx % ny) * BRICK_SIDE + s / BRICK_SIDE % BRICK_SIDE,
+                            (int)(number / nx / ny) * BRICK_SIDE + s / BRICK_SIDE / BRICK_SIDE}};
+}
+
+/* Outside the domain is air, and beyond the lattice nothing. */
+static void cut_sides(const struct terrain_view *v, size_t brick)
+{
+    for (int s = 0; s < BRICK_SAMPLES; s++) {
+        const struct sample p = sample_of(v, brick, s);
+        for (int a = 0; a < 3; a++)
+            if (p.x[a] < FIELD_MARGIN || p.x[a] >= v->n[a] - FIELD_MARGIN)
+                v->share[p.at] = 0;
+    }
+}
+
+static status sample_brick(const struct terrain_view *v, const struct surface *s, size_t brick,
+                           struct surface_scratch *scratch)
+{
+    const struct sample first = sample_of(v, brick, 0);
+    struct surface_box box = {.h = v->voxel, .n = {BRICK_SIDE, BRICK_SIDE, BRICK_SIDE}};
+    memcpy(box.origin, v->origin, sizeof box.origin);
+    memcpy(box.first, first.x, sizeof box.first);
+    const status st = surface_sample(s, &box, scratch, v->share + first.at);
+    if (st == OK)
+        cut_sides(v, brick);
+    return st;
 }
 
 /* Shares of what shows around p; deep inside, or in the air, of what p is in. Returns the largest. */
@@ -64,65 +89,53 @@ static uint32_t materials_at(const struct surface *s, const double p[3], bool ba
     return most;
 }
 
-/* The particle of sample `at`; *is_one: it is at the surface. */
-struct found {
-    uint32_t material;
-    uint8_t is_one;
-};
-
-uint64_t terrain_samples(const int voxels[3])
+static void place_of(const struct terrain_view *v, const int x[3], double p[3])
 {
-    uint64_t n = 1;
     for (int a = 0; a < 3; a++)
-        n *= (uint64_t)voxels[a] + 2 * FIELD_MARGIN;
-    return n;
+        p[a] = v->origin[a] + x[a] * v->voxel;
 }
 
-uint64_t terrain_view_bytes(const int voxels[3])
-{
-    return terrain_samples(voxels) * ((1 + TERRAIN_RATIOS) * sizeof(float) + sizeof(struct found));
-}
+/* Of a sample: the material that shows most there, and whether it is a particle's. */
+enum { IS_PARTICLE = 0x80, MATERIAL_OF = 0x7f };
 
-static void look_at(const struct terrain_view *v, const struct surface *s, const int x[3], struct found *out)
+static uint8_t look_at(const struct terrain_view *v, const struct surface *s, const struct sample *at)
 {
-    size_t at = ((size_t)x[2] * (size_t)v->n[1] + (size_t)x[1]) * (size_t)v->n[0] + (size_t)x[0];
     float ratio[TERRAIN_RATIOS];
     double p[3];
     bool side = false;
-    for (int a = 0; a < 3; a++) {
-        p[a] = v->origin[a] + x[a] * v->voxel;
-        side |= x[a] == FIELD_MARGIN || x[a] == v->n[a] - FIELD_MARGIN - 1;
-    }
-    *out = (struct found){0};
-    if (v->share[at] <= 0)
-        return;
-    bool band = v->share[at] < 1;
-    out->material = materials_at(s, p, band, ratio);
+    if (v->share[at->at] <= 0)
+        return 0;
+    for (int a = 0; a < 3; a++)
+        side |= at->x[a] == FIELD_MARGIN || at->x[a] == v->n[a] - FIELD_MARGIN - 1;
+    const bool band = v->share[at->at] < 1;
+    place_of(v, at->x, p);
+    const uint32_t material = materials_at(s, p, band, ratio);
     for (int r = 0; r < TERRAIN_RATIOS; r++)
-        v->ratio[r][at] = ratio[r];
-    out->is_one = band || side;
+        v->ratio[r][at->at] = ratio[r];
+    return (uint8_t)(material | (band || side ? IS_PARTICLE : 0));
 }
 
-static void fill_particle(struct terrain_view *v, const struct surface *s, const int x[3], uint32_t material,
-                          size_t i)
+/* ---- particles */
+
+static void fill_particle(struct terrain_view *v, const struct surface *s, const struct sample *at,
+                          uint32_t material, size_t i)
 {
     const struct job *job = v->job;
     struct rock *rock = &v->rock;
     double p[3], normal[3];
-    size_t at = ((size_t)x[2] * (size_t)v->n[1] + (size_t)x[1]) * (size_t)v->n[0] + (size_t)x[0], id = 0;
+    size_t id = 0;
     for (int a = 2; a >= 0; a--)
-        id = id * (size_t)(v->n[a] - 2 * FIELD_MARGIN) + (size_t)(x[a] - FIELD_MARGIN);
-    for (int a = 0; a < 3; a++) {
-        p[a] = v->origin[a] + x[a] * v->voxel;
-        rock->P[4 * i + (size_t)a] = (float)p[a];
-    }
+        id = id * (size_t)(v->n[a] - 2 * FIELD_MARGIN) + (size_t)(at->x[a] - FIELD_MARGIN);
+    place_of(v, at->x, p);
     surface_normal(s, p, normal);
-    for (int a = 0; a < 3; a++)
-        rock->N[4 * i + (size_t)a] = (float)normal[a];
+    for (size_t a = 0; a < 3; a++) {
+        rock->P[4 * i + a] = (float)p[a];
+        rock->N[4 * i + a] = (float)normal[a];
+    }
     bool solid = material == MATERIAL_BEDROCK;
     size_t layer = job_layer_at(job, p[2]);
     rock->id[i] = (uint32_t)id;
-    rock->viability[i] = fminf(fmaxf(v->share[at], 1.0f / 64), 1);
+    rock->viability[i] = fminf(fmaxf(v->share[at->at], 1.0f / 64), 1);
     rock->layer[i] = (uint32_t)(solid ? layer : job->n_strata + material - MATERIAL_SAND);
     rock->phase[i] = solid ? 0 : 1;
     rock->rate_factor[i] = 1;
@@ -130,40 +143,76 @@ static void fill_particle(struct terrain_view *v, const struct surface *s, const
     rock->erodibility[i] = (float)curve_at(&job->strata[layer].weak_m_per_kyr, job->frames.first);
 }
 
+/* Room for n; the other fields are 0. */
+static status particles_room(struct rock *rock, size_t n)
+{
+    static const enum rock_field filled[] = {
+        ROCK_P,          ROCK_N,     ROCK_id,          ROCK_viability,
+        ROCK_layer,      ROCK_phase, ROCK_rate_factor, ROCK_interlock_factor,
+        ROCK_erodibility};
+    status st = OK;
+    *rock = (struct rock){.n = n};
+    for (size_t f = 0; f < sizeof filled / sizeof *filled; f++)
+        TRY(memory_alloc(n, rock_field_size(filled[f]), "particles", &rock->field[filled[f]]));
+done:
+    return st;
+}
+
+/* ---- all of it */
+
+static status sample_all(const struct terrain_view *v, const struct surface *s)
+{
+    status st = OK;
+    char why[2048] = "";
+#pragma omp parallel
+    {
+        struct surface_scratch scratch = {0};
+#pragma omp for schedule(dynamic, 64)
+        for (size_t b = 0; b < v->bricks.count; b++) {
+            const status own = sample_brick(v, s, b, &scratch);
+            if (own != OK)
+#pragma omp critical
+            {
+                st = own;
+                snprintf(why, sizeof why, "%s", status_message());
+            }
+        }
+        free(scratch.line);
+    }
+    return st == OK ? OK : fail(st, "%s", why);
+}
+
 status terrain_look(struct terrain_view *v)
 {
     status st = OK;
-    struct surface s = ground(v);
-    struct found *found = NULL;
-    size_t n = sample_count(v), count = 0, *first = NULL;
+    const struct surface s = terrain_surface(v);
+    uint8_t *found = NULL;
+    size_t *first = NULL;
+    TRY(terrain_bricks(v, &s));
+    const size_t n_bricks = v->bricks.count, n = n_bricks * BRICK_SAMPLES;
     TRY(memory_alloc(n, sizeof *v->share, "the surface", &v->share));
     for (int r = 0; r < TERRAIN_RATIOS; r++)
         TRY(memory_alloc(n, sizeof *v->ratio[r], "material ratios", &v->ratio[r]));
     TRY(memory_alloc(n, sizeof *found, "the surface", &found));
-    TRY(memory_alloc((size_t)v->n[2] + 1, sizeof *first, "the surface", &first));
-    TRY(surface_sample(&s, v->origin, v->voxel, v->n, v->share));
-    cut_sides(v);
-#pragma omp parallel for schedule(dynamic)
-    for (int k = 0; k < v->n[2]; k++) {
-        size_t at = (size_t)k * (size_t)v->n[0] * (size_t)v->n[1];
-        for (int j = 0; j < v->n[1]; j++)
-            for (int i = 0; i < v->n[0]; i++, at++) {
-                look_at(v, &s, (const int[]){i, j, k}, &found[at]);
-                first[k + 1] += found[at].is_one;
-            }
-    }
-    for (int k = 0; k < v->n[2]; k++)
-        first[k + 1] += first[k];
-    count = first[v->n[2]];
-    TRY(rock_alloc(&v->rock, count, DERIVED));
-#pragma omp parallel for schedule(dynamic)
-    for (int k = 0; k < v->n[2]; k++) {
-        size_t at = (size_t)k * (size_t)v->n[0] * (size_t)v->n[1], p = first[k];
-        for (int j = 0; j < v->n[1]; j++)
-            for (int i = 0; i < v->n[0]; i++, at++)
-                if (found[at].is_one)
-                    fill_particle(v, &s, (const int[]){i, j, k}, found[at].material, p++);
-    }
+    TRY(memory_alloc(n_bricks + 1, sizeof *first, "the surface", &first));
+    TRY(sample_all(v, &s));
+#pragma omp parallel for schedule(dynamic, 64)
+    for (size_t b = 0; b < n_bricks; b++)
+        for (int i = 0; i < BRICK_SAMPLES; i++) {
+            const struct sample at = sample_of(v, b, i);
+            found[at.at] = look_at(v, &s, &at);
+            first[b + 1] += (found[at.at] & IS_PARTICLE) != 0;
+        }
+    for (size_t b = 0; b < n_bricks; b++)
+        first[b + 1] += first[b];
+    TRY(particles_room(&v->rock, first[n_bricks]));
+#pragma omp parallel for schedule(dynamic, 64)
+    for (size_t b = 0; b < n_bricks; b++)
+        for (int i = 0; i < BRICK_SAMPLES; i++) {
+            const struct sample at = sample_of(v, b, i);
+            if (found[at.at] & IS_PARTICLE)
+                fill_particle(v, &s, &at, found[at.at] & MATERIAL_OF, first[b]++);
+        }
 done:
     free(found);
     free(first);
@@ -172,8 +221,16 @@ done:
     return st;
 }
 
+uint64_t terrain_view_bytes(uint64_t samples)
+{
+    return samples * ((1 + TERRAIN_RATIOS) * sizeof(float) + 1);
+}
+
 void terrain_view_free(struct terrain_view *v)
 {
+    free(v->bricks.number);
+    free(v->bricks.slot);
+    v->bricks = (struct grid_bricks){0};
     free(v->share);
     v->share = NULL;
     for (int r = 0; r < TERRAIN_RATIOS; r++) {

@@ -32,7 +32,7 @@ struct of_lattice {
 };
 
 /* What a kind of grid means by active, and what its inactive voxels hold. get() has sample `at` of an array, which is sample s
- * of the lattice, in the simulator's axes. */
+ * of the lattice, in the simulator's axes; deep() one that is not kept, being inside. */
 struct level_set {
     using grid = openvdb::FloatGrid;
     const float *value;
@@ -49,16 +49,25 @@ struct level_set {
     {
         return cut(value[at], v);
     }
+    bool deep(float &v) const
+    {
+        return cut(-background, v);
+    }
 };
 struct scalar {
     using grid = openvdb::FloatGrid;
     const float *value, *density;
-    float background;
+    float background, inside;
     bool get(ptrdiff_t at, const Coord &, float &v) const
     {
         const bool active = density[at] != 0;
         v = active ? value[at] : 0;
         return active;
+    }
+    bool deep(float &v) const
+    {
+        v = inside;
+        return true;
     }
 };
 struct vector {
@@ -71,12 +80,18 @@ struct vector {
         v = vdb::file_from_sim(Vec3f(value[3 * at], value[3 * at + 1], value[3 * at + 2]), y_up);
         return v[0] != 0 || v[1] != 0 || v[2] != 0;
     }
+    bool deep(Vec3f &v) const
+    {
+        v = Vec3f(0);
+        return false;
+    }
 };
 
 /* A solid that reaches the border of its grid, such as one with a floor that is not ours, ends half a voxel beyond the
  * outermost samples. Without this the level set would have an inside without a surface around it, and its mesh a hole. */
 struct closed_level_set : level_set {
     const frame_grids *grids;
+    const frame_grid *self;
 
     ptrdiff_t row(const Coord &) const
     {
@@ -94,8 +109,8 @@ struct closed_level_set : level_set {
             near[a] = std::min(std::max(s[a], 0), n[a] - 1);
         }
         const double box = outside > 0 ? std::sqrt(outside) : inside;
-        const ptrdiff_t at = grid_row(grids, near[0], near[1], near[2]);
-        return cut(std::max(at < 0 ? background : value[at], float(box * grids->lattice.voxel)), v);
+        return cut(
+            std::max(grid_at(grids, self, near[0], near[1], near[2]), float(box * grids->lattice.voxel)), v);
     }
 };
 
@@ -152,12 +167,12 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
                     for (int z = b[2]; z <= e[2]; z++) {
                         Coord s = vdb::sim_from_file(o.offsetBy(b[0], y, z), l.y_up);
                         const ptrdiff_t row = p.row(s);
-                        if (row < 0)
+                        if (row == ROW_OUTSIDE)
                             continue;
                         any = true;
                         for (int x = b[0]; x <= e[0]; x++, s[0]++) {
                             const openvdb::Index at = openvdb::Index(x << 6 | y << 3 | z);
-                            if (f.get(row + x - b[0], s, block[at]))
+                            if (row == ROW_INSIDE ? f.deep(block[at]) : f.get(row + x - b[0], s, block[at]))
                                 mask.setOn(at);
                         }
                     }
@@ -197,7 +212,7 @@ openvdb::GridBase::Ptr make_grid(const frame_grid &g, const lattice &l, const pl
         grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
         return grid;
     }
-    auto grid = sparse_grid(l, p, scalar{g.value, density ? density : g.value, 0});
+    auto grid = sparse_grid(l, p, scalar{g.value, density ? density : g.value, 0, g.inside});
     grid->setGridClass(g.kind == GRID_FOG ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_UNKNOWN);
     return grid;
 }
@@ -207,7 +222,7 @@ openvdb::GridBase::Ptr make_level_set(const frame_grids &grids, const frame_grid
     const level_set open{g.value, grid_background(&grids, &g)};
     openvdb::FloatGrid::Ptr grid;
     if (reaches_border(grids, g)) {
-        const closed_level_set closed{open, &grids};
+        const closed_level_set closed{open, &grids, &g};
         grid = sparse_grid(lattice(grids.lattice.n, y_up, PAD), closed, closed);
     } else {
         grid = sparse_grid(lattice(grids.lattice.n, y_up), of_bricks{&grids}, open);

@@ -53,35 +53,10 @@ status frame_grids_add(struct frame_grids *grids, enum value_id value, struct fr
                                 .kind = v->from == FROM_DISTANCE ? GRID_LEVEL_SET
                                         : v->from == FROM_SHARE  ? GRID_FOG
                                                                  : GRID_PLAIN,
-                                .components = v->kind == KIND_VECTOR ? 3 : 1};
+                                .components = v->kind == KIND_VECTOR ? 3 : 1,
+                                /* Deep inside, terrain is bedrock. */
+                                .inside = v->from == FROM_SHARE || value == VALUE_bedrock ? 1 : 0};
     return OK;
-}
-
-/* Brick `slot` from the lattice's samples. */
-static void take_brick(const struct frame_grids *grids, size_t slot, const float *samples, float background,
-                       float *to)
-{
-    const int *n = grids->lattice.n, *m = grids->bricks.n;
-    const uint32_t number = grids->bricks.number[slot];
-    const int first[3] = {(int)(number % (uint32_t)m[0]) * BRICK_SIDE,
-                          (int)(number / (uint32_t)m[0] % (uint32_t)m[1]) * BRICK_SIDE,
-                          (int)(number / (uint32_t)m[0] / (uint32_t)m[1]) * BRICK_SIDE};
-    for (int k = first[2]; k < first[2] + BRICK_SIDE; k++)
-        for (int j = first[1]; j < first[1] + BRICK_SIDE; j++)
-            for (int i = first[0]; i < first[0] + BRICK_SIDE; i++)
-                *to++ = i < n[0] && j < n[1] && k < n[2]
-                            ? samples[((size_t)k * (size_t)n[1] + (size_t)j) * (size_t)n[0] + (size_t)i]
-                            : background;
-}
-
-status frame_grid_from_lattice(const struct frame_grids *grids, const float *samples, struct frame_grid *grid)
-{
-    const size_t n = grids->bricks.count;
-    const float background = grid_background(grids, grid);
-    status st = memory_alloc(n * BRICK_SAMPLES, sizeof *grid->value, grid->name, &grid->value);
-    for (size_t b = 0; st == OK && b < n; b++)
-        take_brick(grids, b, samples, background, grid->value + b * BRICK_SAMPLES);
-    return st;
 }
 
 const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const char *name)

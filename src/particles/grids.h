@@ -5,6 +5,8 @@
  *           kept in that order, so that equal frames are equal bytes. A sample of brick b is at [512 b + 64 z + 8 y + x] of
  *           an array, x, y and z being from 0 to 7; those beyond the lattice hold the background.
  * Background  what samples outside all bricks are: 3 voxels in level sets, 0 otherwise.
+ * Inside    bricks that are all inside need not be kept either (BRICK_INSIDE): level sets are -3 voxels there, and every other
+ *           grid one value, which is 0 for most (grid_inside()).
  * Calling sequence   frame_grids_begin(), frame_grids_choose(); then frame_grids_add() and an array for each.
  */
 #ifndef HOODOO_GRIDS_H
@@ -19,6 +21,9 @@
 
 enum { BRICK_SIDE = 8, BRICK_SAMPLES = 512, GRID_BAND = 3 };
 
+/* The slot of a brick that is not kept, being inside. */
+#define BRICK_INSIDE UINT32_MAX
+
 enum grid_class { GRID_LEVEL_SET, GRID_FOG, GRID_PLAIN };
 
 /* Sample (i, j, k) lies at origin + (i, j, k) voxel. */
@@ -31,8 +36,8 @@ struct grid_bricks {
     int n[3]; /* along the axes; the last ones may reach beyond the lattice */
     size_t count;
     uint32_t *number; /* [count] ascending */
-    uint32_t
-        *slot; /* of each brick of the lattice: its place in `number` and one more, or 0 if it is not kept */
+    /* Of each brick of the lattice: its place in `number` and one more; not kept are 0 outside, and BRICK_INSIDE. */
+    uint32_t *slot;
 };
 
 struct frame_grid {
@@ -40,6 +45,7 @@ struct frame_grid {
     const char *unit;
     enum grid_class kind;
     int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
+    float inside;   /* level sets: unused. What samples inside that are not kept hold */
     float *value;   /* owned by the frame: grid_items() of them */
     /* Where it is sampled otherwise than the frame's other grids, densely, numbered (k ny + j) nx + i; n[0] is 0 where it
      * is not. */
@@ -72,10 +78,6 @@ void frame_grids_choose(struct frame_grids *grids, uint32_t **numbers, size_t n)
  * many as there can be. */
 MUST_USE status frame_grids_add(struct frame_grids *grids, enum value_id value, struct frame_grid **out);
 
-/* Its samples from those of the whole lattice, numbered (k ny + j) nx + i. */
-MUST_USE status frame_grid_from_lattice(const struct frame_grids *grids, const float *samples,
-                                        struct frame_grid *grid);
-
 /* The first of that name on the frame's own lattice, or NULL. */
 const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const char *name);
 
@@ -88,15 +90,24 @@ static inline float grid_background(const struct frame_grids *grids, const struc
     return grid->kind == GRID_LEVEL_SET ? (float)(GRID_BAND * grids->lattice.voxel) : 0;
 }
 
-/* Where the samples from (i, j, k) on, along x to the end of their brick, are in an array; -1 if they are not kept. */
+/* What those of bricks that are all inside do. */
+static inline float grid_inside(const struct frame_grids *grids, const struct frame_grid *grid)
+{
+    return grid->kind == GRID_LEVEL_SET ? -grid_background(grids, grid) : grid->inside;
+}
+
+enum { ROW_OUTSIDE = -1, ROW_INSIDE = -2 };
+
+/* Where the samples from (i, j, k) on, along x to the end of their brick, are in an array; if they are not kept, ROW_OUTSIDE or
+ * ROW_INSIDE. */
 static inline ptrdiff_t grid_row(const struct frame_grids *grids, int i, int j, int k)
 {
     const struct grid_bricks *b = &grids->bricks;
     const size_t at =
         ((size_t)(k / BRICK_SIDE) * (size_t)b->n[1] + (size_t)(j / BRICK_SIDE)) * (size_t)b->n[0] +
         (size_t)(i / BRICK_SIDE);
-    if (b->slot[at] == 0)
-        return -1;
+    if (b->slot[at] == 0 || b->slot[at] == BRICK_INSIDE)
+        return b->slot[at] == 0 ? ROW_OUTSIDE : ROW_INSIDE;
     return (ptrdiff_t)(b->slot[at] - 1) * BRICK_SAMPLES +
            ((k % BRICK_SIDE) * BRICK_SIDE + j % BRICK_SIDE) * BRICK_SIDE + i % BRICK_SIDE;
 }
@@ -106,7 +117,9 @@ static inline float grid_at(const struct frame_grids *grids, const struct frame_
                             int k)
 {
     const ptrdiff_t at = grid_row(grids, i, j, k);
-    return at < 0 ? grid_background(grids, grid) : grid->value[at];
+    return at >= 0             ? grid->value[at]
+           : at == ROW_OUTSIDE ? grid_background(grids, grid)
+                               : grid_inside(grids, grid);
 }
 
 #endif

@@ -1,7 +1,6 @@
 #include "stacks/surface.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -270,9 +269,9 @@ done:
 
 /* ---- a lattice */
 
-/* Adds weight times the set's share of each sample's window along one stack. */
-static void add_line(const struct surface *s, int i, int j, double weight, double origin, double h, int n,
-                     float *line)
+/* Adds weight times the set's share of each sample's window along one stack: samples first to first + n - 1. */
+static void add_line(const struct surface *s, int i, int j, double weight, double origin, double h, int first,
+                     int n, float *line)
 {
     size_t layers;
     const uint32_t *layer = stacks_column(s->stacks, i, j, &layers);
@@ -283,69 +282,66 @@ static void add_line(const struct surface *s, int i, int j, double weight, doubl
         uint32_t material = k < layers ? layer_material(layer[k]) : (uint32_t)MATERIAL_AIR;
         if (s->set >> material & 1) {
             double lo = bottom - s->sigma, hi = top + s->sigma;
-            int first = (int)fmin(fmax(ceil((lo - origin) / h), 0), n);
-            int last = (int)fmin(fmax(floor((hi - origin) / h), -1), n - 1);
-            for (int z = first; z <= last; z++) {
+            int from = (int)fmin(fmax(ceil((lo - origin) / h), first), first + n);
+            int to = (int)fmin(fmax(floor((hi - origin) / h), first - 1), first + n - 1);
+            for (int z = from; z <= to; z++) {
                 double at = origin + z * h;
                 double part = fmin(top, at + s->sigma) - fmax(bottom, at - s->sigma);
-                line[z] += part >= 2 * s->sigma ? whole : (float)(weight * fmax(part, 0) / (2 * s->sigma));
+                line[z - first] +=
+                    part >= 2 * s->sigma ? whole : (float)(weight * fmax(part, 0) / (2 * s->sigma));
             }
         }
         bottom = top;
     }
 }
 
-/* The lattice's row j: first the stacks' lines, summed over the box's y; then those over its x. */
-static void sample_row(const struct surface *s, const double origin[3], double h, const int n[3], int j,
+/* The stacks that boxes around a row of points overlap along an axis, *lo to *hi. */
+static void stacks_along(const struct surface *s, int axis, const struct surface_box *box, int *lo, int *hi)
+{
+    const int last = box->first[axis] + box->n[axis] - 1;
+    const struct span from =
+        span_of(s->stacks, axis, box->origin[axis] + box->first[axis] * box->h, s->sigma);
+    const struct span to = span_of(s->stacks, axis, box->origin[axis] + last * box->h, s->sigma);
+    *lo = from.index[0];
+    *hi = to.index[to.n - 1];
+}
+
+/* Row j of the box: first the lines of stacks lo to hi, summed over y; then those over x. */
+static void sample_row(const struct surface *s, const struct surface_box *box, int j, int lo, int hi,
                        float *lines, float *row, float *share)
 {
-    const struct stacks *g = s->stacks;
-    size_t nz = (size_t)n[2];
-    struct span y = span_of(g, 1, origin[1] + j * h, s->sigma);
-    memset(lines, 0, (size_t)g->n[0] * nz * sizeof *lines);
+    const size_t nz = (size_t)box->n[2];
+    const double h = box->h, bottom = box->origin[2];
+    const struct span y = span_of(s->stacks, 1, box->origin[1] + (box->first[1] + j) * h, s->sigma);
+    memset(lines, 0, (size_t)(hi - lo + 1) * nz * sizeof *lines);
     for (int c = 0; c < y.n; c++)
-        for (int i = 0; i < g->n[0]; i++)
-            add_line(s, i, y.index[c], y.overlap[c] / (2 * s->sigma), origin[2], h, n[2],
-                     lines + (size_t)i * nz);
-    for (int i = 0; i < n[0]; i++) {
-        struct span x = span_of(g, 0, origin[0] + i * h, s->sigma);
+        for (int i = lo; i <= hi; i++)
+            add_line(s, i, y.index[c], y.overlap[c] / (2 * s->sigma), bottom, h, box->first[2], box->n[2],
+                     lines + (size_t)(i - lo) * nz);
+    for (int i = 0; i < box->n[0]; i++) {
+        const struct span x = span_of(s->stacks, 0, box->origin[0] + (box->first[0] + i) * h, s->sigma);
         memset(row, 0, nz * sizeof *row);
         for (int c = 0; c < x.n; c++) {
-            const float *line = lines + (size_t)x.index[c] * nz;
+            const float *line = lines + (size_t)(x.index[c] - lo) * nz;
             float weight = (float)(x.overlap[c] / (2 * s->sigma));
             for (size_t z = 0; z < nz; z++)
                 row[z] += weight * line[z];
         }
         for (size_t z = 0; z < nz; z++)
-            share[(z * (size_t)n[1] + (size_t)j) * (size_t)n[0] + (size_t)i] = fminf(row[z], 1);
+            share[(z * (size_t)box->n[1] + (size_t)j) * (size_t)box->n[0] + (size_t)i] = fminf(row[z], 1);
     }
 }
 
-status surface_sample(const struct surface *s, const double origin[3], double h, const int n[3], float *share)
+status surface_sample(const struct surface *s, const struct surface_box *box, struct surface_scratch *scratch,
+                      float *share)
 {
-    status st = OK;
-    char why[2048] = "";
-#pragma omp parallel
-    {
-        float *lines = NULL, *row = NULL;
-        status own = memory_alloc((size_t)s->stacks->n[0] * (size_t)n[2], sizeof *lines, "samples", &lines);
-        if (own == OK)
-            own = memory_alloc((size_t)n[2], sizeof *row, "samples", &row);
-        if (own != OK)
-#pragma omp critical
-        {
-            st = own;
-            snprintf(why, sizeof why, "%s", status_message());
-        }
-#pragma omp barrier
-#pragma omp for schedule(dynamic)
-        for (int j = 0; j < n[1]; j++)
-            if (st == OK)
-                sample_row(s, origin, h, n, j, lines, row, share);
-        free(lines);
-        free(row);
-    }
-    return st == OK ? OK : fail(st, "%s", why);
+    int lo, hi;
+    stacks_along(s, 0, box, &lo, &hi);
+    const size_t nz = (size_t)box->n[2], lines = (size_t)(hi - lo + 1) * nz;
+    status st = memory_grow(&scratch->line, &scratch->capacity, lines + nz, sizeof *scratch->line, "samples");
+    for (int j = 0; st == OK && j < box->n[1]; j++)
+        sample_row(s, box, j, lo, hi, scratch->line, scratch->line + lines, share);
+    return st;
 }
 
 /* ---- what shows */

@@ -45,9 +45,22 @@ void profile_free(struct profile *p);
  * has none. */
 MUST_USE status surface_project(const struct surface *s, double p[3], bool *found);
 
-/* (f + 1) / 2, the materials' share of the box, at origin + (i, j, k) h, numbered (k ny + j) nx + i. */
-MUST_USE status surface_sample(const struct surface *s, const double origin[3], double h, const int n[3],
-                               float *share);
+/* The lattice of points origin + (i, j, k) h, and of it the box of n from `first` on. */
+struct surface_box {
+    double origin[3], h; /* m */
+    int first[3], n[3];
+};
+
+/* What sampling needs from call to call, on one thread: {0} to begin with, free(line) at the end. */
+struct surface_scratch {
+    float *line;
+    size_t capacity;
+};
+
+/* (f + 1) / 2, the materials' share of the box around a point, at the points of `box`, numbered (k ny + j) nx + i. What a point
+ * gets depends on its place in the lattice alone. */
+MUST_USE status surface_sample(const struct surface *s, const struct surface_box *box,
+                               struct surface_scratch *scratch, float *share);
 
 /* How much surface every material shows to air (and water) within sigma of p, m2 (Arches figure 21): tops,
  * undersides and walls. */

@@ -224,7 +224,10 @@ static void test_equals_voxels(void **state)
     /* The lattice's samples are the same function, and f is continuous: steps shrink with the distance. */
     float share[20 * 18 * 22];
     const double origin[3] = {-1.3, 0.2, 0.4};
-    assert_ok(surface_sample(&f, origin, 0.71, (const int[]){20, 18, 22}, share));
+    struct surface_scratch scratch = {0};
+    assert_ok(
+        surface_sample(&f, &(struct surface_box){{origin[0], origin[1], origin[2]}, 0.71, {0}, {20, 18, 22}},
+                       &scratch, share));
     double worst_share = 0, jump = 0, slope = 0;
     for (int k = 0, at = 0; k < 22; k++)
         for (int j = 0; j < 18; j++)
@@ -241,6 +244,16 @@ static void test_equals_voxels(void **state)
     }
     print_message("# lattice within %.1e; moved by 1e-4 m, f changes by at most %.1e\n", worst_share, jump);
     assert_true(worst_share < 1e-5);
+    /* A part of it is the same to the bit. */
+    float part[8 * 5 * 6];
+    assert_ok(surface_sample(
+        &f, &(struct surface_box){{origin[0], origin[1], origin[2]}, 0.71, {11, 3, 9}, {8, 5, 6}}, &scratch,
+        part));
+    free(scratch.line);
+    for (int k = 0, at = 0; k < 6; k++)
+        for (int j = 0; j < 5; j++)
+            for (int i = 0; i < 8; i++, at++)
+                assert_true(part[at] == share[((k + 9) * 18 + j + 3) * 20 + i + 11]);
     assert_true(jump < 3 * 1e-4 / 1.25); /* |df/dx| <= 1 / sigma along an axis */
 
     /* The gradient by differences, and roots on the surface. */

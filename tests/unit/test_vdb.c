@@ -623,6 +623,86 @@ static void mesh_of_something_else_is_refused(void **state)
     vdb_mesh_free(&mesh);
 }
 
+/* The samples of a lattice in the grids' bricks; `outside` beyond it. */
+static void put_lattice(const struct frame_grids *grids, const float *samples, float outside,
+                        struct frame_grid *grid)
+{
+    const int *n = grids->lattice.n, *m = grids->bricks.n;
+    assert_int_equal(
+        memory_alloc(grids->bricks.count * BRICK_SAMPLES, sizeof *grid->value, grid->name, &grid->value), OK);
+    for (size_t at = 0; at < grids->bricks.count * BRICK_SAMPLES; at++) {
+        const int number = (int)grids->bricks.number[at / BRICK_SAMPLES], s = (int)(at % BRICK_SAMPLES);
+        const int i = number % m[0] * 8 + s % 8, j = number / m[0] % m[1] * 8 + s / 8 % 8,
+                  k = number / m[0] / m[1] * 8 + s / 64;
+        grid->value[at] = i < n[0] && j < n[1] && k < n[2]
+                              ? samples[((size_t)k * (size_t)n[1] + (size_t)j) * (size_t)n[0] + (size_t)i]
+                              : outside;
+    }
+}
+
+/* Bricks that are all inside make the same file whether they are kept or only said to be inside: of rock within its grid, and of
+ * rock that reaches the border. */
+static void inside_is_not_kept(void **state)
+{
+    (void)state;
+    enum { N = 48 };
+    static const enum value_id of[] = {VALUE_surface, VALUE_density, VALUE_bedrock, VALUE_sand, VALUE_stress};
+    enum { GRIDS = sizeof of / sizeof *of };
+    static float value[GRIDS][N * N * N];
+    const double h = 0.5;
+    for (int border = 0; border < 2; border++) {
+        for (int i = 0; i < N * N * N; i++) {
+            const double c[3] = {i % N - 23.7, i / N % N - 24.2, i / N / N - (border ? 4.4 : 23.9)};
+            const double d = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]) - 19;
+            value[0][i] = (float)(fmin(fmax(d, -3), 3) * h);
+            value[1][i] = (float)fmin(fmax(0.5 - d / 2, 0), 1);
+            value[2][i] = value[1][i] > 0 && value[1][i] < 1 ? 0.25f : ceilf(value[1][i]);
+            value[3][i] = ceilf(value[1][i]) - value[2][i];
+        }
+        struct vdb_bytes file[2][2];
+        for (int sparse = 0; sparse < 2; sparse++) {
+            struct frame_grids grids;
+            uint32_t *number = NULL;
+            size_t n = 0, inside = 0;
+            int bricks[3];
+            assert_int_equal(
+                frame_grids_begin(&(struct grid_lattice){{N, N, N}, h, {0.25, 0.25, 0.25}}, &grids), OK);
+            const size_t all = grid_bricks_of(grids.lattice.n, bricks);
+            assert_int_equal(memory_alloc(all, sizeof *number, "bricks", &number), OK);
+            for (uint32_t b = 0; b < all; b++) {
+                double sum = 0;
+                for (int s = 0; s < BRICK_SAMPLES; s++)
+                    sum += (double)
+                        value[0][(((int)b / 36 * 8 + s / 64) * N + (int)b / 6 % 6 * 8 + s / 8 % 8) * N +
+                                 (int)b % 6 * 8 + s % 8];
+                if (sparse && fabs(sum) >= BRICK_SAMPLES * 3 * h) {
+                    grids.bricks.slot[b] = sum < 0 ? BRICK_INSIDE : 0;
+                    inside += sum < 0;
+                } else
+                    number[n++] = b;
+            }
+            assert_true(!sparse || (inside > 3 && n + inside < all));
+            frame_grids_choose(&grids, &number, n);
+            for (int g = 0; g < GRIDS; g++) {
+                struct frame_grid *grid;
+                assert_int_equal(frame_grids_add(&grids, of[g], &grid), OK);
+                put_lattice(&grids, value[g], 0, grid);
+            }
+            for (int up = 0; up < 2; up++) {
+                const struct vdb_options options = options_of(up);
+                assert_int_equal(vdb_volumes(&grids, &options, &file[sparse][up]), OK);
+            }
+            frame_grids_free(&grids);
+        }
+        for (int up = 0; up < 2; up++) {
+            assert_int_equal(file[0][up].size, file[1][up].size);
+            assert_memory_equal(file[0][up].bytes, file[1][up].bytes, file[0][up].size);
+            free(file[0][up].bytes);
+            free(file[1][up].bytes);
+        }
+    }
+}
+
 /* Rock that stands on the floor of the grid, in the middle of it and in a corner: 8.5 x 12 x 9 m, 3 x 3 x 9
  * m. */
 static void rock_on_the_floor_is_closed(void **state)
@@ -657,7 +737,7 @@ static void rock_on_the_floor_is_closed(void **state)
         number[b] = b;
     frame_grids_choose(&grids, &number, n);
     assert_int_equal(frame_grids_add(&grids, VALUE_surface, &surface), OK);
-    assert_int_equal(frame_grid_from_lattice(&grids, value, surface), OK);
+    put_lattice(&grids, value, 1.5f, surface);
     for (int up = 0; up < 2; up++) {
         const struct vdb_options options = options_of(up);
         struct vdb_bytes file;
@@ -715,6 +795,7 @@ int main(void)
         cmocka_unit_test(no_points_make_a_file),
         cmocka_unit_test(a_particle_nowhere_is_a_blow_up),
         cmocka_unit_test(mesh_of_a_ball_is_closed_and_true),
+        cmocka_unit_test(inside_is_not_kept),
         cmocka_unit_test(rock_on_the_floor_is_closed),
         cmocka_unit_test(adaptive_mesh_is_smaller),
         cmocka_unit_test(mesh_of_something_else_is_refused),
