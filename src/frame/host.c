@@ -49,12 +49,17 @@ static uint64_t writing(const struct job *job, const struct scene_size *size, co
     return most(points, most(volumes, most(2 * files->usd, cameras ? 2 * files->pictures / cameras : 0)));
 }
 
+uint64_t host_frame_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
+                          uint64_t own)
+{
+    const bool moves = job->clock.seconds_per_frame > 0 || job->collapse.blocks == COLLAPSE_FALL;
+    return host_rock_bytes(size->n_particles) + (moves ? 16 * size->n_particles : 0) +
+           value_grids(HAS_ALWAYS) * samples * sizeof(float) + own +
+           aov_picture_bytes(job) * job->output.aov.n_cameras;
+}
+
 uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
                            uint64_t own, const struct disk_frame *files)
 {
-    const bool moves = job->clock.seconds_per_frame > 0 || job->collapse.blocks == COLLAPSE_FALL;
-    const uint64_t one = host_rock_bytes(size->n_particles) + (moves ? 16 * size->n_particles : 0) +
-                         value_grids(HAS_ALWAYS) * samples * sizeof(float) + own +
-                         aov_picture_bytes(job) * job->output.aov.n_cameras;
-    return 2 * one + making(job) + writing(job, size, files);
+    return 2 * host_frame_bytes(job, size, samples, own) + making(job) + writing(job, size, files);
 }

@@ -11,8 +11,11 @@ uint64_t host_rock_bytes(size_t n);
  * voxels is in, so many of them at its surface. */
 uint64_t host_grid_samples(const int voxels[3], uint64_t rock, uint64_t bare);
 
-/* All that the frames of a job take at most, each of its grids having so many samples; `own` is what only its model's frames have, of one. Within a tenth of
- * what was measured. */
+/* One frame of the job, each of its grids having so many samples; `own` is what only its model's frames have. */
+uint64_t host_frame_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
+                          uint64_t own);
+
+/* All that its frames take at most: one that is written, and one that is made. Within a tenth of what was measured. */
 uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
                            uint64_t own, const struct disk_frame *files);
 

@@ -42,6 +42,7 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     out->disk.other += needs.disk_other;
     out->host_bytes =
         needs.host_bytes + host_frames_bytes(job, &needs.size, needs.samples, needs.frame_bytes, &out->disk);
+    out->waiting_bytes = host_frame_bytes(job, &needs.size, needs.samples, needs.frame_bytes);
     out->checkpoint_bytes = needs.checkpoint_bytes;
     out->steps = needs.steps;
 done:

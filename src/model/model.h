@@ -19,7 +19,8 @@ struct model_estimate {
     size_t n_particles;
     int voxels[3];
     uint64_t device_bytes;
-    uint64_t host_bytes;    /* besides the device's, with frames waiting to be written */
+    uint64_t host_bytes;    /* besides the device's, with a frame that is written while the next is made */
+    uint64_t waiting_bytes; /* of these: not taken where it is written first */
     struct disk_frame disk; /* of a frame */
     uint64_t checkpoint_bytes;
     double steps; /* of erosion and equilibrium, over all frames */

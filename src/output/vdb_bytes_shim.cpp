@@ -4,6 +4,8 @@
 #include "output/vdb_shim.hpp"
 
 #include <openvdb/io/Archive.h>
+#include <openvdb/io/GridDescriptor.h>
+#include <openvdb/io/io.h>
 #include <openvdb/util/logging.h>
 
 #include <cstdio>
@@ -94,10 +96,27 @@ class memory_sink : public std::streambuf
     size_t at_ = 0, size_ = 0, capacity_ = 0;
 };
 
+/* What Archive::write() makes of grids with different names and trees, but of one at a time: a grid's tree takes several times what
+ * the file takes, and all of a frame's together more than the frame. */
 struct memory_archive : openvdb::io::Archive {
-    void to(std::ostream &os, const openvdb::GridCPtrVec &grids, const openvdb::MetaMap &metadata) const
+    void to(std::ostream &os, size_t n_grids, const vdb::grid_maker &make,
+            const openvdb::MetaMap &metadata) const
     {
-        openvdb::io::Archive::write(os, grids, /*seekable=*/true, metadata);
+        namespace io = openvdb::io;
+        io::StreamMetadata::Ptr stream(new io::StreamMetadata);
+        io::setStreamMetadataPtr(os, stream, /*transfer=*/false);
+        io::setDataCompression(os, compression());
+        io::setWriteGridStatsMetadata(os, isGridStatsMetadataEnabled());
+        writeHeader(os, /*seekable=*/true);
+        metadata.writeMeta(os);
+        const int32_t count = int32_t(n_grids);
+        os.write(reinterpret_cast<const char *>(&count), sizeof count);
+        for (size_t i = 0; i < n_grids; i++) {
+            const openvdb::GridBase::ConstPtr grid = make(i);
+            io::GridDescriptor descriptor(grid->getName(), grid->type(), grid->saveFloatAsHalf());
+            writeGrid(descriptor, grid, os, /*seekable=*/true);
+            io::setDataCompression(os, compression()); /* writing a grid has set it to the grid's own */
+        }
     }
 };
 
@@ -163,8 +182,8 @@ bool is_y_up(const openvdb::MetaMap &metadata)
     return creator && creator->value().compare(0, 7, "Houdini") == 0;
 }
 
-void encode(const openvdb::GridCPtrVec &grids, const vdb_options &options, const openvdb::MetaMap &metadata,
-            vdb_bytes *out)
+void encode(size_t n_grids, const grid_maker &make, const vdb_options &options,
+            const openvdb::MetaMap &metadata, vdb_bytes *out)
 {
     uint32_t flags = openvdb::io::COMPRESS_ACTIVE_MASK;
     if (options.codec == VDB_CODEC_BLOSC)
@@ -176,7 +195,7 @@ void encode(const openvdb::GridCPtrVec &grids, const vdb_options &options, const
     memory_sink sink;
     std::ostream os(&sink);
     os.exceptions(std::ios::badbit | std::ios::failbit);
-    archive.to(os, grids, metadata);
+    archive.to(os, n_grids, make, metadata);
     if (sink.size() < UUID_AT + UUID_SIZE || sink.data()[UUID_AT + 8] != '-')
         throw std::runtime_error("OpenVDB's file header is not the known one");
     put_identity(sink.data(), options.identity);

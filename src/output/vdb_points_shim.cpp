@@ -351,7 +351,8 @@ try {
     grid->setName("points");
     grid->setCreator(metadata.metaValue<std::string>("creator"));
     grid->setTransform(openvdb::math::Transform::createLinearTransform(at.voxel));
-    vdb::encode({grid}, *options, metadata, out);
+    vdb::encode(
+        1, [&](size_t) { return grid; }, *options, metadata, out);
     return OK;
 }
 SHIM_CATCH(E_OUTPUT, "points")

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <ios>
 #include <new>
 #include <string>
@@ -93,9 +94,13 @@ struct file {
 /* E_INPUT: it is not as it was written. Throws what the library throws. */
 status load(const char *path, file *out);
 
-/* The grids as a file in memory, with its archive UUID made from `identity` and the content. */
-void encode(const openvdb::GridCPtrVec &grids, const vdb_options &options, const openvdb::MetaMap &metadata,
-            vdb_bytes *out);
+/* Makes grid i, which is let go when it is written. */
+using grid_maker = std::function<openvdb::GridBase::ConstPtr(size_t i)>;
+
+/* So many grids, each with a name and a tree of its own, as a file in memory, with its archive UUID made from `identity` and the
+ * content. */
+void encode(size_t n_grids, const grid_maker &make, const vdb_options &options,
+            const openvdb::MetaMap &metadata, vdb_bytes *out);
 
 /* For files that say hoodoo wrote them: is the UUID the one encode() gave this content? */
 bool is_intact(const void *bytes, size_t size);

@@ -280,8 +280,7 @@ try {
     openvdb::MetaMap metadata = vdb::file_metadata(*options, frame_lattice.voxel);
     metadata.insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(frame_lattice.n)));
     const auto transform = transform_of(frame_lattice, y_up);
-    openvdb::GridCPtrVec made;
-    for (size_t i = 0; i < grids->n_grids; i++) {
+    const auto make = [&](size_t i) {
         const frame_grid &g = grids->grid[i];
         const bool own = g.own.n[0] != 0;
         auto grid = own ? make_grid(g, lattice(g.own.n, y_up), of_lattice{g.own.n}, nullptr)
@@ -295,9 +294,9 @@ try {
         grid->setSaveFloatAsHalf(options->half && fits_half(g));
         if (g.unit && *g.unit)
             grid->insertMeta("unit", openvdb::StringMetadata(g.unit));
-        made.push_back(grid);
-    }
-    vdb::encode(made, *options, metadata, out);
+        return grid;
+    };
+    vdb::encode(grids->n_grids, make, *options, metadata, out);
     return OK;
 }
 SHIM_CATCH(E_OUTPUT, "volumes")

@@ -24,11 +24,18 @@ uint64_t room_process(const struct gpu *gpu)
     return (gpu ? memory_resident() : BEFORE) + LATER;
 }
 
-struct room room_needed(const struct gpu *gpu, const struct model_estimate *e)
+struct room room_at_once(const struct gpu *gpu, const struct model_estimate *e)
 {
     if (gpu_info(gpu)->is_cpu)
         return (struct room){.host = e->device_bytes + e->host_bytes + LATER};
     return (struct room){.device = e->device_bytes, .host = e->host_bytes + LATER};
+}
+
+struct room room_needed(const struct gpu *gpu, const struct model_estimate *e)
+{
+    struct room out = room_at_once(gpu, e);
+    out.host -= e->waiting_bytes;
+    return out;
 }
 
 bool room_enough(struct room there, struct room needed)

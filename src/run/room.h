@@ -17,8 +17,12 @@ struct room room_free(const struct gpu *gpu);
  * the device is worked with: what is there is measured. `gpu` NULL: where there is no device to look at. */
 uint64_t room_process(const struct gpu *gpu);
 
-/* What a job takes from here on: what the process has already is not free any more. */
+/* What a job takes from here on: what the process has already is not free any more. At least: where a frame is written before the
+ * next is made. */
 struct room room_needed(const struct gpu *gpu, const struct model_estimate *estimate);
+
+/* The same where one is written while the next is made. */
+struct room room_at_once(const struct gpu *gpu, const struct model_estimate *estimate);
 
 bool room_enough(struct room there, struct room needed);
 

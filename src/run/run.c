@@ -37,6 +37,7 @@ struct run {
     size_t n_done;
     bool any_there; /* frames, asked for or not */
     int began;      /* the frame the model was made or restored at */
+    bool alone;     /* there is no room to make a frame while another is written */
 };
 
 /* ---- what is there */
@@ -267,15 +268,19 @@ done:
 
 /* ---- the loop */
 
-static status check_memory(const struct run *r)
+static status check_memory(struct run *r)
 {
     const struct gpu_info *info = gpu_info(r->gpu);
     struct model_estimate e;
     status st = room_check(r->gpu, r->job, &e);
-    if (st == OK)
-        log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
-                 info->name, info->driver);
-    return st;
+    if (st != OK)
+        return st;
+    log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
+             info->name, info->driver);
+    r->alone = !room_enough(room_free(r->gpu), room_at_once(r->gpu, &e));
+    if (r->alone)
+        log_info("memory holds one frame: each is written before the next is made");
+    return OK;
 }
 
 static status begin(struct run *r)
@@ -312,7 +317,7 @@ static status begin(struct run *r)
     r->began = model_frame(r->model);
     /* Not before: a scene that is refused does not claim the folder. */
     TRY(provenance_write(&r->provenance, r->gpu, r->job, r->job_hash, r->options->root));
-    TRY(writer_create(r->job, r->job_hash, r->options->root, &r->writer));
+    TRY(writer_create(r->job, r->job_hash, r->options->root, r->alone, &r->writer));
 done:
     checkpoint_free(&c);
     return st;

@@ -200,6 +200,7 @@ struct writer {
     const struct job *job;
     uint64_t job_hash;
     const char *root;
+    bool alone;
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t changed;
@@ -264,7 +265,8 @@ static void *work(void *argument)
     return NULL;
 }
 
-status writer_create(const struct job *job, uint64_t job_hash, const char *root, struct writer **out)
+status writer_create(const struct job *job, uint64_t job_hash, const char *root, bool alone,
+                     struct writer **out)
 {
     struct writer *w = NULL;
     status st = memory_alloc(1, sizeof *w, "the writer", &w);
@@ -273,6 +275,7 @@ status writer_create(const struct job *job, uint64_t job_hash, const char *root,
     w->job = job;
     w->job_hash = job_hash;
     w->root = root;
+    w->alone = alone;
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->changed, NULL);
     if (pthread_create(&w->thread, NULL, work, w) != 0) {
@@ -292,6 +295,8 @@ static status push(struct writer *w, struct item *item)
     if (st == OK)
         w->queue[w->n++] = item;
     pthread_cond_broadcast(&w->changed);
+    while (w->alone && st == OK && w->n > 0)
+        pthread_cond_wait(&w->changed, &w->lock);
     pthread_mutex_unlock(&w->lock);
     if (st != OK) {
         item_free(item);

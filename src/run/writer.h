@@ -17,8 +17,8 @@
 
 struct writer;
 
-/* `job` and `root` outlive the writer. */
-MUST_USE status writer_create(const struct job *job, uint64_t job_hash, const char *root,
+/* `job` and `root` outlive the writer. `alone`: it is waited for, for want of room for what else is made meanwhile. */
+MUST_USE status writer_create(const struct job *job, uint64_t job_hash, const char *root, bool alone,
                               struct writer **out);
 
 /* Takes the frame over, whatever comes back. */

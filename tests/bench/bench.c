@@ -184,7 +184,7 @@ static double demo(const struct job *job, const char *root, int stages, double *
     gpu_times_reset(gpu);
     if (root) {
         check(folder_prepare(root));
-        check(writer_create(job, 0, root, &writer));
+        check(writer_create(job, 0, root, false, &writer));
     }
     double start = clock_seconds(), cpu_start = cpu_seconds();
     for (int f = 0; f < FRAMES; f++) {

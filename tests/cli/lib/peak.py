@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 import subprocess
+import time
 
 HOODOO = os.environ["HOODOO"]
 NEAR = 0.15  # a plan is that near
@@ -16,11 +17,47 @@ def check(good, what):
     print(("ok " if good else "not ok ") + what, flush=True)
 
 
-def run(words):
-    """Exit code, stderr and the largest resident size in bytes, of one process."""
+def make_group(limit):
+    """A control group below ours with a limit, or None: its folder. end_group()."""
+    try:
+        groups = dict(line.rstrip("\n").split(":", 2)[1:] for line in open("/proc/self/cgroup"))
+        for controllers, group in groups.items():
+            if "memory" in controllers.split(","):
+                folder, name = "/sys/fs/cgroup/memory" + group.rstrip("/"), "memory.limit_in_bytes"
+                break
+        else:
+            folder, name = "/sys/fs/cgroup" + groups[""].rstrip("/"), "memory.max"
+        folder += f"/hoodoo_test_{os.getpid()}"
+        os.mkdir(folder)
+        try:
+            with open(f"{folder}/{name}", "w") as file:
+                file.write(str(limit))
+        except OSError:
+            os.rmdir(folder)
+            raise
+        return folder
+    except OSError:
+        return None
+
+
+def end_group(group):
+    """What was in it has ended, or is about to."""
+    for _ in range(100):
+        try:
+            os.rmdir(group)
+            break
+        except OSError:
+            time.sleep(0.1)
+
+
+def run(words, group=None):
+    """Exit code, stderr and the largest resident size in bytes, of one process; in a control group, if there is one."""
+    words = [HOODOO, *words]
+    if group:
+        words = ["sh", "-c", f'echo $$ >{group}/cgroup.procs && exec "$@"', "sh", *words]
     read, write = os.pipe()
     actions = [(os.POSIX_SPAWN_DUP2, write, 2), (os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
-    child = os.posix_spawn(HOODOO, [HOODOO, *words], os.environ, file_actions=actions)
+    child = os.posix_spawnp(words[0], words, os.environ, file_actions=actions)
     os.close(write)
     with open(read) as pipe:
         said = pipe.read()
