@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/begin.h"
 #include "base/build.h"
 #include "base/log.h"
 #include "base/nearest.h"
@@ -64,6 +65,7 @@ static status run_verb(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    process_begin();
     status st = run_verb(argc, argv);
     /* A full disk behind stdout shows when the last of it is written. */
     if ((fflush(stdout) != 0 || ferror(stdout)) && st == OK)

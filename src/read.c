@@ -1,4 +1,5 @@
 /* hoodoo-read: one OpenVDB or OpenEXR file for hoodoo (reader/reader.h). */
+#include "base/begin.h"
 #include "output/exr_serve.h"
 #include "output/vdb_serve.h"
 #include "reader/serve.h"
@@ -18,5 +19,6 @@ int main(int argc, char **argv)
         {"exr.check", MEMORY, exr_serve_check},
         {"exr.describe", MEMORY, exr_serve_describe},
     };
+    process_begin();
     return serve(argc, argv, kinds, sizeof kinds / sizeof *kinds);
 }

@@ -7,7 +7,8 @@
 static const struct {
     int number;
     const char *name;
-} stops[] = {{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"}, {SIGUSR1, "SIGUSR1"}};
+} stops[] = {{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"},   {SIGHUP, "SIGHUP"},
+             {SIGUSR1, "SIGUSR1"}, {SIGUSR2, "SIGUSR2"}, {SIGXCPU, "SIGXCPU"}};
 
 /* The first signal that came, or 0. Atomic, for the threads; lock-free, for the handler. */
 static atomic_int stop;
@@ -18,8 +19,17 @@ static void on_stop(int number)
     atomic_compare_exchange_strong(&stop, &none, number);
 }
 
+/* Whoever starts us ignores it so that we outlive a terminal. */
+static bool hangup_is_ignored(void)
+{
+    struct sigaction now;
+    return sigaction(SIGHUP, NULL, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
 static void set(int number, void (*handler)(int))
 {
+    if (number == SIGHUP && hangup_is_ignored())
+        return;
     struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
     sigemptyset(&action.sa_mask);
     sigaction(number, &action, NULL);
@@ -37,6 +47,7 @@ void signals_reset(void)
     for (size_t i = 0; i < sizeof stops / sizeof *stops; i++)
         set(stops[i].number, SIG_DFL);
     set(SIGPIPE, SIG_DFL);
+    set(SIGXFSZ, SIG_DFL);
 }
 
 bool stop_requested(void)

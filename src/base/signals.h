@@ -1,5 +1,6 @@
-/* SIGTERM, SIGINT and SIGUSR1 ask for a stop at the next safe point; any number of them, at any time, means
- * the same. SIGPIPE is ignored from then on: a closed pipe is an error of the write.
+/* SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2 and SIGXCPU ask for a stop at the next safe point; any number of them, at any
+ * time, means the same. A SIGHUP that is ignored, as nohup has it, stays so. SIGPIPE is ignored from then on: a closed pipe is
+ * an error of the write.
  *
  * For verbs that save work before they end. Others keep the default: at once.
  */

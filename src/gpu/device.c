@@ -57,6 +57,7 @@ static status instance_create(VkInstance *out)
                                      .apiVersion = VK_API_VERSION_1_2};
     VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                  .pApplicationInfo = &application};
+    shader_cache_choose();
     VkResult result = vkCreateInstance(&info, NULL, out);
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
         return fail(E_MEMORY, "out of memory while starting a Vulkan driver");
@@ -256,6 +257,7 @@ status gpu_create(const struct gpu_options *options, struct gpu **out)
     gpu->info = info[chosen];
     gpu->physical = physical[chosen];
     TRY(device_open(gpu));
+    shader_cache_hold();
     *out = gpu;
     gpu = NULL;
 done:

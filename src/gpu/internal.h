@@ -117,6 +117,10 @@ void record_accesses(struct gpu *gpu, VkCommandBuffer commands, const struct acc
 const struct pipeline *pipeline_get(struct gpu *gpu, enum gpu_kernel kernel, enum kernel_variant variant);
 VkBufferView buffer_view(struct gpu *gpu, struct gpu_buffer *buffer, char letter);
 
+/* Before an instance is made: where Mesa keeps compiled kernels, or that it keeps none. After a device is: room for that. */
+void shader_cache_choose(void);
+void shader_cache_hold(void);
+
 bool slots_create(struct gpu *gpu);
 void slots_destroy(struct gpu *gpu);
 void pipelines_destroy(struct gpu *gpu);

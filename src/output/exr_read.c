@@ -20,17 +20,16 @@ struct source {
     char message[256];
 };
 
+/* As a file is read: fewer bytes at its end. Headers are read ahead; where all of it is needed, the library says so. */
 static int64_t source_read(exr_const_context_t exr, void *user, void *bytes, uint64_t n, uint64_t at,
                            exr_stream_error_func_ptr_t error)
 {
     const struct source *s = user;
-    if (at > s->size || n > s->size - at) {
-        error(exr, EXR_ERR_READ_IO, "%llu bytes at %llu lie beyond the end", (unsigned long long)n,
-              (unsigned long long)at);
-        return -1;
-    }
-    memcpy(bytes, s->bytes + at, (size_t)n);
-    return (int64_t)n;
+    const uint64_t left = at < s->size ? s->size - at : 0, got = n < left ? n : left;
+    (void)exr;
+    (void)error;
+    memcpy(bytes, s->bytes + (got ? at : 0), (size_t)got);
+    return (int64_t)got;
 }
 
 static int64_t source_size(exr_const_context_t exr, void *user)

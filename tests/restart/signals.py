@@ -37,7 +37,9 @@ else:
     stop_and_go_on(1001, signal.SIGINT)
     stop_and_go_on(1007, signal.SIGINT, 3)
     stop_and_go_on(1006, signal.SIGUSR1)
-    stop_and_go_on(1011, signal.SIGUSR1, 3)
+    stop_and_go_on(1011, signal.SIGUSR2, 3)
+    stop_and_go_on(1005, signal.SIGHUP)
+    stop_and_go_on(1003, signal.SIGXCPU)
     stop_and_go_on(1004, signal.SIGTERM, 3)
 
 shutil.rmtree("stopped")

@@ -149,4 +149,4 @@ def errors(said):
         ("hoodoo: frame", "hoodoo: about ", "hoodoo: continuing ", "hoodoo: device time", "hoodoo: warning: ", "hoodoo: all "))]
 
 
-SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1)
+SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1, signal.SIGUSR2, signal.SIGXCPU)
