@@ -38,14 +38,14 @@ static uint64_t making(const struct job *job)
 }
 
 /* The same while it is written, file by file. Points: an order of eight bytes, and what is not alike in a whole leaf
- * of the file's tree: six numbers and a position inside, a normal and more on the surface. Volumes: two grids are
- * full, and of all of them the leaves that the surface runs through, each six times as large as what is in it.
+ * of the file's tree: six numbers and a position inside, a normal and more on the surface. Volumes: one grid at
+ * a time, which may be full, and its leaves that the surface runs through, each six times as large as what is in it.
  * Pictures: their packed rows, and the file these are put together in. */
 static uint64_t writing(const struct job *job, const struct scene_size *size, const struct disk_frame *files)
 {
     const uint64_t n = size->n_particles, bare = size->n_surface, cameras = job->output.aov.n_cameras;
     const uint64_t points = files->points ? n * (8 + 32) + bare * 32 + files->points : 0;
-    const uint64_t volumes = n * 2 * 4 + bare * value_grids(HAS_ALWAYS) * 6 * 4 + files->volumes;
+    const uint64_t volumes = n * 4 + bare * 6 * 4 + files->volumes;
     return most(points, most(volumes, most(2 * files->usd, cameras ? 2 * files->pictures / cameras : 0)));
 }
 

@@ -331,6 +331,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
     status st = OK;
     const int *n = needs->voxels;
     struct scene_size ground;
+    /* Whatever is wrong with the scene is said here. */
     TRY(scene_estimate(job, &ground));
     free(ground.point);
     double cell = job->arches.cell_m > 0 ? job->arches.cell_m : job->domain.spacing_m;
@@ -340,13 +341,12 @@ static status estimate(const struct job *job, struct model_needs *needs)
     /* The surface alone, on a lattice. */
     needs->size.n_surface = needs->size.n_particles;
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
-    needs->samples = host_grid_samples(n, ground.n_particles, ground.n_surface);
+    needs->samples = host_grid_samples(n, 0, needs->size.n_surface);
     needs->frame_bytes = value_grids(HAS_TERRAIN) * needs->samples * sizeof(float);
     /* On the device the rock is ordered with a vector and a word to spare. */
     needs->device_bytes = 20 * needs->size.n_particles;
-    /* The stacks, and what frames are made from: shares and materials of the samples. */
-    needs->host_bytes = (uint64_t)(4 * stacks) + host_rock_bytes(needs->size.n_particles) +
-                        terrain_view_bytes(needs->samples);
+    /* What a frame is made from is let go before it is whole. */
+    needs->host_bytes = (uint64_t)(4 * stacks);
     needs->checkpoint_bytes = (uint64_t)(0.6 * stacks);
     if (job->arches.stacks == STACKS_ALL)
         needs->disk_other = needs->checkpoint_bytes;

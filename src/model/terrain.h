@@ -49,9 +49,6 @@ struct surface terrain_surface(const struct terrain_view *v);
 /* Finds the view's bricks. */
 MUST_USE status terrain_bricks(struct terrain_view *v, const struct surface *s);
 
-/* What looking takes in host memory where so many samples are in bricks, but for the rock. */
-uint64_t terrain_view_bytes(uint64_t samples);
-
 /* The heights and thicknesses of the layers as a picture from above, one pixel a stack: named "stacks". */
 MUST_USE status terrain_map(const struct stacks *s, int n_materials, struct aov_image *out);
 

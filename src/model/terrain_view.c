@@ -221,11 +221,6 @@ done:
     return st;
 }
 
-uint64_t terrain_view_bytes(uint64_t samples)
-{
-    return samples * ((1 + TERRAIN_RATIOS) * sizeof(float) + 1);
-}
-
 void terrain_view_free(struct terrain_view *v)
 {
     free(v->bricks.number);
