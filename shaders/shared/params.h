@@ -78,6 +78,13 @@ SHARED_SIZE(hold_params, 20)
 
 #define STRESS_FILL_FLOOR 0.05f
 
+/* Nodes and cells are kept in runs of so many along x, one in each slot. Those of the slots before the first, and of one
+ * behind the last, are zero; runs that are not kept are looked up at STRESS_EMPTY. */
+#define STRESS_RUN 8u
+#define STRESS_FIRST 2u
+#define STRESS_EMPTY 8u
+#define STRESS_NO_RUN 0xffffffffu /* of those slots */
+
 struct stress_params {
     uint n;
     uint cx, cy, cz;  /* cells with margin; nodes are one more on each axis */

@@ -6,7 +6,7 @@
 //   K_ab^ij = (lambda g_ai g_bj + mu g_aj g_bi) m_k / 4
 // where along each axis s = 1, m = 1/3 if a and b agree, s = -1, m = 1/6 if not, and g = -1 at the low end, 1
 // at the high end. These have ten distinct magnitudes; everything else below is a constant once unrolled.
-// Needs READ_V(u), READ_F(fill), k.lambda, k.mu, k.dx and stress/grid.glsl.
+// Needs READ_U(run), READ_V(u), READ_F(fill), k.lambda, k.mu, k.dx and stress/rows.glsl.
 
 #define SAME(a, b) ((a) == (b))
 #define M(a, b) (SAME(a, b) ? 1.0 / 3.0 : 1.0 / 6.0)
@@ -34,22 +34,23 @@
         vec3 f = vec3(0.0);                                                                                    \
         TERM(ax, ay, az, 0, 0, 0) TERM(ax, ay, az, 1, 0, 0) TERM(ax, ay, az, 0, 1, 0) TERM(ax, ay, az, 1, 1, 0) \
         TERM(ax, ay, az, 0, 0, 1) TERM(ax, ay, az, 1, 0, 1) TERM(ax, ay, az, 0, 1, 1) TERM(ax, ay, az, 1, 1, 1) \
-        float scale = stiffness(LOAD_F(fill, cell_index(a - ivec3(ax, ay, az))));                              \
+        float scale = stiffness(LOAD_F(fill, row[(1 - az) * 3 + 1 - ay] - ax));                                \
         sum += scale * f;                                                                                      \
         scales += scale;                                                                                       \
     }
 
-// xyz: K u (N, for u in m); w: the sum of the cells' stiffness shares.
-vec4 apply_stiffness(ivec3 a)
+// For the node that is kept at `at`. xyz: K u (N, for u in m); w: the sum of the cells' stiffness shares.
+vec4 apply_stiffness(uint at)
 {
     float stiff = (k.lambda + 2.0 * k.mu) * k.dx, shear = k.mu * k.dx;
     float both = (k.lambda + k.mu) * k.dx / 4.0, difference = (k.lambda - k.mu) * k.dx / 4.0;
+    uint own = LOAD_U(run, at / STRESS_RUN), row[9];
     vec3 near[27];
     for (int z = 0; z < 3; z++)
         for (int y = 0; y < 3; y++) {
-            int row = int(node_index(a + ivec3(-1, y - 1, z - 1)));
-            for (int x = 0; x < 3; x++)
-                near[z * 9 + y * 3 + x] = LOAD_V(u, row + x).xyz;
+            row[z * 3 + y] = row_at(own, at, y - 1, z - 1);
+            for (uint x = 0u; x < 3u; x++)
+                near[z * 9 + y * 3 + int(x)] = LOAD_V(u, row[z * 3 + y] + x - 1u).xyz;
         }
     vec3 sum = vec3(0.0);
     float scales = 0.0;

@@ -1,11 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A coarse cell's share of the full stiffness: the mean of its eight children's, those outside counting nothing.
+// A coarse cell's share of the full stiffness: the mean of its eight children's.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_F(0, fill)
-WRITE_F(1, coarse)
+READ_U(0, run)
+READ_U(1, table)
+READ_F(2, fill)
+WRITE_F(3, coarse)
 PARAMS(coarse_params)
 #include "stress/grid.glsl"
 
@@ -14,12 +16,16 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint nx = k.px - 2u, ny = k.py - 2u;
-    ivec3 c = ivec3(i % nx, (i / nx) % ny, i / (nx * ny)) + 1;
+    uint own = LOAD_U(run, i / STRESS_RUN);
+    uvec3 above = uvec3(k.px, k.py, k.pz);
+    ivec3 c = node_of(own, i, above);
     float sum = 0.0;
-    for (int e = 0; e < 8; e++) {
-        ivec3 child = min(2 * c - 1 + ivec3(e & 1, (e >> 1) & 1, e >> 2), ivec3(k.cx, k.cy, k.cz) - 1);
-        sum += stiffness(LOAD_F(fill, cell_index(child)));
-    }
-    AT(coarse, (uint(c.z) * k.py + uint(c.y)) * k.px + uint(c.x)) = sum / 8.0;
+    if (own != STRESS_NO_RUN && all(greaterThanEqual(c, ivec3(1))) && all(lessThan(c, ivec3(above) - 1)))
+        for (int b = 0; b < 4; b++) {
+            ivec3 child = 2 * c - 1 + ivec3(0, b & 1, b >> 1);
+            uint row = LOAD_U(table, run_of(child, uvec3(k.cx, k.cy, k.cz))) + uint(child.x) % STRESS_RUN;
+            sum += stiffness(LOAD_F(fill, row));
+            sum += stiffness(LOAD_F(fill, row + 1u));
+        }
+    AT(coarse, i) = sum / 8.0;
 }

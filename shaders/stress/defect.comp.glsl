@@ -5,12 +5,15 @@
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_V(1, u)
-READ_F(2, fill)
-READ_V(3, r)
-WRITE_V(4, defect)
+READ_U(1, run)
+READ_U(2, table)
+READ_V(3, u)
+READ_F(4, fill)
+READ_V(5, r)
+WRITE_V(6, defect)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/rows.glsl"
 #include "stress/apply.glsl"
 
 void main()
@@ -19,5 +22,5 @@ void main()
     if (i >= k.n)
         return;
     uint node = LOAD_U(list, i);
-    AT(defect, node) = vec4(LOAD_V(r, i).xyz - apply_stiffness(node_of(node)).xyz, 0.0);
+    AT(defect, node) = vec4(LOAD_V(r, i).xyz - apply_stiffness(node).xyz, 0.0);
 }

@@ -5,20 +5,26 @@
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_F(1, fill)
-WRITE_V(2, r)
+READ_U(1, run)
+READ_U(2, table)
+READ_F(3, fill)
+WRITE_V(4, r)
 PARAMS(stress_params)
 #include "stress/diagonal.glsl"
 #include "stress/grid.glsl"
+#include "stress/rows.glsl"
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    ivec3 a = node_of(LOAD_U(list, i));
+    uint node = LOAD_U(list, i), own = LOAD_U(run, node / STRESS_RUN);
     float scales = 0.0;
-    for (int e = 0; e < 8; e++)
-        scales += stiffness(LOAD_F(fill, cell_index(a - ivec3(e & 1, (e >> 1) & 1, e >> 2))));
+    for (int b = 0; b < 4; b++) {
+        uint row = row_at(own, node, -(b & 1), -(b >> 1));
+        scales += stiffness(LOAD_F(fill, row));
+        scales += stiffness(LOAD_F(fill, row - 1u));
+    }
     AT(r, i) = vec4(0.0, 0.0, 0.0, 1.0 / (diagonal_unit() * scales));
 }

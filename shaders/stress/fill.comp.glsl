@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each cell's share of rock: the viability of the particles in its eight voxels, over eight.
+// Each kept cell's share of rock: the viability of the particles in its eight voxels, over eight.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, words)
-READ_U(1, start)
-READ_F(2, viability)
-WRITE_F(3, fill)
+READ_U(0, run)
+READ_U(1, words)
+READ_U(2, start)
+READ_F(3, viability)
+WRITE_F(4, fill)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
 #define HELD_NX (2u * (k.cx - 2u))
@@ -21,14 +22,15 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint nx = k.cx - 2u, ny = k.cy - 2u;
-    uvec3 c = uvec3(i % nx, (i / nx) % ny, i / (nx * ny));
+    uint own = LOAD_U(run, i / STRESS_RUN);
+    ivec3 c = node_of(own, i, uvec3(k.cx, k.cy, k.cz)), cells = ivec3(k.cx, k.cy, k.cz);
     float sum = 0.0;
-    for (uint z = 0u; z < 2u; z++)
-        for (uint y = 0u; y < 2u; y++) {
-            uvec2 row = row_particles(int(2u * c.x), int(2u * c.x + 1u), int(2u * c.y + y), int(2u * c.z + z));
+    if (own != STRESS_NO_RUN && all(greaterThanEqual(c, ivec3(1))) && all(lessThan(c, cells - 1)))
+        for (int b = 0; b < 4; b++) {
+            ivec3 v = 2 * (c - 1) + ivec3(0, b & 1, b >> 1);
+            uvec2 row = row_particles(v.x, v.x + 1, v.y, v.z);
             for (uint j = row.x; j < row.y; j++)
                 sum += LOAD_F(viability, j);
         }
-    AT(fill, cell_index(ivec3(c) + 1)) = min(sum / 8.0, 1.0);
+    AT(fill, i) = min(sum / 8.0, 1.0);
 }

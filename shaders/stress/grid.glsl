@@ -1,21 +1,29 @@
-// Cells and nodes of the stress grid, with a margin of one empty cell around, so that no neighbour needs a
-// test. Cell (i, j, k) has the nodes (i..i+1, j..j+1, k..k+1); the domain's own begin at 1. Needs k.cx, k.cy,
-// k.cz.
+// Cells and nodes of a stress grid, with a margin of one empty cell around, so that no neighbour needs a test. Cell
+// (i, j, k) has the nodes (i..i+1, j..j+1, k..k+1), and is kept where its first node is; the domain's own begin at 1.
+//
+// They are kept in runs of STRESS_RUN along x, ordered as on the whole grid, and of a run's neighbours in its row those
+// are kept, too, that a filled cell's node is in or next to (mark.glsl). So a run whose row goes on is followed by what
+// follows it on the grid, and a run whose row ends there begins or ends with zeros: whatever is looked up, its neighbours
+// in the row are right behind it and right before it. Runs that are not kept are looked up in one that is empty.
 
-uint cell_index(ivec3 c)
+// From a run to the next row's, and to the next layer's, in the table of all runs. `cells` are the grid's, with the margin.
+uvec2 run_steps(uvec3 cells)
 {
-    return (uint(c.z) * k.cy + uint(c.y)) * k.cx + uint(c.x);
+    uint row = cells.x / STRESS_RUN + 1u;
+    return uvec2(row, row * (cells.y + 1u));
 }
 
-uint node_index(ivec3 a)
+uint run_of(ivec3 a, uvec3 cells)
 {
-    return (uint(a.z) * (k.cy + 1u) + uint(a.y)) * (k.cx + 1u) + uint(a.x);
+    uvec2 next = run_steps(cells);
+    return uint(a.z) * next.y + uint(a.y) * next.x + uint(a.x) / STRESS_RUN;
 }
 
-ivec3 node_of(uint i)
+// The node that is kept at `at`, in that run.
+ivec3 node_of(uint run, uint at, uvec3 cells)
 {
-    uint nx = k.cx + 1u, ny = k.cy + 1u;
-    return ivec3(i % nx, (i / nx) % ny, i / (nx * ny));
+    uvec2 next = run_steps(cells);
+    return ivec3(run % next.x * STRESS_RUN + at % STRESS_RUN, run % next.y / next.x, run / next.y);
 }
 
 // How much of the full stiffness a cell has. The floor keeps nearly empty cells from hanging on nothing.

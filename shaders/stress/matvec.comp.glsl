@@ -5,12 +5,15 @@
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_V(1, u)
-READ_F(2, fill)
-WRITE_V(3, q)
-WRITE_F(4, product)
+READ_U(1, run)
+READ_U(2, table)
+READ_V(3, u)
+READ_F(4, fill)
+WRITE_V(5, q)
+WRITE_F(6, product)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/rows.glsl"
 #include "stress/apply.glsl"
 
 void main()
@@ -19,7 +22,7 @@ void main()
     if (i >= k.n)
         return;
     uint node = LOAD_U(list, i);
-    vec3 force = apply_stiffness(node_of(node)).xyz;
+    vec3 force = apply_stiffness(node).xyz;
     AT(q, i) = vec4(force, 0.0);
     AT(product, i) = dot(force, LOAD_V(u, node).xyz);
 }

@@ -5,9 +5,11 @@
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_V(1, coarse)
-READ_V(2, z_before)
-WRITE_V(3, z)
+READ_U(1, run)
+READ_U(2, table)
+READ_V(3, coarse)
+READ_V(4, z_before)
+WRITE_V(5, z)
 PARAMS(coarse_params)
 #include "stress/grid.glsl"
 
@@ -17,12 +19,14 @@ void main()
     if (i >= k.n)
         return;
     uint node = LOAD_U(list, i);
-    ivec3 a = node_of(node);
+    ivec3 a = node_of(LOAD_U(run, node / STRESS_RUN), node, uvec3(k.cx, k.cy, k.cz));
     ivec3 low = (a + 1) / 2, high = (a + 2) / 2; // the same where the nodes coincide
     vec3 sum = vec3(0.0);
-    for (int b = 0; b < 8; b++) {
-        ivec3 at = ivec3((b & 1) == 0 ? low.x : high.x, (b & 2) == 0 ? low.y : high.y, (b & 4) == 0 ? low.z : high.z);
-        sum += LOAD_V(coarse, (uint(at.z) * (k.py + 1u) + uint(at.y)) * (k.px + 1u) + uint(at.x)).xyz;
+    for (int b = 0; b < 4; b++) {
+        ivec3 at = ivec3(low.x, (b & 1) == 0 ? low.y : high.y, b < 2 ? low.z : high.z);
+        uint row = LOAD_U(table, run_of(at, uvec3(k.px, k.py, k.pz))) + uint(low.x) % STRESS_RUN;
+        sum += LOAD_V(coarse, row).xyz;
+        sum += LOAD_V(coarse, row + uint(high.x - low.x)).xyz;
     }
     AT(z, node) = vec4(LOAD_V(z_before, node).xyz + sum / 8.0, 0.0);
 }

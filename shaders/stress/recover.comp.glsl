@@ -4,12 +4,15 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_V(0, u)
-READ_F(1, fill)
-WRITE_V(2, normal_stress)
-WRITE_V(3, shear_stress)
+READ_U(0, run)
+READ_U(1, table)
+READ_V(2, u)
+READ_F(3, fill)
+WRITE_V(4, normal_stress)
+WRITE_V(5, shear_stress)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/rows.glsl"
 
 void main()
 {
@@ -18,11 +21,13 @@ void main()
         return;
     vec4 normal = vec4(0.0), shear = vec4(0.0);
     if (LOAD_F(fill, i) > 0.0) {
-        ivec3 c = ivec3(i % k.cx, (i / k.cx) % k.cy, i / (k.cx * k.cy));
+        uint own = LOAD_U(run, i / STRESS_RUN), row = i;
         vec3 dx = vec3(0.0), dy = vec3(0.0), dz = vec3(0.0);
         for (int b = 0; b < 8; b++) {
             ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2);
-            vec3 at = LOAD_V(u, node_index(c + corner)).xyz;
+            if (corner.x == 0)
+                row = row_at(own, i, corner.y, corner.z);
+            vec3 at = LOAD_V(u, row + uint(corner.x)).xyz;
             dx += corner.x == 1 ? at : -at;
             dy += corner.y == 1 ? at : -at;
             dz += corner.z == 1 ? at : -at;

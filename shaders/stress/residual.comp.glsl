@@ -6,12 +6,15 @@
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_V(1, u)
-READ_F(2, fill)
-WRITE_V(3, r)
-WRITE_F(4, product)
+READ_U(1, run)
+READ_U(2, table)
+READ_V(3, u)
+READ_F(4, fill)
+WRITE_V(5, r)
+WRITE_F(6, product)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/rows.glsl"
 #include "stress/apply.glsl"
 #include "stress/diagonal.glsl"
 
@@ -20,11 +23,14 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    ivec3 a = node_of(LOAD_U(list, i));
-    vec4 force = apply_stiffness(a);
+    uint node = LOAD_U(list, i), own = LOAD_U(run, node / STRESS_RUN);
+    vec4 force = apply_stiffness(node);
     float fills = 0.0;
-    for (int e = 0; e < 8; e++)
-        fills += LOAD_F(fill, cell_index(a - ivec3(e & 1, (e >> 1) & 1, e >> 2)));
+    for (int b = 0; b < 4; b++) {
+        uint row = row_at(own, node, -(b & 1), -(b >> 1));
+        fills += LOAD_F(fill, row);
+        fills += LOAD_F(fill, row - 1u);
+    }
     vec3 residual = vec3(0.0, 0.0, -fills * k.weight / 8.0) - force.xyz;
     float inverse = 1.0 / (diagonal_unit() * force.w);
     AT(r, i) = vec4(residual, inverse);

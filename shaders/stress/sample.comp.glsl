@@ -6,16 +6,18 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_V(0, position)
-READ_F(1, fill)
-READ_V(2, normal_stress)
-READ_V(3, shear_stress)
-READ_V(4, t_slope)
-READ_V(5, mises_slope)
-WRITE_F(6, stress)
-WRITE_F(7, von_mises)
+READ_U(0, table)
+READ_V(1, position)
+READ_F(2, fill)
+READ_V(3, normal_stress)
+READ_V(4, shear_stress)
+READ_V(5, t_slope)
+READ_V(6, mises_slope)
+WRITE_F(7, stress)
+WRITE_F(8, von_mises)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/rows.glsl"
 
 void main()
 {
@@ -26,9 +28,12 @@ void main()
     ivec3 low = clamp(ivec3(floor(at)), ivec3(0), ivec3(k.cx, k.cy, k.cz) - 2);
     vec3 f = clamp(at - vec3(low), 0.0, 1.0);
     float weights = 0.0, t = 0.0, mises = 0.0;
+    uint row = 0u;
     for (int b = 0; b < 8; b++) {
         ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2);
-        uint c = cell_index(low + corner);
+        if (corner.x == 0)
+            row = LOAD_U(table, run_of(low + ivec3(0, corner.yz), CELLS)) + uint(low.x) % STRESS_RUN;
+        uint c = row + uint(corner.x);
         vec3 near = mix(1.0 - f, f, vec3(corner));
         float weight = near.x * near.y * near.z * LOAD_F(fill, c);
         if (weight == 0.0)

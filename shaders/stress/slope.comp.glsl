@@ -5,38 +5,43 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_F(0, fill)
-READ_V(1, normal_stress)
-READ_V(2, shear_stress)
-WRITE_V(3, t_slope)
-WRITE_V(4, mises_slope)
+READ_U(0, run)
+READ_U(1, table)
+READ_F(2, fill)
+READ_V(3, normal_stress)
+READ_V(4, shear_stress)
+WRITE_V(5, t_slope)
+WRITE_V(6, mises_slope)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/rows.glsl"
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n || LOAD_F(fill, i) == 0.0)
         return;
-    ivec3 c = ivec3(i % k.cx, (i / k.cx) % k.cy, i / (k.cx * k.cy));
+    uint own = LOAD_U(run, i / STRESS_RUN);
     float weights = 0.0;
     vec3 middle = vec3(0.0);
-    vec2 mean = vec2(0.0), own = vec2(LOAD_V(normal_stress, i).w, LOAD_V(shear_stress, i).w);
+    vec2 mean = vec2(0.0), here = vec2(LOAD_V(normal_stress, i).w, LOAD_V(shear_stress, i).w);
     mat3 spread = mat3(0.25); // what holds it level
     mat2x3 along = mat2x3(0.0);
     for (int z = -1; z <= 1; z++)
-        for (int y = -1; y <= 1; y++)
+        for (int y = -1; y <= 1; y++) {
+            uint row = row_at(own, i, y, z);
             for (int x = -1; x <= 1; x++) {
-                uint at = cell_index(c + ivec3(x, y, z));
+                uint at = row + uint(x);
                 float weight = LOAD_F(fill, at);
                 vec3 d = vec3(x, y, z);
-                vec2 more = vec2(LOAD_V(normal_stress, at).w, LOAD_V(shear_stress, at).w) - own;
+                vec2 more = vec2(LOAD_V(normal_stress, at).w, LOAD_V(shear_stress, at).w) - here;
                 weights += weight;
                 middle += weight * d;
                 mean += weight * more;
                 spread += outerProduct(weight * d, d);
                 along += outerProduct(weight * d, more);
             }
+        }
     spread -= outerProduct(middle / weights, middle);
     along -= outerProduct(middle / weights, mean);
     mat2x3 slope = inverse(spread) * along;

@@ -5,21 +5,26 @@
 #include "shared/params.h"
 
 READ_U(0, list)
-READ_V(1, u)
-READ_F(2, fill)
-WRITE_F(3, product)
+READ_U(1, run)
+READ_U(2, table)
+READ_V(3, u)
+READ_F(4, fill)
+WRITE_F(5, product)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/rows.glsl"
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint node = LOAD_U(list, i);
-    ivec3 a = node_of(node);
+    uint node = LOAD_U(list, i), own = LOAD_U(run, node / STRESS_RUN);
     float fills = 0.0;
-    for (int e = 0; e < 8; e++)
-        fills += LOAD_F(fill, cell_index(a - ivec3(e & 1, (e >> 1) & 1, e >> 2)));
+    for (int b = 0; b < 4; b++) {
+        uint row = row_at(own, node, -(b & 1), -(b >> 1));
+        fills += LOAD_F(fill, row);
+        fills += LOAD_F(fill, row - 1u);
+    }
     AT(product, i) = -fills * k.weight / 8.0 * LOAD_V(u, node).z;
 }

@@ -138,6 +138,8 @@ status arenite_settle(struct arenite *a, bool solved)
     gpu_stage(a->m.gpu, "surface");
     TRY(particles_surface(a->m.gpu, a->m.work, &a->particles));
     gpu_stage(a->m.gpu, "stress");
+    if (!arenite_rests(a->m.job))
+        TRY(elastic_forget(a->m.gpu, &a->elastic));
     if (!a->collapse.shot)
         TRY(solve(a, solved));
     if (a->elastic.iterations >= a->elastic.options.max_iterations)

@@ -16,11 +16,11 @@
  *   name    struct arenite has a member `struct name name`, which name_destroy() frees, finished or not
  *   lasts   LASTS_RUN: from the start on; LASTS_JOB: from the first rock on, and it is made anew where edits change the job;
  *           LASTS_ROCK: as long as the particles, which edits may replace
- *   bytes   of a job with n particles in so many voxels, its edits included; 0: it has no need of it
+ *   bytes   of a job with n particles, `bare` of them at the surface, `ends` of rows along x, in so many voxels, its edits included; 0: it has no need of it
  *   create  makes it in *a, for a->m.job; OK: that has no need of it, or it is made when it is first used
  */
 #define ARENITE_PARTS(PART)                                                                                  \
-    PART(elastic, LASTS_RUN, elastic_bytes(voxels),                                                          \
+    PART(elastic, LASTS_RUN, arenite_ever(job, arenite_rests) ? elastic_bytes(voxels, n, bare, ends) : 0,    \
          elastic_create(a->m.gpu, a->m.voxels, a->m.h,                                                       \
                         (const struct elastic_options[]){elastic_options(a->m.job)}, &a->elastic))           \
     PART(blocks, LASTS_ROCK, blocks_bytes(n), blocks_create(a->m.gpu, a->particles.held.n, &a->blocks))      \
@@ -79,6 +79,9 @@ void arenite_destroy_parts(struct arenite *a, enum lasts lasts);
 
 /* Does anything in the job need to know where water runs? */
 bool arenite_routes(const struct job *job);
+
+/* Does the stress grid find its stress? Rock in motion has its own, and so do material points at rest. */
+bool arenite_rests(const struct job *job);
 
 /* Does the job want that, now or once edited? */
 bool arenite_ever(const struct job *job, bool (*wanted)(const struct job *));

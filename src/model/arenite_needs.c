@@ -18,15 +18,22 @@ bool arenite_ever(const struct job *job, bool (*wanted)(const struct job *))
     return any;
 }
 
-size_t arenite_work_items(const struct job *job, const int voxels[3])
+bool arenite_rests(const struct job *job)
 {
-    const size_t nodes = mpm_nodes(voxels), n = voxel_count(voxels);
-    (void)job;
-    return (nodes > n ? nodes : n) + 2;
+    return !collapse_shot(job) && job->stress.solver != STRESS_MPM;
 }
 
-static uint64_t device_bytes(const struct job *job, const int voxels[3], size_t n)
+size_t arenite_work_items(const struct job *job, const int voxels[3])
 {
+    const size_t nodes = mpm_nodes(voxels), n = voxel_count(voxels) + 2, stress = elastic_work_items(voxels);
+    const size_t most = nodes > n ? nodes : n;
+    (void)job;
+    return most > stress ? most : stress;
+}
+
+static uint64_t device_bytes(const struct job *job, const int voxels[3], const struct scene_size *size)
+{
+    const size_t n = size->n_particles, bare = size->n_surface, ends = size->n_ends;
     uint64_t sum = 0;
 #define PART(name, lasts, bytes, create) sum += (bytes);
     ARENITE_PARTS(PART)
@@ -56,7 +63,7 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     const size_t n = needs->size.n_particles;
     const unsigned has = arenite_has(water_ever_flows(job), plants_wanted(job) || edits_plant(job),
                                      arenite_ever(job, deposit_wanted));
-    needs->device_bytes = device_bytes(job, needs->voxels, n);
+    needs->device_bytes = device_bytes(job, needs->voxels, &needs->size);
     needs->samples = host_grid_samples(needs->voxels, n, needs->size.n_surface);
     needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * needs->samples * sizeof(float);
     needs->disk = (struct disk_particle){

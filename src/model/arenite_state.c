@@ -65,12 +65,15 @@ static void elasticity(const struct arenite *a, double out[ELASTICITY])
     memcpy(out, numbers, sizeof numbers);
 }
 
+/* Of the nodes that move, four numbers each. (0.1.0 wrote the whole grid's as `displacement`, which is not read.) */
+static const char displacements[] = "displacements";
+
 status arenite_save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
     struct arenite *a = arenite_of(m);
     void *data;
-    size_t n = a->particles.n, nodes = elastic_nodes(&a->elastic);
+    const size_t n = a->particles.n;
     for (int f = 0; f < ROCK_FIELDS; f++) {
         if (rock_field_table[f].keep != STATE)
             continue;
@@ -78,8 +81,10 @@ status arenite_save(struct model *m, struct checkpoint *out)
         TRY(section_add(out, rock_field_table[f].name, 4, n * (size_t)rock_field_table[f].components, &data));
         TRY(gpu_download(a->m.gpu, a->particles.field[f], 0, data, n));
     }
-    TRY(section_add(out, "displacement", 4, 4 * nodes, &data));
-    TRY(gpu_download(a->m.gpu, a->elastic.u, 0, data, nodes));
+    if (a->elastic.lattice.n_active) {
+        TRY(section_add(out, displacements, 4, 4 * a->elastic.lattice.n_active, &data));
+        TRY(elastic_download(a->m.gpu, &a->elastic, data));
+    }
     TRY(sections_add_counts(out, m));
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &a->elastic.iterations, 4);
@@ -170,15 +175,35 @@ done:
 /* Beyond, numbers mean nothing. */
 enum { MOST_ITERATIONS = 1000000000, MOST_MOVED = 1000000000 /* m */ };
 
+/* Those of the particles' shape. There are none where the stress came otherwise; it is solved from nothing then. */
+static status restore_displacements(struct arenite *a, const struct checkpoint *c, bool *solved)
+{
+    status st = OK;
+    const void *data;
+    if (!arenite_rests(a->m.job))
+        return OK;
+    TRY(elastic_assemble(a->m.gpu, a->m.work, &a->elastic, &a->particles));
+    const size_t n = a->elastic.lattice.n_active;
+    const struct section_rule rule = {displacements, SECTION_FLOAT, 4 * n, 1, {{-MOST_MOVED, MOST_MOVED}}};
+    *solved &= checkpoint_find(c, displacements, 4) != NULL;
+    if (!checkpoint_find(c, displacements, 4))
+        return OK;
+    TRY(section_take(c, &rule, &data, NULL));
+    TRY(elastic_upload(a->m.gpu, &a->elastic, data));
+done:
+    return st;
+}
+
 /* The displacement is a solution unless a branch has changed what it depends on. */
 static status restore_stress(struct arenite *a, const struct checkpoint *c, bool *solved)
 {
     status st = OK;
-    const size_t nodes = elastic_nodes(&a->elastic);
-    const struct section_rule
-        constants = {"elasticity", SECTION_DOUBLE, ELASTICITY, 1, {{0, SECTION_COUNT_MAX}}},
-        number = {"iterations", SECTION_WORD, 1, 1, {{0, MOST_ITERATIONS}}},
-        moved = {"displacement", SECTION_FLOAT, 4 * nodes, 1, {{-MOST_MOVED, MOST_MOVED}}};
+    const struct section_rule constants = {"elasticity",
+                                           SECTION_DOUBLE,
+                                           ELASTICITY,
+                                           1,
+                                           {{0, SECTION_COUNT_MAX}}},
+                              number = {"iterations", SECTION_WORD, 1, 1, {{0, MOST_ITERATIONS}}};
     const void *data;
     double now[ELASTICITY];
     elasticity(a, now);
@@ -186,8 +211,7 @@ static status restore_stress(struct arenite *a, const struct checkpoint *c, bool
     *solved = memcmp(data, now, sizeof now) == 0;
     TRY(section_take(c, &number, &data, NULL));
     memcpy(&a->elastic.iterations, data, 4);
-    TRY(section_take(c, &moved, &data, NULL));
-    TRY(gpu_upload(a->m.gpu, a->elastic.u, 0, data, nodes));
+    TRY(restore_displacements(a, c, solved));
 done:
     return st;
 }
@@ -201,13 +225,13 @@ status arenite_restore(struct model *m, const struct checkpoint *c)
     const void *data;
     bool solved;
     TRY(restore_rock(m, c, &rock, &ids));
-    TRY(restore_stress(a, c, &solved));
     TRY(section_take(c, &(struct section_rule){"processes", SECTION_DOUBLE, 2, 1, {{0, 1}}}, &data, NULL));
     a->deposits |= ((const double *)data)[0] != 0;
     a->plants |= ((const double *)data)[1] != 0;
     if (a->wind.flows)
         TRY(air_restore(m->gpu, &a->wind, c));
     TRY(arenite_create_particles(a, &rock));
+    TRY(restore_stress(a, c, &solved));
     /* A shot may begin where years have passed. */
     if (a->collapse.shot && checkpoint_find(c, mpm_word_names[MPM_ID], 4))
         TRY(collapse_restore(m->gpu, &a->collapse, &a->particles, c, &ids));

@@ -283,7 +283,8 @@ static void destroy(struct model *m)
 
 static size_t work_items(const struct job *job, const int voxels[3])
 {
-    size_t words, items = voxel_count(voxels) + 2;
+    const size_t stress = elastic_work_items(voxels), each = voxel_count(voxels) + 2;
+    size_t words, items = each > stress ? each : stress;
     voxels_bytes(job, voxels, 0, &words);
     return words > items ? words : items;
 }
@@ -313,7 +314,9 @@ static status estimate(const struct job *job, struct model_needs *needs)
     needs->device_bytes = voxels_bytes(job, needs->voxels, needs->size.n_particles / 3, &words) +
                           blocks_bytes(voxel_count(needs->voxels)) +
                           held_bytes(needs->voxels, voxel_count(needs->voxels)) +
-                          (job->goblins.stress ? elastic_bytes(needs->voxels) : 0);
+                          (job->goblins.stress ? elastic_bytes(needs->voxels, needs->size.n_particles,
+                                                               needs->size.n_surface, needs->size.n_ends)
+                                               : 0);
     /* What frames are made from: the voxels, and as particles. */
     needs->host_bytes = state + host_rock_bytes(needs->size.n_particles);
     needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);

@@ -284,30 +284,36 @@ done:
     return st;
 }
 
-/* Rock with air beside it; below the domain is ground. */
-static bool is_bare(const struct sampler *s, const int voxel[3])
+/* Is there air beside rock, on that side? Below the domain is ground. `deep`: nothing near is air. */
+static bool is_bare(const struct sampler *s, const int voxel[3], int side, bool deep)
+{
+    const int a = side / 2;
+    int v[3] = {voxel[0], voxel[1], voxel[2]};
+    v[a] += side % 2 ? 1 : -1;
+    if (a == 2 && v[2] < 0)
+        return false;
+    if (v[a] < 0 || v[a] >= s->n[a])
+        return true;
+    return !deep && !coverage_holds_rock(s->solid, s->h, v[0], v[1], v[2]);
+}
+
+/* How many ends of rows along x a voxel of rock is, and whether any side of it is bare. */
+static size_t count_ends(const struct sampler *s, const int voxel[3], bool *bare)
 {
     const double middle[3] = {(voxel[0] + 0.5) * s->h, (voxel[1] + 0.5) * s->h, (voxel[2] + 0.5) * s->h};
     const bool deep = solid_at(s->solid, middle).distance < -s->h;
-    for (int face = 0; face < 6; face++) {
-        int v[3] = {voxel[0], voxel[1], voxel[2]};
-        const int a = face / 2;
-        v[a] += face % 2 ? 1 : -1;
-        if (a == 2 && v[2] < 0)
-            continue;
-        if (v[a] < 0 || v[a] >= s->n[a])
-            return true;
-        if (!deep && !coverage_holds_rock(s->solid, s->h, v[0], v[1], v[2]))
-            return true;
-    }
-    return false;
+    const size_t ends = (size_t)is_bare(s, voxel, 0, deep) + (size_t)is_bare(s, voxel, 1, deep);
+    *bare = ends > 0;
+    for (int side = 2; side < 6 && !*bare; side++)
+        *bare = is_bare(s, voxel, side, deep);
+    return ends;
 }
 
 /* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels. */
 static status estimate(const struct sampler *s, struct scene_size *out)
 {
     status st = OK;
-    size_t total = 1, probes = 1, found = 0, bare = 0, blocks[3], capacity = out->n_points;
+    size_t total = 1, probes = 1, found = 0, bare = 0, ends = 0, blocks[3], capacity = out->n_points;
     for (int a = 0; a < 3; a++)
         total *= (size_t)s->n[a];
     int side = (int)ceil(cbrt((double)total / 262144) - 1e-9);
@@ -317,7 +323,7 @@ static status estimate(const struct sampler *s, struct scene_size *out)
         probes *= blocks[a];
     }
     TRY(memory_grow(&out->point, &capacity, out->n_points + probes, sizeof *out->point, "an estimate"));
-#pragma omp parallel for reduction(+ : bare)
+#pragma omp parallel for reduction(+ : bare, ends)
     for (size_t b = 0; b < probes; b++) {
         const size_t at[3] = {b % blocks[0], b / blocks[0] % blocks[1], b / blocks[0] / blocks[1]};
         int voxel[3], inside = 1;
@@ -330,7 +336,9 @@ static status estimate(const struct sampler *s, struct scene_size *out)
         }
         if (!inside || !coverage_holds_rock(s->solid, s->h, voxel[0], voxel[1], voxel[2]))
             continue;
-        bare += is_bare(s, voxel);
+        bool is_surface;
+        ends += count_ends(s, voxel, &is_surface);
+        bare += is_surface;
 #pragma omp atomic capture
         place = found++;
         for (int a = 0; a < 3; a++)
@@ -339,6 +347,7 @@ static status estimate(const struct sampler *s, struct scene_size *out)
     out->n_points += found;
     out->n_particles += found * weight;
     out->n_surface += bare * weight;
+    out->n_ends += ends * weight;
 done:
     return st;
 }

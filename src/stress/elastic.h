@@ -20,6 +20,7 @@
 #include "gpu/primitives.h"
 #include "job/job.h"
 #include "particles/particles.h"
+#include "stress/lattice.h"
 #include "stress/multigrid.h"
 
 struct elastic_options {
@@ -32,37 +33,46 @@ struct elastic_options {
 };
 
 struct elastic {
-    int cells[3]; /* with the margin: two more than the domain's */
-    double dx;    /* m */
+    struct stress_lattice lattice; /* of the cells and nodes; values are kept as it says */
+    double dx;                     /* m */
     struct elastic_options options;
-    struct gpu_buffer *fill; /* float [cells]: share of rock */
-    struct gpu_buffer *u;    /* vec4 [nodes]: displacement, m; the state that frames hand on */
-    struct gpu_buffer *p, *q, *r, *product, *scalars, *list, *flags, *place;
-    /* vec4 [cells]: xx yy zz T, xy yz xz von Mises; Pa, tension positive. While it is solved, vec4 [nodes]: the
+    struct gpu_buffer
+        *u; /* vec4 [items]: displacement, m; the state that frames hand on. 0 at nodes that do not move */
+    struct gpu_buffer *p, *q, *r; /* vec4 [items] */
+    struct gpu_buffer *scalars, *marks;
+    /* vec4 [items], the cells': xx yy zz T, xy yz xz von Mises; Pa, tension positive. While it is solved, the nodes': the
      * finest level's corrections. */
     struct gpu_buffer *normal_stress, *shear_stress;
     struct multigrid levels;
-    size_t n_active; /* nodes that move */
-    int iterations;  /* of the last solve */
-    double error;    /* its estimate when it stopped */
+    int iterations; /* of the last solve */
+    double error;   /* its estimate when it stopped */
 };
 
 /* The job's rock, and how exactly its stress is wanted. */
 struct elastic_options elastic_options(const struct job *job);
 
-size_t elastic_nodes(const struct elastic *e);
-size_t elastic_cells(const struct elastic *e);
+/* Bytes on the device for about n particles, so many of them bare, whose rows along x have so many ends, in a domain of that
+ * many voxels. */
+uint64_t elastic_bytes(const int voxels[3], uint64_t n, uint64_t bare, uint64_t ends);
 
-/* Bytes on the device for a domain of that many voxels. */
-uint64_t elastic_bytes(const int voxels[3]);
+/* What gpu_work_create() has to be for. */
+size_t elastic_work_items(const int voxels[3]);
 
 MUST_USE status elastic_create(struct gpu *gpu, const int voxels[3], double h,
                                const struct elastic_options *options, struct elastic *out);
 void elastic_destroy(struct gpu *gpu, struct elastic *e);
 
-/* Takes the particles' shape into the grid. Waits. */
+/* Takes the particles' shape into the grid. Nodes that move now and did so before keep their displacement, others start
+ * from 0. Waits. */
 MUST_USE status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct elastic *e,
                                  const struct particles *p);
+
+/* There is no shape any more, and no displacement. */
+MUST_USE status elastic_forget(struct gpu *gpu, struct elastic *e);
+
+/* The displacement of the nodes that move, as vec4 [lattice.n_active] in their order on the grid. */
+MUST_USE status elastic_download(struct gpu *gpu, struct elastic *e, void *out);
+MUST_USE status elastic_upload(struct gpu *gpu, struct elastic *e, const void *u);
 
 /* Solves for u. Waits. E_NUMERIC if the solution is not finite. */
 MUST_USE status elastic_solve(struct gpu *gpu, struct gpu_work *work, struct elastic *e);

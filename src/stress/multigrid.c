@@ -3,16 +3,6 @@
 /* Steps of the smoother; cells across at which coarsening ends. */
 enum { FINEST_STEPS = 1, STEPS = 2, COARSEST_STEPS = 8, COARSEST_CELLS = 4 };
 
-static size_t nodes_of(const int cells[3])
-{
-    return (size_t)(cells[0] + 1) * (size_t)(cells[1] + 1) * (size_t)(cells[2] + 1);
-}
-
-static size_t cells_of(const int cells[3])
-{
-    return (size_t)cells[0] * (size_t)cells[1] * (size_t)cells[2];
-}
-
 /* The next coarser level's cells; false where it ends. */
 static bool coarsen(const int cells[3], int coarse[3])
 {
@@ -24,17 +14,17 @@ static bool coarsen(const int cells[3], int coarse[3])
     return most > COARSEST_CELLS;
 }
 
-static uint64_t level_bytes(const int cells[3])
-{
-    return nodes_of(cells) * (3 * 16 + 4) + cells_of(cells) * 4;
-}
+/* Beside the lattice's own: r, z and the other. */
+enum { VALUE_BYTES = 3 * 16 };
 
-uint64_t multigrid_bytes(const int cells[3])
+uint64_t multigrid_bytes(const int cells[3], const struct rock_size *rock)
 {
+    struct rock_size coarser = *rock;
     int now[3] = {cells[0], cells[1], cells[2]}, coarse[3];
     uint64_t bytes = 0;
     while (coarsen(now, coarse)) {
-        bytes += level_bytes(coarse);
+        coarser = (struct rock_size){coarser.inside / 8, coarser.bare / 4, coarser.ends / 4};
+        bytes += lattice_bytes(coarse, &coarser, VALUE_BYTES);
         for (int a = 0; a < 3; a++)
             now[a] = coarse[a];
     }
@@ -44,15 +34,11 @@ uint64_t multigrid_bytes(const int cells[3])
 status multigrid_create(struct gpu *gpu, const int cells[3], struct multigrid *m)
 {
     status st = OK;
-    *m = (struct multigrid){.n = 1, .level[0].cells = {cells[0], cells[1], cells[2]}};
-    while (m->n < STRESS_LEVELS && coarsen(m->level[m->n - 1].cells, m->level[m->n].cells)) {
-        struct stress_level *l = &m->level[m->n++];
-        const size_t nodes = nodes_of(l->cells);
-        TRY(gpu_buffer_create(gpu, "coarse fill", cells_of(l->cells), 4, &l->fill));
-        TRY(gpu_buffer_create(gpu, "coarse nodes", nodes, 4, &l->list));
-        TRY(gpu_buffer_create(gpu, "coarse residual", nodes, 16, &l->r));
-        TRY(gpu_buffer_create(gpu, "coarse correction", nodes, 16, &l->z));
-        TRY(gpu_buffer_create(gpu, "coarse defect", nodes, 16, &l->other));
+    int coarse[3];
+    *m = (struct multigrid){.n = 1, .level[0].lattice.cells = {cells[0], cells[1], cells[2]}};
+    while (m->n < STRESS_LEVELS && coarsen(m->level[m->n - 1].lattice.cells, coarse)) {
+        m->n++;
+        TRY(lattice_create(gpu, coarse, &m->level[m->n - 1].lattice));
     }
 done:
     return st;
@@ -62,9 +48,10 @@ void multigrid_destroy(struct gpu *gpu, struct multigrid *m)
 {
     for (int n = 1; n < m->n; n++) {
         struct stress_level *l = &m->level[n];
-        struct gpu_buffer **all[] = {&l->fill, &l->list, &l->r, &l->z, &l->other};
+        struct gpu_buffer **all[] = {&l->r, &l->z, &l->other};
         for (size_t i = 0; i < sizeof all / sizeof *all; i++)
             gpu_buffer_destroy(gpu, all[i]);
+        lattice_destroy(gpu, &l->lattice);
     }
     m->n = 0;
 }
@@ -72,44 +59,73 @@ void multigrid_destroy(struct gpu *gpu, struct multigrid *m)
 /* `n` invocations between a level and the coarser one. */
 static struct coarse_params between(const struct stress_level *l, size_t n)
 {
-    const struct stress_level *up = l + 1;
-    return (struct coarse_params){(uint)n,           (uint)l->cells[0],  (uint)l->cells[1],
-                                  (uint)l->cells[2], (uint)up->cells[0], (uint)up->cells[1],
-                                  (uint)up->cells[2]};
+    const int *cells = l->lattice.cells, *above = l[1].lattice.cells;
+    return (struct coarse_params){(uint)n,        (uint)cells[0], (uint)cells[1], (uint)cells[2],
+                                  (uint)above[0], (uint)above[1], (uint)above[2]};
+}
+
+/* What of a level is kept: the cells with filled children. */
+static status choose(struct gpu *gpu, struct gpu_work *work, const struct stress_level *below,
+                     struct stress_level *l, struct gpu_buffer *marks)
+{
+    status st = OK;
+    const struct coarse_params k = between(below, lattice_items(&below->lattice));
+    gpu_fill(gpu, marks, 0);
+    GPU_RUN(gpu, stress_mark_coarse, k.n, k, below->lattice.run, below->lattice.fill, marks);
+    TRY(lattice_choose(gpu, work, &l->lattice, marks));
+    lattice_table(gpu, &l->lattice);
+    TRY(lattice_buffer(gpu, &l->lattice, "coarse residual", 16, &l->r));
+    TRY(lattice_buffer(gpu, &l->lattice, "coarse correction", 16, &l->z));
+    TRY(lattice_buffer(gpu, &l->lattice, "coarse defect", 16, &l->other));
+done:
+    return st;
 }
 
 static status assemble_level(struct gpu *gpu, struct gpu_work *work, const struct stress_level *below,
-                             struct stress_level *l, struct gpu_buffer *flags, struct gpu_buffer *place)
+                             struct stress_level *l, struct gpu_buffer *marks)
 {
     status st = OK;
-    const size_t nodes = nodes_of(l->cells);
-    const struct coarse_params k =
-        between(below, (size_t)(l->cells[0] - 2) * (size_t)(l->cells[1] - 2) * (size_t)(l->cells[2] - 2));
-    GPU_RUN(gpu, stress_coarsen, k.n, k, below->fill, l->fill);
+    struct stress_lattice *at = &l->lattice;
+    TRY(choose(gpu, work, below, l, marks));
+    const struct coarse_params k = between(below, lattice_items(at));
+    GPU_RUN(gpu, stress_coarsen, k.n, k, at->run, below->lattice.table, below->lattice.fill, at->fill);
+    TRY(lattice_activate(gpu, work, at));
     l->params = below->params;
-    l->params.cx = (uint)l->cells[0];
-    l->params.cy = (uint)l->cells[1];
-    l->params.cz = (uint)l->cells[2];
+    l->params.cx = (uint)at->cells[0];
+    l->params.cy = (uint)at->cells[1];
+    l->params.cz = (uint)at->cells[2];
     l->params.dx *= 2;
-    l->params.n = (uint)nodes;
-    GPU_RUN(gpu, stress_active, nodes, l->params, l->fill, flags);
-    TRY(gpu_compact(gpu, work, flags, place, l->list, nodes, &l->n_active));
-    l->params.n = (uint)l->n_active;
-    GPU_RUN(gpu, stress_diagonal, l->n_active, l->params, l->list, l->fill, l->r);
+    l->params.n = (uint)at->n_active;
+    GPU_RUN(gpu, stress_diagonal, l->params.n, l->params, at->list, at->run, at->table, at->fill, l->r);
     gpu_fill(gpu, l->z, 0); /* what does not move counts as zero */
     gpu_fill(gpu, l->other, 0);
 done:
     return st;
 }
 
+/* How far the rock reaches from the domain's corner, in cells. */
+static status farthest(struct gpu *gpu, struct gpu_work *work, const struct stress_level *l, uint32_t *cells)
+{
+    struct stress_params k = l->params;
+    k.n = (uint)lattice_items(&l->lattice);
+    gpu_fill(gpu, gpu_work_words(work), 0);
+    GPU_RUN(gpu, stress_farthest, k.n, k, l->lattice.run, l->lattice.fill, gpu_work_words(work));
+    return gpu_download(gpu, gpu_work_words(work), 0, cells, 1);
+}
+
 status multigrid_assemble(struct gpu *gpu, struct gpu_work *work, struct multigrid *m,
-                          struct gpu_buffer *flags, struct gpu_buffer *place)
+                          struct gpu_buffer *marks)
 {
     status st = OK;
+    uint32_t across;
     gpu_fill(gpu, m->level[0].z, 0);
     gpu_fill(gpu, m->level[0].other, 0);
-    for (int n = 1; n < m->n; n++)
-        TRY(assemble_level(gpu, work, &m->level[n - 1], &m->level[n], flags, place));
+    TRY(farthest(gpu, work, &m->level[0], &across));
+    /* As coarsen() goes on: no farther than the rock needs, so that the box around it does not matter. */
+    for (m->n_used = 1; m->n_used < m->n && across > COARSEST_CELLS; m->n_used++) {
+        TRY(assemble_level(gpu, work, &m->level[m->n_used - 1], &m->level[m->n_used], marks));
+        across = (across + 1) / 2;
+    }
 done:
     return st;
 }
@@ -138,14 +154,16 @@ static struct smooth_params weights(const struct stress_level *l, int steps, int
 /* From the correction z, or from none at all: `fresh`. */
 static void smooth(struct gpu *gpu, struct stress_level *l, int steps, bool fresh)
 {
+    const struct stress_lattice *at = &l->lattice;
     for (int k = 0; k < steps; k++) {
         struct smooth_params p = weights(l, steps, k);
         if (k == 0 && fresh) {
-            GPU_RUN(gpu, stress_start, p.n, p, l->list, l->r, l->z);
+            GPU_RUN(gpu, stress_start, p.n, p, at->list, l->r, l->z);
             continue;
         }
         p.second = k == 1 && fresh;
-        GPU_RUN(gpu, stress_smooth, p.n, p, l->list, l->z, l->fill, l->r, l->other, l->other);
+        GPU_RUN(gpu, stress_smooth, p.n, p, at->list, at->run, at->table, l->z, at->fill, l->r, l->other,
+                l->other);
         struct gpu_buffer *z = l->other;
         l->other = l->z;
         l->z = z;
@@ -162,22 +180,24 @@ static void tell(struct gpu *gpu, int n)
 static void cycle(struct gpu *gpu, struct multigrid *m, int n, bool fresh)
 {
     struct stress_level *l = &m->level[n], *up = l + 1;
+    const struct stress_lattice *at = &l->lattice, *above = &up->lattice;
     const int steps = n == 0 ? FINEST_STEPS : STEPS;
     tell(gpu, n);
-    if (n == m->n - 1) {
+    if (n == m->n_used - 1) {
         smooth(gpu, l, COARSEST_STEPS, fresh);
         return;
     }
     smooth(gpu, l, steps, fresh);
-    GPU_RUN(gpu, stress_defect, l->n_active, l->params, l->list, l->z, l->fill, l->r, l->other);
-    struct coarse_params k = between(l, up->n_active);
-    GPU_RUN(gpu, stress_restrict, k.n, k, up->list, l->other, up->r, up->r);
+    GPU_RUN(gpu, stress_defect, at->n_active, l->params, at->list, at->run, at->table, l->z, at->fill, l->r,
+            l->other);
+    struct coarse_params k = between(l, above->n_active);
+    GPU_RUN(gpu, stress_restrict, k.n, k, above->list, above->run, at->table, l->other, up->r, up->r);
     cycle(gpu, m, n + 1, true);
-    if (n + 1 < m->n - 1)
+    if (n + 1 < m->n_used - 1)
         cycle(gpu, m, n + 1, false);
     tell(gpu, n);
-    k.n = (uint)l->n_active;
-    GPU_RUN(gpu, stress_prolong, k.n, k, l->list, up->z, l->z, l->z);
+    k.n = (uint)at->n_active;
+    GPU_RUN(gpu, stress_prolong, k.n, k, at->list, at->run, above->table, up->z, l->z, l->z);
     smooth(gpu, l, steps, false);
 }
 

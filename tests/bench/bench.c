@@ -13,6 +13,7 @@
 #include "run/writer.h"
 #include "stress/elastic.h"
 #include "tests/ref/elastic_ref.h"
+#include "tests/ref/stress_dense.h"
 
 enum { CELLS = 128, REPEATS = 7, FRAMES = 8 };
 
@@ -93,7 +94,9 @@ static void matvec(void)
            n_nodes = elastic_ref_node(&g, 0, 0, g.cells[2] + 1), n = 0;
     float *fill = need(n_cells, sizeof *fill), *u = need(4 * n_nodes, sizeof *u),
           *image = need(4 * n_nodes, sizeof *image);
-    uint32_t *list = need(n_nodes, sizeof *list);
+    uint32_t *list = need(n_nodes, sizeof *list), *place = need(n_nodes, sizeof *place);
+    struct gpu_work *work = NULL;
+    struct stress_lattice lattice;
     float *split[3], *result[3];
     for (int c = 0; c < 3; c++) {
         split[c] = need(n_nodes + 16, sizeof(float));
@@ -105,6 +108,7 @@ static void matvec(void)
                 if (i < g.cells[0] - 1 && j < g.cells[1] - 1 && k < g.cells[2] - 1)
                     fill[elastic_ref_cell(&g, i, j, k)] = 1;
                 size_t at = elastic_ref_node(&g, i, j, k);
+                place[n] = dense_place(g.cells, i, j, k);
                 list[n++] = (uint32_t)at;
                 for (size_t c = 0; c < 3; c++)
                     split[c][at] = u[4 * at + c] = (float)sin((double)(3 * at + c));
@@ -120,9 +124,13 @@ static void matvec(void)
 
     check(gpu_create(&(struct gpu_options){.device = "auto"}, &gpu));
     printf("hoodoo %s, commit %s, on %s\n\n", hoodoo_version, hoodoo_commit, gpu_info(gpu)->name);
-    struct gpu_buffer *d_list = buffer(gpu, list, n, 4), *d_u = buffer(gpu, u, n_nodes, 16),
-                      *d_fill = buffer(gpu, fill, n_cells, 4), *d_q = buffer(gpu, NULL, n_nodes, 16),
-                      *d_product = buffer(gpu, NULL, n_nodes, 4);
+    check(gpu_work_create(gpu, 2 * n_nodes, &work));
+    check(dense_create(gpu, work, g.cells, &lattice));
+    struct gpu_buffer *d_list = buffer(gpu, place, n, 4),
+                      *d_u = buffer(gpu, NULL, lattice_items(&lattice), 16),
+                      *d_q = buffer(gpu, NULL, n_nodes, 16), *d_product = buffer(gpu, NULL, n_nodes, 4);
+    check(dense_upload(gpu, &lattice, d_u, true, u));
+    check(dense_upload(gpu, &lattice, lattice.fill, false, fill));
     struct stress_params params = {.n = (uint)n,
                                    .cx = (uint)g.cells[0],
                                    .cy = (uint)g.cells[1],
@@ -133,7 +141,8 @@ static void matvec(void)
     double device = INFINITY, plain = INFINITY;
     for (int r = 0; r <= REPEATS; r++) { /* the first compiles */
         double start = clock_seconds();
-        GPU_RUN(gpu, stress_matvec, n, params, d_list, d_u, d_fill, d_q, d_product);
+        GPU_RUN(gpu, stress_matvec, n, params, d_list, lattice.run, lattice.table, d_u, lattice.fill, d_q,
+                d_product);
         check(gpu_wait(gpu));
         if (r > 0)
             device = fmin(device, clock_seconds() - start);
@@ -152,14 +161,17 @@ static void matvec(void)
     printf("K u on %d^3 cells      device %7.1f ms   plain C %7.1f ms   ratio %5.2f (goal 2.5)   differ by "
            "%.1g\n",
            CELLS, 1e3 * device, 1e3 * plain, device / plain, error / most);
-    struct gpu_buffer **all[] = {&d_list, &d_u, &d_fill, &d_q, &d_product};
+    struct gpu_buffer **all[] = {&d_list, &d_u, &d_q, &d_product};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
+    lattice_destroy(gpu, &lattice);
+    gpu_work_destroy(gpu, &work);
     gpu_destroy(&gpu);
     free(fill);
     free(u);
     free(image);
     free(list);
+    free(place);
     for (int c = 0; c < 3; c++) {
         free(split[c]);
         free(result[c]);

@@ -10,6 +10,7 @@
 #include "bench/help.h"
 #include "stress/elastic.h"
 #include "tests/ref/multigrid_ref.h"
+#include "tests/ref/stress_dense.h"
 
 #define GOAL 1e-3
 
@@ -46,23 +47,23 @@ static const struct {
     double (*outside)(const double x[3]);
 } shapes[] = {{"demo", demo}, {"mushroom", mushroom}, {"64 pillars", pillars}};
 
-static float *fill_of(double (*outside)(const double x[3]), const struct elastic_grid *g)
+/* A particle in every voxel inside. */
+static struct rock rock_of(double (*outside)(const double x[3]), int voxels, double h)
 {
-    float *fill = need(elastic_ref_cell(g, 0, 0, g->cells[2]), sizeof *fill);
-#pragma omp parallel for schedule(dynamic, 1)
-    for (int k = 1; k < g->cells[2] - 1; k++)
-        for (int j = 1; j < g->cells[1] - 1; j++)
-            for (int i = 1; i < g->cells[0] - 1; i++) {
-                int inside = 0;
-                for (int e = 0; e < 8; e++) {
-                    double x[3] = {(i - 0.75 + 0.5 * (e & 1)) * g->dx,
-                                   (j - 0.75 + 0.5 * (e >> 1 & 1)) * g->dx,
-                                   (k - 0.75 + 0.5 * (e >> 2)) * g->dx};
-                    inside += outside(x) < 0;
-                }
-                fill[elastic_ref_cell(g, i, j, k)] = (float)inside / 8;
-            }
-    return fill;
+    struct rock rock;
+    check(rock_alloc(&rock, (size_t)voxels * (size_t)voxels * (size_t)voxels, STATE));
+    rock.n = 0;
+    for (int v = 0; v < voxels * voxels * voxels; v++) {
+        const double x[3] = {(v % voxels + 0.5) * h, (v / voxels % voxels + 0.5) * h,
+                             (v / voxels / voxels + 0.5) * h};
+        if (outside(x) >= 0)
+            continue;
+        for (size_t a = 0; a < 3; a++)
+            rock.P[4 * rock.n + a] = (float)x[a];
+        rock.id[rock.n] = (uint32_t)rock.n;
+        rock.viability[rock.n++] = 1;
+    }
+    return rock;
 }
 
 /* ---- solving */
@@ -71,33 +72,16 @@ struct bench {
     struct gpu *gpu;
     struct gpu_work *work;
     struct elastic e;
+    struct particles p;
+    size_t n_cells;
     float *stress, *tight; /* [cells][4] */
     double p95;
 };
-
-static void set_shape(struct bench *b, const float *fill)
-{
-    struct elastic *e = &b->e;
-    struct stress_params k = {.n = (uint)elastic_nodes(e),
-                              .cx = (uint)e->cells[0],
-                              .cy = (uint)e->cells[1],
-                              .cz = (uint)e->cells[2]};
-    check(gpu_upload(b->gpu, e->fill, 0, fill, elastic_cells(e)));
-    GPU_RUN(b->gpu, stress_active, k.n, k, e->fill, e->flags);
-    check(gpu_compact(b->gpu, b->work, e->flags, e->place, e->list, elastic_nodes(e), &e->n_active));
-}
 
 /* From nothing; the seconds it took. */
 static double solve(struct bench *b, bool multigrid, int iterations, double tolerance, float *stress)
 {
     struct elastic *e = &b->e;
-    struct stress_params k = {.n = (uint)elastic_cells(e),
-                              .cx = (uint)e->cells[0],
-                              .cy = (uint)e->cells[1],
-                              .cz = (uint)e->cells[2],
-                              .lambda = 12e9f,
-                              .mu = 15e9f,
-                              .dx = (float)e->dx};
     e->options.multigrid = multigrid;
     e->options.max_iterations = iterations;
     e->options.tolerance = tolerance;
@@ -107,8 +91,8 @@ static double solve(struct bench *b, bool multigrid, int iterations, double tole
     check(elastic_solve(b->gpu, b->work, e));
     check(gpu_wait(b->gpu));
     start = clock_seconds() - start;
-    GPU_RUN(b->gpu, stress_recover, k.n, k, e->u, e->fill, e->normal_stress, e->shear_stress);
-    check(gpu_download(b->gpu, e->normal_stress, 0, stress, elastic_cells(e)));
+    elastic_recover(b->gpu, e, &b->p);
+    check(dense_download(b->gpu, &e->lattice, e->normal_stress, false, stress));
     return start;
 }
 
@@ -121,7 +105,7 @@ static int ascending(const void *a, const void *b)
 /* The 95th percentile of |T - other's| over the rock. */
 static double p95(const struct bench *b, const float *stress, const float *other)
 {
-    size_t n = 0, cells = elastic_cells(&b->e);
+    size_t n = 0, cells = b->n_cells;
     float *x = need(cells, sizeof *x);
     for (size_t c = 0; c < cells; c++)
         if (b->tight[4 * c + 3] != 0)
@@ -161,12 +145,17 @@ static void compare(int shape, int cells)
     const struct elastic_options options = {.lambda = 12e9, .mu = 15e9, .density = 2300, .gravity = 9.81};
     check(gpu_create(&(struct gpu_options){.device = "auto"}, &b.gpu));
     check(elastic_create(b.gpu, voxels, 32.0 / cells, &options, &b.e));
-    check(gpu_work_create(b.gpu, elastic_nodes(&b.e) + 2, &b.work));
-    const struct elastic_grid g = {{b.e.cells[0], b.e.cells[1], b.e.cells[2]}, 12e9, 15e9, b.e.dx};
-    float *fill = fill_of(shapes[shape].outside, &g), *u = need(elastic_nodes(&b.e), 16);
-    b.stress = need(elastic_cells(&b.e), 16);
-    b.tight = need(elastic_cells(&b.e), 16);
-    set_shape(&b, fill);
+    check(gpu_work_create(b.gpu, 8 * (size_t)cells * (size_t)cells * (size_t)cells + 2, &b.work));
+    struct rock rock = rock_of(shapes[shape].outside, 2 * cells, 32.0 / cells);
+    check(particles_create(b.gpu, b.work, &rock, STATE, voxels, 32.0 / cells, &b.p));
+    check(elastic_assemble(b.gpu, b.work, &b.e, &b.p));
+    const int *c = b.e.lattice.cells;
+    const struct elastic_grid g = {{c[0], c[1], c[2]}, 12e9, 15e9, b.e.dx};
+    b.n_cells = dense_cells(c);
+    float *fill = need(b.n_cells, sizeof *fill), *u = need(dense_nodes(c), 16);
+    check(dense_download(b.gpu, &b.e.lattice, b.e.lattice.fill, false, fill));
+    b.stress = need(b.n_cells, 16);
+    b.tight = need(b.n_cells, 16);
     solve(&b, true, 200, 1e-5, b.tight); /* compiles its kernels, too */
     b.p95 = p95(&b, b.tight, NULL);
     double by_cycles, by_jacobi, taken[1024], start;
@@ -181,14 +170,16 @@ static void compare(int shape, int cells)
     printf("%-10s %4d^3 cells, %8zu nodes: multigrid %3d iterations %7.2f s; Jacobi %5d %7.2f s, ratio %5.1f "
            "(goal "
            "4); plain C multigrid %6.2f s, ratio %4.2f (goal 0.7); memory %.2f of Jacobi's (goal 1.35)\n",
-           shapes[shape].name, cells, b.e.n_active, cycles, by_cycles, steps, by_jacobi,
+           shapes[shape].name, cells, b.e.lattice.n_active, cycles, by_cycles, steps, by_jacobi,
            by_jacobi / by_cycles, start, start / by_cycles,
-           (double)elastic_bytes(voxels) / (double)(elastic_bytes(voxels) - multigrid_bytes(b.e.cells)));
+           (double)stress_taken(&b.e, true) / (double)stress_taken(&b.e, false));
     fflush(stdout);
     multigrid_ref_destroy(ref);
     gpu_work_destroy(b.gpu, &b.work);
     elastic_destroy(b.gpu, &b.e);
+    particles_destroy(b.gpu, &b.p);
     gpu_destroy(&b.gpu);
+    rock_free(&rock);
     free(fill);
     free(u);
     free(b.stress);

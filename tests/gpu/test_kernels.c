@@ -14,6 +14,7 @@
 #include "stress/elastic.h"
 #include "tests/ref/elastic_ref.h"
 #include "tests/ref/rock_ref.h"
+#include "tests/ref/stress_dense.h"
 
 static uint32_t noise(uint32_t *state)
 {
@@ -53,10 +54,14 @@ static void stress_agrees_with_quadrature(void **state)
            n_nodes = elastic_ref_node(&g, 0, 0, g.cells[2] + 1), n = 0;
     float *fill = calloc(n_cells, sizeof *fill), *u = calloc(n_nodes, 16), *image = calloc(n_nodes, 16);
     float *normal = calloc(n_cells, 16), *shear = calloc(n_cells, 16), *product = calloc(n_nodes, 4);
-    uint32_t *list = calloc(n_nodes, 4), random = 1;
+    uint32_t *list = calloc(n_nodes, 4), *place = calloc(n_nodes, 4), random = 1;
     double *force = calloc(4 * n_nodes, sizeof *force);
     struct gpu *gpu = open_gpu();
+    struct gpu_work *work = NULL;
+    struct stress_lattice lattice;
     (void)state;
+    assert_ok(gpu_work_create(gpu, 4 * n_nodes, &work));
+    assert_ok(dense_create(gpu, work, g.cells, &lattice));
     for (int k = 1; k < g.cells[2]; k++)
         for (int j = 1; j < g.cells[1]; j++)
             for (int i = 1; i < g.cells[0]; i++) {
@@ -64,16 +69,18 @@ static void stress_agrees_with_quadrature(void **state)
                 float share = chance(&random) * 1.4f - 0.2f;
                 if (i < g.cells[0] - 1 && j < g.cells[1] - 1 && k < g.cells[2] - 1)
                     fill[elastic_ref_cell(&g, i, j, k)] = fminf(fmaxf(share, 0), 1);
+                place[n] = dense_place(g.cells, i, j, k);
                 list[n++] = (uint32_t)elastic_ref_node(&g, i, j, k);
             }
     for (size_t i = 0; i < n_nodes; i++)
         for (size_t c = 0; c < 3; c++)
             u[4 * i + c] = chance(&random) - 0.5f;
-    struct gpu_buffer *b_list = buffer_of(gpu, list, n, 4), *b_u = buffer_of(gpu, u, n_nodes, 16),
-                      *b_fill = buffer_of(gpu, fill, n_cells, 4), *b_q = buffer_of(gpu, NULL, n_nodes, 16),
-                      *b_product = buffer_of(gpu, NULL, n_nodes, 4),
-                      *b_normal = buffer_of(gpu, NULL, n_cells, 16),
-                      *b_shear = buffer_of(gpu, NULL, n_cells, 16);
+    const size_t items = lattice_items(&lattice);
+    struct gpu_buffer *b_list = buffer_of(gpu, place, n, 4), *b_u = buffer_of(gpu, NULL, items, 16),
+                      *b_q = buffer_of(gpu, NULL, n_nodes, 16), *b_product = buffer_of(gpu, NULL, n_nodes, 4),
+                      *b_normal = buffer_of(gpu, NULL, items, 16), *b_shear = buffer_of(gpu, NULL, items, 16);
+    assert_ok(dense_upload(gpu, &lattice, b_u, true, u));
+    assert_ok(dense_upload(gpu, &lattice, lattice.fill, false, fill));
     struct stress_params params = {.n = (uint)n,
                                    .cx = (uint)g.cells[0],
                                    .cy = (uint)g.cells[1],
@@ -81,25 +88,27 @@ static void stress_agrees_with_quadrature(void **state)
                                    .lambda = (float)g.lambda,
                                    .mu = (float)g.mu,
                                    .dx = (float)g.dx};
-    GPU_RUN(gpu, stress_matvec, n, params, b_list, b_u, b_fill, b_q, b_product);
-    params.n = (uint)n_cells;
-    GPU_RUN(gpu, stress_recover, n_cells, params, b_u, b_fill, b_normal, b_shear);
+    GPU_RUN(gpu, stress_matvec, n, params, b_list, lattice.run, lattice.table, b_u, lattice.fill, b_q,
+            b_product);
+    params.n = (uint)items;
+    GPU_RUN(gpu, stress_recover, items, params, lattice.run, lattice.table, b_u, lattice.fill, b_normal,
+            b_shear);
     assert_ok(gpu_download(gpu, b_q, 0, image, n));
     assert_ok(gpu_download(gpu, b_product, 0, product, n));
-    assert_ok(gpu_download(gpu, b_normal, 0, normal, n_cells));
-    assert_ok(gpu_download(gpu, b_shear, 0, shear, n_cells));
+    assert_ok(dense_download(gpu, &lattice, b_normal, false, normal));
+    assert_ok(dense_download(gpu, &lattice, b_shear, false, shear));
 
     double most = 0, worst = 0, worst_product = 0;
     elastic_ref_apply(&g, fill, u, force);
     for (size_t i = 0; i < 4 * n_nodes; i++)
         most = fmax(most, fabs(force[i]));
     for (size_t i = 0; i < n; i++) {
-        double work = 0;
+        double energy = 0;
         for (size_t c = 0; c < 3; c++) {
             worst = fmax(worst, fabs((double)image[4 * i + c] - force[4 * list[i] + c]) / most);
-            work += force[4 * list[i] + c] * (double)u[4 * list[i] + c];
+            energy += force[4 * list[i] + c] * (double)u[4 * list[i] + c];
         }
-        worst_product = fmax(worst_product, fabs((double)product[i] - work) / most);
+        worst_product = fmax(worst_product, fabs((double)product[i] - energy) / most);
     }
     print_message("# K u differs by %.2g, u . K u by %.2g of the largest force\n", worst, worst_product);
     assert_true(worst < 1e-5 && worst_product < 1e-5);
@@ -131,9 +140,11 @@ static void stress_agrees_with_quadrature(void **state)
     print_message("# stress differs by %.2g of the largest\n", error / largest);
     assert_true(error < 1e-5 * largest);
 
-    struct gpu_buffer **all[] = {&b_list, &b_u, &b_fill, &b_q, &b_product, &b_normal, &b_shear};
+    struct gpu_buffer **all[] = {&b_list, &b_u, &b_q, &b_product, &b_normal, &b_shear};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
+    lattice_destroy(gpu, &lattice);
+    gpu_work_destroy(gpu, &work);
     gpu_destroy(&gpu);
     free(fill);
     free(u);
@@ -142,6 +153,7 @@ static void stress_agrees_with_quadrature(void **state)
     free(shear);
     free(product);
     free(list);
+    free(place);
     free(force);
 }
 

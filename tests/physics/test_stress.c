@@ -7,44 +7,10 @@
 #include <string.h>
 
 #include "stress/elastic.h"
+#include "tests/physics/boxes.h"
 #include "tests/physics/stress_help.h"
 #include "tests/ref/multigrid_ref.h"
-
-struct box {
-    double min[3], max[3];
-};
-
-/* A rock of boxes: one particle in the middle of every voxel inside one of them. */
-static struct rock rock_of(const struct box *box, size_t n_boxes, const int voxels[3], double h)
-{
-    struct rock rock;
-    size_t n = 0;
-    for (int pass = 0; pass < 2; pass++) {
-        if (pass == 1)
-            assert_ok(rock_alloc(&rock, n, STATE));
-        n = 0;
-        for (int k = 0; k < voxels[2]; k++)
-            for (int j = 0; j < voxels[1]; j++)
-                for (int i = 0; i < voxels[0]; i++) {
-                    double x[3] = {(i + 0.5) * h, (j + 0.5) * h, (k + 0.5) * h};
-                    int inside = 0;
-                    for (size_t b = 0; b < n_boxes; b++)
-                        inside |= x[0] > box[b].min[0] && x[0] < box[b].max[0] && x[1] > box[b].min[1] &&
-                                  x[1] < box[b].max[1] && x[2] > box[b].min[2] && x[2] < box[b].max[2];
-                    if (!inside)
-                        continue;
-                    if (pass == 1) {
-                        for (int a = 0; a < 3; a++)
-                            rock.P[4 * n + (size_t)a] = (float)x[a];
-                        rock.id[n] = (uint32_t)n;
-                        rock.viability[n] = 1;
-                        rock.rate_factor[n] = rock.interlock_factor[n] = 1;
-                    }
-                    n++;
-                }
-    }
-    return rock;
-}
+#include "tests/ref/stress_dense.h"
 
 struct solved {
     struct gpu *gpu;
@@ -66,7 +32,7 @@ static struct solved solve_by(const struct box *box, size_t n_boxes, const int c
                                       .tolerance = tolerance,
                                       .max_iterations = max_iterations,
                                       .multigrid = multigrid};
-    struct rock rock = rock_of(box, n_boxes, voxels, dx / 2);
+    struct rock rock = box_rock(box, n_boxes, voxels, dx / 2);
     assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
     assert_ok(gpu_work_create(s.gpu, (size_t)voxels[0] * (size_t)voxels[1] * (size_t)voxels[2] + 2, &s.work));
     assert_ok(particles_create(s.gpu, s.work, &rock, STATE, voxels, dx / 2, &s.p));
@@ -74,10 +40,10 @@ static struct solved solve_by(const struct box *box, size_t n_boxes, const int c
     assert_ok(elastic_assemble(s.gpu, s.work, &s.e, &s.p));
     assert_ok(elastic_solve(s.gpu, s.work, &s.e));
     elastic_recover(s.gpu, &s.e, &s.p);
-    s.normal = malloc(elastic_cells(&s.e) * 16);
-    assert_ok(gpu_download(s.gpu, s.e.normal_stress, 0, s.normal, elastic_cells(&s.e)));
-    print_message("# %d iterations on %zu nodes, estimated error %.2g\n", s.e.iterations, s.e.n_active,
-                  s.e.error);
+    s.normal = malloc(dense_cells(s.e.lattice.cells) * 16);
+    assert_ok(dense_download(s.gpu, &s.e.lattice, s.e.normal_stress, false, s.normal));
+    print_message("# %d iterations on %zu nodes, estimated error %.2g\n", s.e.iterations,
+                  s.e.lattice.n_active, s.e.error);
     rock_free(&rock);
     return s;
 }
@@ -99,9 +65,9 @@ static void end(struct solved *s)
 
 static const float *cell(const struct solved *s, int i, int j, int k)
 {
-    return s->normal +
-           4 * (((size_t)(k + 1) * (size_t)s->e.cells[1] + (size_t)(j + 1)) * (size_t)s->e.cells[0] +
-                (size_t)(i + 1));
+    return s->normal + 4 * (((size_t)(k + 1) * (size_t)s->e.lattice.cells[1] + (size_t)(j + 1)) *
+                                (size_t)s->e.lattice.cells[0] +
+                            (size_t)(i + 1));
 }
 
 static void column_carries_its_own_weight(void **state)
@@ -241,14 +207,15 @@ static void cycle_agrees_with_plain_c(void **state)
 {
     enum { STEPS = 6 };
     struct solved s = solve_by(table, 3, (int[]){13, 10, 15}, 1, 1e-7, STEPS, true);
-    const struct elastic_grid g = {{s.e.cells[0], s.e.cells[1], s.e.cells[2]}, 12e9, 15e9, 1};
-    const size_t cells = elastic_cells(&s.e), nodes = elastic_nodes(&s.e);
+    const struct elastic_grid g = {
+        {s.e.lattice.cells[0], s.e.lattice.cells[1], s.e.lattice.cells[2]}, 12e9, 15e9, 1};
+    const size_t cells = dense_cells(g.cells), nodes = dense_nodes(g.cells);
     float *fill = malloc(cells * sizeof *fill), *u = malloc(nodes * 16), *expected = malloc(nodes * 16),
           scalars[CG_ENERGY + CG_CHECK];
     double taken[STEPS], worst = 0, error = 0, most = 0;
     (void)state;
-    assert_ok(gpu_download(s.gpu, s.e.fill, 0, fill, cells));
-    assert_ok(gpu_download(s.gpu, s.e.u, 0, u, nodes));
+    assert_ok(dense_download(s.gpu, &s.e.lattice, s.e.lattice.fill, false, fill));
+    assert_ok(dense_download(s.gpu, &s.e.lattice, s.e.u, true, u));
     assert_ok(gpu_download(s.gpu, s.e.scalars, 0, scalars, CG_ENERGY + CG_CHECK));
     struct multigrid_ref *ref = multigrid_ref_create(&g, fill);
     assert_non_null(ref);
@@ -295,7 +262,7 @@ static void jacobi_agrees(void **state)
                   b = solve_by(table, 3, (int[]){13, 10, 15}, 1, 1e-5, 20000, false);
     double error = 0, most = 0;
     (void)state;
-    for (size_t c = 0; c < elastic_cells(&a.e); c++) {
+    for (size_t c = 0; c < dense_cells(a.e.lattice.cells); c++) {
         error = fmax(error, fabs((double)a.normal[4 * c + 3] - (double)b.normal[4 * c + 3]));
         most = fmax(most, fabs((double)b.normal[4 * c + 3]));
     }

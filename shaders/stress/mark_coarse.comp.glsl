@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Marks a coarse level's runs to be kept: those for the cells with filled children.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, run)
+READ_F(1, fill)
+WRITE_U(2, mark)
+PARAMS(coarse_params)
+#include "stress/grid.glsl"
+#include "stress/mark.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n || LOAD_F(fill, i) == 0.0)
+        return;
+    ivec3 child = node_of(LOAD_U(run, i / STRESS_RUN), i, uvec3(k.cx, k.cy, k.cz));
+    uvec3 above = uvec3(k.px, k.py, k.pz);
+    uvec2 runs = runs_with((child + 1) / 2, above);
+    // Mostly the child before has marked them.
+    if (LOAD_F(fill, i - 1u) == 0.0 || runs_with((child + ivec3(0, 1, 1)) / 2, above) != runs)
+        mark_runs(runs, above);
+}

@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Values in the order of the list to where their nodes are kept.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_V(1, value)
+WRITE_V(2, u)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(u, LOAD_U(list, i)) = LOAD_V(value, i);
+}
