@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/hash.h"
+#include "base/log.h"
 #include "checkpoint/checkpoint.h"
 #include "cli/cli.h"
 #include "cli/words.h"
@@ -19,6 +20,7 @@ struct search {
     char name[256];
     struct frame_range frames;
     bool json, only_frames; /* --frames: checkpoints are not asked for */
+    uint64_t job_hash;      /* of the frames' job */
     size_t n_frames, n_files, n_checkpoints, n_damaged, n_missing;
     struct text answer; /* where json is set: so far up to the list of problems */
 };
@@ -109,6 +111,8 @@ static status verify_frame(struct search *s, int frame)
         st = OK;
         goto done;
     }
+    if (m.job_hash != s->job_hash)
+        found(s, false, relative, "it is a frame of another job");
     const struct ledger *l = &m.ledger;
     if (l->start != l->rock + l->deposit + l->fallen + l->left)
         found(s, false, relative, "its ledger does not add up");
@@ -116,6 +120,29 @@ static status verify_frame(struct search *s, int frame)
         TRY(verify_file(s, &m.file[i]));
 done:
     manifest_free(&m);
+    return st;
+}
+
+/* The folder's job, by which the frames that should be there are known, is the one that made them. Where its inputs are not at
+ * hand nobody can tell. */
+static status verify_job(struct search *s)
+{
+    status st = OK;
+    struct path path;
+    struct job *job = NULL;
+    uint64_t hash;
+    TRY(folder_job_hash(s->root, &s->job_hash));
+    TRY(path_join(&path, s->root, "job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &job));
+    st = job_hash(job, &hash);
+    if (st == E_INPUT) {
+        log_info("%s cannot be compared with the frames' job: %s", path.text, status_message());
+        st = OK;
+    } else if (st == OK && hash != s->job_hash) {
+        found(s, false, "job.yaml", "it is not the frames' job");
+    }
+done:
+    job_destroy(&job);
     return st;
 }
 
@@ -187,10 +214,10 @@ static status report(struct search *s)
                s->n_checkpoints, s->n_damaged, s->n_missing);
     }
     if (s->n_damaged + s->n_missing)
-        st = fail(
-            E_INPUT,
-            "%s: of %zu files %zu are damaged, %zu missing; running the job again makes their frames anew",
-            s->root, s->n_files, s->n_damaged, s->n_missing);
+        st = fail(E_INPUT,
+                  "%s: of %zu files %zu are damaged, %zu missing; 'hoodoo run' with --repair makes their "
+                  "frames anew",
+                  s->root, s->n_files, s->n_damaged, s->n_missing);
 done:
     return st;
 }
@@ -220,6 +247,7 @@ status cli_verify(int argc, char **argv)
         json_text(&s.answer, "name", s.name);
         json_array(&s.answer, "problems");
     }
+    TRY(verify_job(&s));
     TRY(verify_frames(&s));
     if (!s.only_frames)
         TRY(verify_checkpoints(&s));

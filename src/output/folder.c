@@ -182,25 +182,37 @@ static bool is_name(const char *name)
            strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == n;
 }
 
-status folder_open(const char *root, char name[256])
+/* root/run.json, parsed. */
+static status read_run(const char *root, struct json **out)
 {
     status st = OK;
     struct path path;
     char *bytes = NULL;
     size_t size = 0;
-    struct json *run = NULL;
     struct stat info;
-    const char *text;
     TRY(path_join(&path, root, "run.json"));
     if (stat(path.text, &info) != 0) {
         st = fail(E_INPUT, "%s: not an output folder of hoodoo: %s: %s", root, path.text, strerror(errno));
         goto done;
     }
     TRY(file_read(path.text, 16 << 20, &bytes, &size));
-    TRY(json_read(path.text, bytes, size, &run));
+    TRY(json_read(path.text, bytes, size, out));
+done:
+    free(bytes);
+    return st;
+}
+
+status folder_open(const char *root, char name[256])
+{
+    status st = OK;
+    struct path path;
+    struct json *run = NULL;
+    struct stat info;
+    const char *text;
+    TRY(read_run(root, &run));
     text = json_to_text(json_member(run, "name"));
     if (!text || !is_name(text)) {
-        st = fail(E_INPUT, "%s: no job name in it (letters, digits, _ and -)", path.text);
+        st = fail(E_INPUT, "%s/run.json: no job name in it (letters, digits, _ and -)", root);
         goto done;
     }
     snprintf(name, 256, "%s", text);
@@ -210,6 +222,24 @@ status folder_open(const char *root, char name[256])
 done:
     if (run)
         json_free(&run);
-    free(bytes);
+    return st;
+}
+
+status folder_job_hash(const char *root, uint64_t *hash)
+{
+    status st = OK;
+    struct json *run = NULL;
+    const char *text;
+    int end = 0;
+    unsigned long long number;
+    TRY(read_run(root, &run));
+    text = json_to_text(json_member(run, "job_hash"));
+    if (!text || sscanf(text, "%16llx%n", &number, &end) != 1 || end != 16 || text[end])
+        st = fail(E_INPUT, "%s/run.json: no hash of the job in it", root);
+    else
+        *hash = number;
+done:
+    if (run)
+        json_free(&run);
     return st;
 }

@@ -110,4 +110,7 @@ MUST_USE status folder_frames(const char *root, const char *name, int **frames, 
  * run.json with a name, or no job.yaml. */
 MUST_USE status folder_open(const char *root, char name[256]);
 
+/* job_hash() of the job that its frames are of, from root/run.json. E_INPUT. */
+MUST_USE status folder_job_hash(const char *root, uint64_t *hash);
+
 #endif

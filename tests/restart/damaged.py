@@ -3,6 +3,7 @@
 import os
 import shutil
 import signal
+import subprocess
 import sys
 
 sys.dont_write_bytecode = True
@@ -114,6 +115,31 @@ ok(code == 0 and tree("run") == tree("edited") and tree("run") != truth.whole, "
 fresh("whole")
 code, said = run("run", "--resume", "never")
 same("--resume never, same job: simulated again", code, said, "hoodoo: frame 1001, 1/12" in said)
+
+
+def verify(out):
+    done = subprocess.run([os.environ["HOODOO"], "verify", out], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return done.returncode, done.stdout + done.stderr
+
+
+code, said = verify("whole")
+ok(code == 0, "verify: a whole run", code, said)
+fresh("whole")
+for kind in ("frames", "points", "volumes", "aov"):
+    for name in os.listdir(os.path.join("edited", kind)):
+        if ".1004." in name:
+            shutil.copy2(os.path.join("edited", kind, name), os.path.join("run", kind, name))
+code, said = verify("run")
+ok(code == 3 and "damaged frames/twelve.1004.json: it is a frame of another job" in said and "1 damaged" in said and "--repair" in said,
+   "verify: a frame of another job is named", code, said)
+code, said = run("run", "--repair")
+same("and --repair makes it anew", code, said)
+with open("run/job.yaml") as file:
+    text = file.read()
+with open("run/job.yaml", "w") as file:
+    file.write(text.replace("seed: 3", "seed: 4"))
+code, said = verify("run")
+ok(code == 3 and "damaged job.yaml: it is not the frames' job" in said and "1 damaged" in said, "verify: an edited job.yaml is named", code, said)
 fresh()
 code, said = run("run", "--set", "output.owner=somebody", "--set", "fps=25")
 ok(code == 0 and "continuing" in said, "what changes no simulation may change: it goes on", code, said)
