@@ -182,11 +182,12 @@ struct wind_params {
     float cohesion, friction, strength; /* mu_c (Pa), mu_f, alpha (Pa) */
     float abrasion;                     /* k_a (|v| / v_ref)^2 */
     float wind_x, wind_y, wind_z;       /* unit vector, where it blows to */
-    float shelter;                      /* m; with a flow, its spacing */
+    float shelter;                      /* m; with a flow, how far off the rock its speed counts */
     uint bx, by, bz;                    /* cells of the averaged flow, */
-    float origin_x, origin_y;           /* m: and where they begin */
+    float origin_x, origin_y;           /* m: where they begin, */
+    float cell;                         /* m: and how wide they are */
 };
-SHARED_SIZE(wind_params, 76)
+SHARED_SIZE(wind_params, 80)
 
 /* The flow's units are the spacing of its particles and the wind's speed; its origin is the low corner of the
  * box of air, on the ground. */
@@ -211,9 +212,9 @@ struct flow_params {
     float wind_x, wind_y; /* unit vector */
     float dt;
     float viscosity;
-    float warm;               /* share of the last step's pressure to begin with */
+    float warm;               /* share of the last step's pressure to begin with; 1 / samples of a block */
     float full;               /* particles as dense as this may pull on each other */
-    float keep, gain;         /* of the average: what stays, what is added */
+    float keep, gain;         /* of the average: what stays, what of a block's sums is added */
     float column_x, column_y; /* emission: the first column of the lattice that is inside */
     uint enter_x, enter_y;    /* and which plane of it has just come in; box size: none */
     uint nx, ny, nz;          /* the rock's voxels */

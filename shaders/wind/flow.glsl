@@ -42,3 +42,9 @@ bool flow_inside(vec3 x)
 {
     return all(greaterThanEqual(x, vec3(0.0))) && all(lessThan(x, vec3(k.bx, k.by, k.bz)));
 }
+
+// Where the list has the neighbour s of particle i: those of 32 particles next to each other lie together.
+uint flow_listed(uint i, uint s)
+{
+    return (i / 32u * FLOW_NEIGHBOURS + s) * 32u + i % 32u;
+}

@@ -1,14 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The air's velocity at the middles of the box's cells, weighted by the kernel (Shepard 1968), into sums that
-// fade with time. w: how much air there is around.
+// Adds the air's velocity at the middles of the box's cells, weighted by the kernel (Shepard 1968), to the sums of a
+// block. w: how much air there is around.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, start)
 READ_V(1, position)
 READ_V(2, velocity)
-WRITE_V(3, sums)
+WRITE_V(3, block)
 PARAMS(flow_params)
 #include "wind/flow.glsl"
 #include "wind/cells.glsl"
@@ -27,5 +27,5 @@ void main()
             if (v.w <= FLOW_SKIN)
                 sum += flow_kernel(sqrt(r2)) * vec4(v.xyz, 1.0);
         })
-    AT(sums, i) = k.keep * AT(sums, i) + k.gain * sum;
+    AT(block, i) += sum;
 }

@@ -1,31 +1,41 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The first air: a lattice over the box, where there is no rock within half a spacing on any axis.
+// The first air: a lattice over the box where there is no rock, in potential flow.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, occupied)
-WRITE_V(1, position)
-WRITE_V(2, velocity)
-WRITE_U(3, id)
+READ_U(0, kinds)
+READ_F(1, potential)
+WRITE_V(2, position)
+WRITE_V(3, velocity)
+WRITE_U(4, id)
 PARAMS(flow_params)
-#include "wind/flow.glsl"
-#include "wind/rock.glsl"
+#include "wind/potential.glsl"
+
+float through(ivec3 c, int axis)
+{
+    ivec3 next = c;
+    next[axis]++;
+    vec2 face = potential_face(c, axis);
+    if (face.y > 0.0)
+        face.x -= LOAD_F(potential, potential_index(next)) - LOAD_F(potential, potential_index(c));
+    return face.x;
+}
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    vec3 x = vec3(i % k.bx, i / k.bx % k.by, i / (k.bx * k.by)) + 0.5;
-    bool rock = flow_in_rock(x);
-    for (int a = 0; a < 3; a++)
-        for (int s = -1; s <= 1; s += 2) {
-            vec3 d = vec3(0.0);
-            d[a] = 0.49 * float(s);
-            rock = rock || flow_in_rock(x + d);
+    ivec3 c = potential_cell(i);
+    vec4 v = vec4(k.wind_x, k.wind_y, 0.0, float(LOAD_U(kinds, i)));
+    if (v.w == FLOW_AIR)
+        for (int a = 0; a < 3; a++) {
+            ivec3 before = c;
+            before[a]--;
+            v[a] = 0.5 * (through(before, a) + through(c, a));
         }
-    AT(position, i) = vec4(x, 1.0);
-    AT(velocity, i) = vec4(k.wind_x, k.wind_y, 0.0, rock ? FLOW_GROUND : flow_kind(x)); /* not kept as air */
+    AT(position, i) = vec4(vec3(c) + 0.5, 1.0);
+    AT(velocity, i) = v; /* what is rock is not kept */
     AT(id, i) = i;
 }

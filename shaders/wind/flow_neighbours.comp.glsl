@@ -48,7 +48,7 @@ void main()
                 squares += u.w == FLOW_AIR ? dot(slope, slope) : 0.0;
                 compression += dot(v.xyz - u.xyz, slope);
                 drag += u.w == FLOW_GROUND ? vec3(0.0) : along / (r2 + 0.01 * FLOW_SUPPORT * FLOW_SUPPORT) * slope;
-                AT(list, n * k.slots + i) = j;
+                AT(list, flow_listed(i, n)) = j;
                 n++;
             })
         float diagonal = dot(slopes, slopes) + squares;

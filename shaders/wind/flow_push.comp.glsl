@@ -21,7 +21,7 @@ void main()
     vec3 x = LOAD_V(position, i).xyz, sum = vec3(0.0);
     float own = LOAD_F(pressure, i);
     for (uint s = 0u; s < n; s++) {
-        uint j = LOAD_U(list, s * k.slots + i);
+        uint j = LOAD_U(list, flow_listed(i, s));
         vec4 other = LOAD_V(position, j);
         vec3 d = x - other.xyz;
         sum -= other.w * (own + LOAD_F(pressure, j)) * flow_slope(d, sqrt(max(dot(d, d), 1e-12)));

@@ -23,7 +23,7 @@ void main()
     vec3 x = LOAD_V(position, i).xyz, own = LOAD_V(push, i).xyz;
     float left = step.z;
     for (uint s = 0u; s < n; s++) {
-        uint j = LOAD_U(list, s * k.slots + i);
+        uint j = LOAD_U(list, flow_listed(i, s));
         vec4 other = LOAD_V(position, j);
         vec3 d = x - other.xyz;
         left += other.w * dot(own - LOAD_V(push, j).xyz, flow_slope(d, sqrt(max(dot(d, d), 1e-12))));

@@ -23,7 +23,7 @@ void main()
     vec3 x = LOAD_V(position, i).xyz, v = LOAD_V(velocity, i).xyz;
     float compression = 0.0;
     for (uint s = 0u; s < n; s++) {
-        uint j = LOAD_U(list, s * k.slots + i);
+        uint j = LOAD_U(list, flow_listed(i, s));
         vec4 other = LOAD_V(position, j);
         vec3 d = x - other.xyz;
         compression += other.w * dot(v - LOAD_V(velocity, j).xyz, flow_slope(d, sqrt(max(dot(d, d), 1e-12))));

@@ -3,10 +3,10 @@
 // Wind on each particle of the surface (Arenite eqs. 7, 8, 12), where it flows around the rock: deflation, and
 // abrasion by the velocity of the air before it.
 //
-// That is sampled one spacing of the air out along the normal: from there on the average is within a few
-// hundredths of potential flow before a sphere; closer in the kernel reaches only air that is farther out. Blown
-// grains need about a metre to follow the air, and strike with the speed it had before. In a narrower gap it is
-// sampled midway to the other side.
+// Blown grains need some metres to follow the air, and strike with the speed it had that far off (`shelter`), or
+// one spacing of the air off if that is farther: from there on the average is within a few hundredths of potential
+// flow before a sphere; closer in the kernel reaches only air that is farther out. In a narrower gap it is sampled
+// midway to the other side.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -43,10 +43,11 @@ vec3 air_between(ivec3 c, vec3 f)
 // The first steps leave the particle's own bump.
 float clear_way(vec3 x, vec3 n)
 {
-    for (float s = 1.5 * k.h; s < k.shelter; s += k.h)
+    float most = max(k.shelter, k.cell);
+    for (float s = 1.5 * k.h; s < most; s += k.h)
         if (!voxel_empty(ivec3(floor((x + s * n) / k.h))))
             return 0.5 * s;
-    return k.shelter;
+    return most;
 }
 
 void main()
@@ -56,7 +57,7 @@ void main()
         return;
     uint self = LOAD_U(list, i);
     vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
-    vec3 at = (x + clear_way(x, n) * n - vec3(k.origin_x, k.origin_y, 0.0)) / k.shelter - 0.5;
+    vec3 at = (x + clear_way(x, n) * n - vec3(k.origin_x, k.origin_y, 0.0)) / k.cell - 0.5;
     vec3 v = air_between(ivec3(floor(at)), fract(at));
     float plucked = deflation(LOAD_F(stress, self)), sum = plucked + k.abrasion * length(v) * max(0.0, -dot(n, v));
     AT(intensity, i) = sum;

@@ -5,16 +5,12 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "wind/flow_box.h"
-
-/* In spacings per wind speed: half a spacing, a quarter of the support, at 2.5 times the wind's speed, which
- * air around a rock hardly reaches and is held to. */
-static const double dt = 0.2;
+#include "wind/flow_parts.h"
 
 enum {
-    SAMPLE_EVERY = 4, /* steps between samples of the average */
-    FIRST_ITERATIONS =
-        40 /* of the divergence solve, when air that has not felt the rock yet begins to move */
+    SAMPLE_EVERY = 4,     /* steps between samples of the average, */
+    BLOCK = 32,           /* and in a block of it: the wind goes on by six spacings */
+    FIRST_ITERATIONS = 40 /* of the divergence solve, for air that has not felt the rock yet */
 };
 
 /* The drift to where there is more room, in wind speeds for each unit of the density's slope (where all of
@@ -31,7 +27,7 @@ enum {
 
 /* ---- steps */
 
-static struct flow_params params_of(const struct flow *f, const struct particles *p)
+struct flow_params flow_params_of(const struct flow *f, const struct particles *p)
 {
     struct flow_params k = {
         .n = (uint)f->slots,
@@ -44,7 +40,7 @@ static struct flow_params params_of(const struct flow *f, const struct particles
         .gz = (uint)f->cells[2],
         .wind_x = (float)f->state.direction[0],
         .wind_y = (float)f->state.direction[1],
-        .dt = (float)dt,
+        .dt = (float)FLOW_DT,
         .viscosity = (float)f->viscosity,
         .origin_x = (float)f->origin[0],
         .origin_y = (float)f->origin[1],
@@ -115,7 +111,7 @@ static void emit(struct gpu *gpu, struct flow *f, struct flow_params k)
     double first[2];
     uint enter[2];
     for (int a = 0; a < 2; a++) {
-        double moved = f->state.direction[a] * dt, to = f->state.offset[a] + moved;
+        double moved = f->state.direction[a] * FLOW_DT, to = f->state.offset[a] + moved;
         f->state.offset[a] = to - floor(to);
         first[a] = f->state.offset[a] < 0.5 ? f->state.offset[a] + 0.5 : f->state.offset[a] - 0.5;
         enter[a] = entered(first[a], moved, f->box[a]);
@@ -131,15 +127,6 @@ static void emit(struct gpu *gpu, struct flow *f, struct flow_params k)
     if (k.n)
         GPU_RUN(gpu, wind_flow_emit, k.n, k, f->start, f->position[0], f->velocity[0], f->density_pressure[0],
                 f->divergence_pressure[0], f->id[0], f->key, f->counts);
-}
-
-static void sample(struct gpu *gpu, struct flow *f, struct flow_params k, double keep)
-{
-    k.n = (uint)box_count(f);
-    k.keep = (float)keep;
-    k.gain = (float)(1 - keep);
-    GPU_RUN(gpu, wind_flow_average, k.n, k, f->start, f->position[0], f->velocity[0], f->sums);
-    f->state.weight = keep * f->state.weight + 1 - keep;
 }
 
 static void neighbours(struct gpu *gpu, struct flow *f, struct flow_params k)
@@ -174,7 +161,7 @@ static void step(struct gpu *gpu, struct flow *f, struct flow_params k, struct p
 status flow_change(struct gpu *gpu, struct flow *f, struct particles *p, double *share)
 {
     status st = OK;
-    struct flow_params k = params_of(f, p);
+    struct flow_params k = flow_params_of(f, p);
     uint32_t count[2];
     k.n = (uint)p->n_surface;
     gpu_fill(gpu, f->surface_sums, 0);
@@ -192,7 +179,7 @@ done:
 
 int flow_flush(const struct flow *f, const double direction[2])
 {
-    return (int)ceil((fabs(direction[0]) * f->box[0] + fabs(direction[1]) * f->box[1]) / dt);
+    return (int)ceil((fabs(direction[0]) * f->box[0] + fabs(direction[1]) * f->box[1]) / FLOW_DT);
 }
 
 /* Air that stays, and the rock as it is now. */
@@ -200,12 +187,8 @@ static status begin(struct gpu *gpu, struct flow *f, struct flow_params k, struc
 {
     status st = OK;
     size_t n_rock;
-    if (f->state.steps == 0) {
-        k.n = (uint)box_count(f);
-        GPU_RUN(gpu, wind_flow_fill, k.n, k, p->held.occupied, f->position[0], f->velocity[0], f->id[0]);
-        f->state.n = f->state.next_id = k.n;
-        k.n = (uint)f->slots;
-    }
+    if (f->state.steps == 0)
+        flow_fill(gpu, f, p);
     k.first = f->state.n;
     GPU_RUN(gpu, wind_flow_begin, k.n, k, f->position[0], f->velocity[0], p->held.occupied, f->key);
     gpu_copy(gpu, f->surface, f->flags, box_count(f));
@@ -258,7 +241,7 @@ static status measure(struct gpu *gpu, struct flow *f)
         n++;
         r->compression += fmax(density - 1, 0);
         r->error += fabs(density - 1);
-        r->divergence += fabs((double)of_step[4 * i + 2]) * dt;
+        r->divergence += fabs((double)of_step[4 * i + 2]) * FLOW_DT;
     }
     double per = n ? 1 / (double)n : 0;
     r->compression *= per;
@@ -272,31 +255,56 @@ done:
     return st;
 }
 
-static void mean(struct gpu *gpu, struct flow *f)
+/* Whether the air of the last run may go on: after a turn of more than a right angle's fifth it had better begin
+ * anew. */
+static bool goes_on(const struct flow_state *s, const double to[2])
 {
-    struct flow_params k = params_of(f, NULL);
-    k.n = (uint)box_count(f);
-    k.gain = (float)(f->state.weight > 0 ? 1 / f->state.weight : 0);
-    GPU_RUN(gpu, wind_flow_mean, k.n, k, f->sums, f->mean);
+    return s->steps > 0 && s->direction[0] * to[0] + s->direction[1] * to[1] > 0.95;
 }
 
-status flow_run(struct gpu *gpu, struct flow *f, struct particles *p, const double direction[2], int steps)
+/* Steps, in blocks, until the average has settled. */
+static status settle(struct gpu *gpu, struct flow *f, struct particles *p, int most, double settled)
 {
     status st = OK;
-    double keep = exp(-SAMPLE_EVERY / (0.5 * flow_flush(f, direction)));
+    const struct flow_params k = flow_params_of(f, p);
+    struct flow_report *r = &f->report;
+    bool forms = f->state.steps == 0; /* its wake does: what that block averages is not kept */
+    gpu_fill(gpu, f->block, 0);
+    f->samples = 0;
+    r->unsettled = INFINITY;
+    while (r->steps < most && !(settled > 0 && r->unsettled <= settled)) {
+        const int n = most - r->steps < BLOCK ? most - r->steps : BLOCK;
+        for (int i = 1; i <= n; i++) {
+            step(gpu, f, k, p);
+            if (i % SAMPLE_EVERY == 0 || i == n)
+                flow_sample(gpu, f);
+        }
+        TRY(flow_settle(gpu, f, n, &r->unsettled));
+        r->steps += n;
+        /* As much as half of the run and a block at least: what came before has to fade, too. */
+        f->state.weight = forms ? 0 : fmin(f->state.weight, fmax(BLOCK, 0.5 * r->steps));
+        forms = false;
+    }
+done:
+    return st;
+}
+
+status flow_run(struct gpu *gpu, struct flow *f, struct particles *p, const double direction[2], int most,
+                double settled)
+{
+    status st = OK;
+    if (!goes_on(&f->state, direction))
+        f->state = (struct flow_state){0};
     memcpy(f->state.direction, direction, sizeof f->state.direction);
-    struct flow_params k = params_of(f, p);
-    f->report = (struct flow_report){.steps = steps};
+    f->state.weight = fmin(f->state.weight, BLOCK); /* so that a block counts as much as all before */
+    struct flow_params k = flow_params_of(f, p);
+    f->report = (struct flow_report){0};
     gpu_fill(gpu, f->counts, 0);
     TRY(begin(gpu, f, k, p));
-    for (int i = 0; i < steps; i++) {
-        step(gpu, f, k, p);
-        if ((i + 1) % SAMPLE_EVERY == 0 || i + 1 == steps)
-            sample(gpu, f, k, keep);
-    }
+    TRY(settle(gpu, f, p, most, settled));
     k.warm = 1;
     neighbours(gpu, f, k);
-    mean(gpu, f);
+    flow_average(gpu, f);
     TRY(measure(gpu, f));
 done:
     return st;
@@ -304,5 +312,5 @@ done:
 
 void flow_restore(struct gpu *gpu, struct flow *f)
 {
-    mean(gpu, f);
+    flow_average(gpu, f);
 }

@@ -7,7 +7,9 @@
  *            flat: nothing passes the ground.
  * Sides      In a skin one support wide along the sides and the top, air moves with the wind. What leaves
  *            the box is gone; what comes in is the next plane of a lattice that the wind carries.
- * Iterations and steps have fixed numbers; nothing is read back while it runs.
+ * Start      Potential flow around the rock, on the cells of a lattice.
+ * Average    Of blocks of steps. Each tells by how much the average may still be wrong; once that is little
+ *            enough, the run ends. Iterations have fixed numbers.
  */
 #ifndef HOODOO_FLOW_H
 #define HOODOO_FLOW_H
@@ -23,7 +25,7 @@
 struct flow_state {
     double offset[2];    /* of the emitted lattice, in spacings: 0 to 1 */
     double direction[2]; /* unit vector it last blew to; 0 0: not run yet */
-    double weight;       /* of the average's samples, to 1 */
+    double weight;       /* steps that the average stands for */
     uint32_t n;          /* particles, boundary included */
     uint32_t next_id;
     uint64_t steps;
@@ -37,6 +39,7 @@ struct flow_report {
     double compression, error; /* mean over free air of max(0, density - 1), and of |density - 1| */
     double divergence;         /* mean of |div v| dt: the share of its volume it gains or loses in a step */
     double fastest;            /* in wind speeds */
+    double unsettled;          /* estimated error of the average near the rock, as a share of its speed */
 };
 
 struct flow {
@@ -55,7 +58,10 @@ struct flow {
     struct gpu_buffer *list, *of_step, *viscous, *crowd, *push;
     /* Over the box, numbered (k ny + j) nx + i. */
     struct gpu_buffer *surface, *surface_sums, *flags, *place, *surface_list;
-    struct gpu_buffer *sums; /* vec4: of the average */
+    struct gpu_buffer *sums;  /* vec4: the average, of velocities and of weights by the kernel */
+    struct gpu_buffer *block; /* vec4: likewise sums of the samples since the last block */
+    int samples;
+    struct gpu_buffer *squares;
     struct gpu_buffer
         *mean; /* vec4: averaged velocity in wind speeds, and the share of air, at cell middles */
     struct gpu_buffer *counts;
@@ -74,10 +80,12 @@ void flow_destroy(struct gpu *gpu, struct flow *f);
  * first. Waits. */
 MUST_USE status flow_change(struct gpu *gpu, struct flow *f, struct particles *p, double *share);
 
-/* Lets the wind blow to `direction` (horizontal, unit) for so many steps, around the rock of the last
- * flow_change(); from the air of the last run, or from still lattice. Fills report. Waits. E_NUMERIC. */
+/* Lets the wind blow to `direction` (horizontal, unit) around the rock of the last flow_change(): for so many
+ * steps at most, and until the average's estimated error is no more than `settled` (0: all the steps). It goes on
+ * from the air of the last run, or begins from potential flow if there is none or it blew elsewhere. Fills
+ * report. Waits. E_NUMERIC. */
 MUST_USE status flow_run(struct gpu *gpu, struct flow *f, struct particles *p, const double direction[2],
-                         int steps);
+                         int most, double settled);
 
 /* Steps that carry the wind once through the box. */
 int flow_flush(const struct flow *f, const double direction[2]);

@@ -1,5 +1,5 @@
 /* The air's box, its memory and its state; flow.c moves it. */
-#include "wind/flow_box.h"
+#include "wind/flow_parts.h"
 
 #include <math.h>
 #include <string.h>
@@ -51,7 +51,7 @@ static size_t work_size(const struct flow *f)
 uint64_t flow_bytes(const struct flow *f)
 {
     uint64_t particle = 2 * (16 + 16 + 4 + 4 + 4) + 3 * 4 + 4 * FLOW_NEIGHBOURS + 4 * 16;
-    return f->slots * particle + cell_count(f) * 8 + box_count(f) * (5 * 4 + 8 * 4 + 2 * 16) +
+    return f->slots * particle + cell_count(f) * 8 + box_count(f) * (5 * 4 + 8 * 4 + 3 * 16) +
            gpu_work_bytes(work_size(f) + 2);
 }
 
@@ -77,7 +77,7 @@ status flow_create(struct gpu *gpu, const struct job *job, const int voxels[3], 
     TRY(gpu_buffer_create(gpu, "air order, unstable", n, 4, &f->unordered));
     TRY(gpu_buffer_create(gpu, "air cells", cells + 2, 4, &f->start));
     TRY(gpu_buffer_create(gpu, "air cell scratch", cells + 1, 4, &f->taken));
-    TRY(gpu_buffer_create(gpu, "air neighbours", n * FLOW_NEIGHBOURS, 4, &f->list));
+    TRY(gpu_buffer_create(gpu, "air neighbours", (n + 31) / 32 * 32 * FLOW_NEIGHBOURS, 4, &f->list));
     TRY(gpu_buffer_create(gpu, "air densities", n, 16, &f->of_step));
     TRY(gpu_buffer_create(gpu, "air viscosity", n, 16, &f->viscous));
     TRY(gpu_buffer_create(gpu, "air crowding", n, 16, &f->crowd));
@@ -87,7 +87,9 @@ status flow_create(struct gpu *gpu, const struct job *job, const int voxels[3], 
     TRY(gpu_buffer_create(gpu, "air surface flags", box, 4, &f->flags));
     TRY(gpu_buffer_create(gpu, "air surface places", box + 1, 4, &f->place));
     TRY(gpu_buffer_create(gpu, "air surface list", box, 4, &f->surface_list));
-    TRY(gpu_buffer_create(gpu, "air velocity sums", box, 16, &f->sums));
+    TRY(gpu_buffer_create(gpu, "air velocity average", box, 16, &f->sums));
+    TRY(gpu_buffer_create(gpu, "air velocity sums", box, 16, &f->block));
+    TRY(gpu_buffer_create(gpu, "air squares", 2, 4, &f->squares));
     TRY(gpu_buffer_create(gpu, "air velocity mean", box, 16, &f->mean));
     TRY(gpu_buffer_create(gpu, "air counts", 4, 4, &f->counts));
     TRY(gpu_work_create(gpu, work_size(f) + 2, &f->work));
@@ -109,7 +111,7 @@ void flow_destroy(struct gpu *gpu, struct flow *f)
     struct gpu_buffer **rest[] = {&f->key,     &f->order,        &f->unordered, &f->start, &f->taken,
                                   &f->list,    &f->of_step,      &f->viscous,   &f->crowd, &f->push,
                                   &f->surface, &f->surface_sums, &f->flags,     &f->place, &f->surface_list,
-                                  &f->sums,    &f->mean,         &f->counts};
+                                  &f->sums,    &f->block,        &f->squares,   &f->mean,  &f->counts};
     for (size_t i = 0; i < sizeof rest / sizeof *rest; i++)
         gpu_buffer_destroy(gpu, rest[i]);
     gpu_work_destroy(gpu, &f->work);
@@ -149,7 +151,7 @@ status flow_check(const struct flow *f)
 {
     const struct flow_state *s = &f->state;
     double length = hypot(s->direction[0], s->direction[1]);
-    bool fits = s->n <= f->slots && s->next_id < FLOW_GROUND_ID && s->weight >= 0 && s->weight <= 1;
+    bool fits = s->n <= f->slots && s->next_id < FLOW_GROUND_ID && s->weight >= 0 && s->weight <= 1e6;
     for (int a = 0; a < 2; a++)
         fits = fits && s->offset[a] >= 0 && s->offset[a] <= 1;
     if (!fits || !(s->steps == 0 ? length < 2 : fabs(length - 1) < 1e-6))

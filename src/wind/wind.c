@@ -70,16 +70,13 @@ void wind_destroy(struct gpu *gpu, struct wind *w)
     *w = (struct wind){0};
 }
 
-/* Steps for which the flow has to run on. */
-static int steps_due(const struct flow *f, const struct job_flow *o, const double direction[2], double change)
+/* Whether the flow has to run on. */
+static bool is_due(const struct flow *f, const struct job_flow *o, const double direction[2], double change)
 {
     const double *last = f->state.direction;
-    double flush = flow_flush(f, direction);
     double turned = fabs(atan2(last[0] * direction[1] - last[1] * direction[0],
                                last[0] * direction[0] + last[1] * direction[1]));
-    if (f->state.steps == 0)
-        return (int)ceil(o->flushes * flush);
-    return change > o->rock_change || turned > o->wind_change ? (int)ceil(0.5 * flush) : 0;
+    return f->state.steps == 0 || change > o->rock_change || turned > o->wind_change;
 }
 
 status wind_update(struct gpu *gpu, struct wind *w, const struct job *job, int frame, struct particles *p)
@@ -88,19 +85,21 @@ status wind_update(struct gpu *gpu, struct wind *w, const struct job *job, int f
     struct wind_at at = wind_at(job, frame);
     double flat = hypot(at.direction[0], at.direction[1]), change;
     const double direction[2] = {at.direction[0] / flat, at.direction[1] / flat};
+    const struct job_flow *o = &job->wind.flow;
     if (!w->flows || at.speed == 0 || p->n == 0)
         return OK;
     TRY(flow_change(gpu, &w->flow, p, &change));
-    int steps = steps_due(&w->flow, &job->wind.flow, direction, change);
-    if (steps == 0)
+    if (!is_due(&w->flow, o, direction, change))
         return OK;
-    TRY(flow_run(gpu, &w->flow, p, direction, steps));
+    int most = (int)ceil(o->flushes * flow_flush(&w->flow, direction));
+    TRY(flow_run(gpu, &w->flow, p, direction, most, o->settled));
     const struct flow_report *r = &w->flow.report;
     log_note(
-        "frame %d: wind: %d steps with %u particles of air around %u of rock (%.1f %% of them new), mean "
-        "density error %.2g (compression %.2g), divergence %.2g, fastest %.2f wind speeds",
-        frame, r->steps, (unsigned)r->n_air, (unsigned)r->n_rock, 100 * change, r->error, r->compression,
-        r->divergence, r->fastest);
+        "frame %d: wind: %d steps with %u particles of air around %u of rock (%.1f %% of them new), average "
+        "settled to %.2g, mean density error %.2g (compression %.2g), divergence %.2g, fastest %.2f wind "
+        "speeds",
+        frame, r->steps, (unsigned)r->n_air, (unsigned)r->n_rock, 100 * change, r->unsettled, r->error,
+        r->compression, r->divergence, r->fastest);
 done:
     return st;
 }
@@ -147,7 +146,8 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
                 p->field[ROCK_stress], p->held.occupied, intensity, parts);
         return;
     }
-    k.shelter = (float)air.cell;
+    k.shelter = (float)job->wind.flow.reach_m;
+    k.cell = (float)air.cell;
     k.bx = (uint)air.n[0];
     k.by = (uint)air.n[1];
     k.bz = (uint)air.n[2];

@@ -1,6 +1,7 @@
 #include "wind_ref.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 static const double support = 2, pi = 3.14159265358979323846;
 
@@ -89,4 +90,54 @@ double wind_ref_volume(const struct wind_ref_particle *p, size_t n, size_t i)
         if (p[j].kind >= REF_ROCK && pair(&p[i], &p[j], &r, g))
             sum += wind_ref_kernel(r);
     return 0.7 / sum;
+}
+
+/* Through a face of cell c towards its neighbour o on an axis, along that axis; phi's slope may change it if `free`. */
+static double through(const enum wind_ref_kind *cell, const double *phi, size_t c, size_t o, double wind,
+                      int side, int *free_face)
+{
+    *free_face = cell[c] == REF_AIR && cell[o] == REF_AIR;
+    if (cell[o] == REF_ROCK || cell[o] == REF_GROUND)
+        return 0;
+    return *free_face ? wind - side * (phi[o] - phi[c]) : wind;
+}
+
+/* Each cell in turn sets its own balance right (Gauss and Seidel). Returns the largest imbalance it met. */
+static double balance(const int n[3], const enum wind_ref_kind *cell, const double wind[3], double *phi,
+                      double (*v)[3])
+{
+    const size_t stride[3] = {1, (size_t)n[0], (size_t)n[0] * (size_t)n[1]};
+    double worst = 0;
+    for (size_t c = 0; c < stride[2] * (size_t)n[2]; c++) {
+        double gain = 0;
+        int faces = 0;
+        if (cell[c] != REF_AIR)
+            continue;
+        for (int a = 0; a < 3; a++) {
+            v[c][a] = 0;
+            for (int side = -1; side <= 1; side += 2) {
+                int is_free = 0;
+                if (a == 2 && side < 0 && c < stride[2])
+                    continue; /* the ground */
+                double flow =
+                    through(cell, phi, c, side < 0 ? c - stride[a] : c + stride[a], wind[a], side, &is_free);
+                gain -= side * flow;
+                v[c][a] += 0.5 * flow;
+                faces += is_free;
+            }
+        }
+        worst = fmax(worst, fabs(gain));
+        if (faces)
+            phi[c] += gain / faces;
+    }
+    return worst;
+}
+
+void wind_ref_potential(const int n[3], const enum wind_ref_kind *cell, const double wind[2], double (*v)[3])
+{
+    const double along[3] = {wind[0], wind[1], 0};
+    double *phi = calloc((size_t)n[0] * (size_t)n[1] * (size_t)n[2], sizeof *phi);
+    for (int sweep = 0; phi && sweep < 20000 && balance(n, cell, along, phi, v) > 1e-9; sweep++)
+        ;
+    free(phi);
 }

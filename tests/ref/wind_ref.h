@@ -27,4 +27,9 @@ void wind_ref(const struct wind_ref_particle *p, size_t n, struct wind_ref_resul
 /* What a boundary particle stands for. */
 double wind_ref_volume(const struct wind_ref_particle *p, size_t n, size_t i);
 
+/* Potential flow through n[0] x n[1] x n[2] cells, numbered (k n[1] + j) n[0] + i, from a wind along x and y: at
+ * the sides cells are REF_SKIN and move with the wind, what is not REF_AIR otherwise lets nothing through. v[i] is
+ * the velocity in the middles of those that are REF_AIR. */
+void wind_ref_potential(const int n[3], const enum wind_ref_kind *cell, const double wind[2], double (*v)[3]);
+
 #endif

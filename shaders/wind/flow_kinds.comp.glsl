@@ -1,0 +1,28 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What the cells of the box are for the first air: rock where there is some within half a spacing of the middle
+// on any axis.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, occupied)
+WRITE_U(1, kinds)
+PARAMS(flow_params)
+#include "wind/flow.glsl"
+#include "wind/rock.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    vec3 x = vec3(i % k.bx, i / k.bx % k.by, i / (k.bx * k.by)) + 0.5;
+    bool rock = flow_in_rock(x);
+    for (int a = 0; a < 3; a++)
+        for (int s = -1; s <= 1; s += 2) {
+            vec3 d = vec3(0.0);
+            d[a] = 0.49 * float(s);
+            rock = rock || flow_in_rock(x + d);
+        }
+    AT(kinds, i) = uint(rock ? FLOW_ROCK : flow_kind(x));
+}
