@@ -181,7 +181,7 @@ static void put_host(const struct step *s, struct text *t)
         json_array(t, "amounts");
         put_amount(t, "amount.worker.gpu", 1);
         put_amount(t, "amount.worker.gpu.memory", (int64_t)(e->device_bytes / MIB) + 1);
-        put_amount(t, "amount.worker.memory", (int64_t)((e->host_bytes + room_process(NULL)) / MIB) + 1);
+        put_amount(t, "amount.worker.memory", (int64_t)((e->host_bytes + room_process(NULL, e)) / MIB) + 1);
         json_end_array(t);
     }
     json_array(t, "attributes");

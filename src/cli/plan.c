@@ -93,7 +93,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     bool measured = false;
     char frames[48];
     size_t n_frames = range_count(job->frames);
-    const uint64_t process = room_process(gpu);
+    const uint64_t process = room_process(gpu, &e);
     TRY(time_frames(f, gpu, &measured));
     TRY(farm_graph(f));
     size_t n_checkpoints =

@@ -351,6 +351,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
     if (job->arches.stacks == STACKS_ALL)
         needs->disk_other = needs->checkpoint_bytes;
     needs->steps = job->frames.last - job->frames.first;
+    needs->kernels = 40;
 done:
     return st;
 }

@@ -72,6 +72,7 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
                               (uint64_t)(0.3 * (double)wind_checkpoint_bytes(job, needs->voxels)) +
                               collapse_checkpoint_bytes(job, n);
     needs->steps = steps(job);
+    needs->kernels = 80;
 done:
     return st;
 }

@@ -45,6 +45,7 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     out->waiting_bytes = host_frame_bytes(job, &needs.size, needs.samples, needs.frame_bytes);
     out->checkpoint_bytes = needs.checkpoint_bytes;
     out->steps = needs.steps;
+    out->kernels = needs.kernels;
 done:
     free(needs.size.point);
     return st;

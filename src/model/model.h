@@ -24,6 +24,7 @@ struct model_estimate {
     struct disk_frame disk; /* of a frame */
     uint64_t checkpoint_bytes;
     double steps; /* of erosion and equilibrium, over all frames */
+    int kernels;  /* that it runs, about */
 };
 
 /* E_USAGE, E_INPUT: the scene is wrong, or a file of it. */

@@ -48,6 +48,7 @@ struct model_needs {
     uint64_t host_bytes;       /* of the model's own arrays */
     uint64_t checkpoint_bytes;
     double steps;
+    int kernels; /* that it runs, about: on a CPU each is compiled into the process */
 };
 
 struct model_type {

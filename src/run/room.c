@@ -12,23 +12,26 @@ struct room room_free(const struct gpu *gpu)
 }
 
 /* What a process comes to hold after its device is opened, beside its job's own: OpenVDB, 32 MB, and on Mesa 22.3's
- * lavapipe the compiler's code and what it made. Jobs of little rock took 60 MB in all with 28 kernels and 69 MB with
- * a model of 40; the largest models have 80. */
-static const uint64_t LATER = 75000000;
+ * lavapipe the compiler's code and what it made, whether just now or kept in a cache. Of models with 40 kernels it took 65 to 100
+ * MB, of those with 80 90 to 130. */
+static uint64_t later(const struct model_estimate *e)
+{
+    return 50000000 + 625000 * (uint64_t)e->kernels;
+}
 
 /* And before: the program, the loader and the drivers that a Debian 12 has, as `hoodoo devices` opens them. */
 static const uint64_t BEFORE = 68000000;
 
-uint64_t room_process(const struct gpu *gpu)
+uint64_t room_process(const struct gpu *gpu, const struct model_estimate *e)
 {
-    return (gpu ? memory_resident() : BEFORE) + LATER;
+    return (gpu ? memory_resident() : BEFORE) + later(e);
 }
 
 struct room room_at_once(const struct gpu *gpu, const struct model_estimate *e)
 {
     if (gpu_info(gpu)->is_cpu)
-        return (struct room){.host = e->device_bytes + e->host_bytes + LATER};
-    return (struct room){.device = e->device_bytes, .host = e->host_bytes + LATER};
+        return (struct room){.host = e->device_bytes + e->host_bytes + later(e)};
+    return (struct room){.device = e->device_bytes, .host = e->host_bytes + later(e)};
 }
 
 struct room room_needed(const struct gpu *gpu, const struct model_estimate *e)

@@ -15,7 +15,7 @@ struct room room_free(const struct gpu *gpu);
 
 /* What a run takes beside its job's own: the program, its libraries, the device's driver, compiled kernels. Before
  * the device is worked with: what is there is measured. `gpu` NULL: where there is no device to look at. */
-uint64_t room_process(const struct gpu *gpu);
+uint64_t room_process(const struct gpu *gpu, const struct model_estimate *estimate);
 
 /* What a job takes from here on: what the process has already is not free any more. At least: where a frame is written before the
  * next is made. */

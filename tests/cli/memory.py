@@ -80,7 +80,7 @@ shutil.rmtree("limited", ignore_errors=True)
 # A group in which a frame and the one before it do not fit, but either does: they take turns.
 words = [f"{JOBS}/arches_cave.yaml", "--set", "domain.spacing_m=0.75"]
 plan = json.loads(subprocess.run([HOODOO, "plan", *words, "--json"], stdout=subprocess.PIPE, check=True).stdout)
-group = peak.make_group(int(0.9 * sum(plan[part + "_bytes"] for part in ("device", "host", "process"))))
+group = peak.make_group(int(0.8 * sum(plan[part + "_bytes"] for part in ("device", "host", "process"))))
 if group:
     code, said, most = peak.run(["run", *words, "--out", "turns", "--frames", "1001-1002", "--progress", "none"], group)
     peak.end_group(group)
