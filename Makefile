@@ -160,7 +160,11 @@ $(BUILD)/tests/ref/mesh_check $(BUILD)/tests/bench/surface: $(BUILD)/%: %_shim.c
 
 ## test: build and run the tests (under 20 minutes on 2 cores)
 test: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN) $(BUILD)/tests/ref/mesh_check
-	$(Q)sh tests/run.sh $(BUILD) unit gpu physics restart cli
+	$(Q)HOODOO_TEST_BUT=tests/later sh tests/run.sh $(BUILD) unit gpu physics restart cli
+
+## test-later: those of the same folders that take minutes each: nobody waits for them but .ci/run
+test-later: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
+	$(Q)sh tests/run.sh $(BUILD) $$(cat tests/later)
 
 ## test-peers: read what we write with Blender, USD, Chromium and other programs (large packages)
 test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers $(BUILD)/venv-usd/.done
@@ -221,7 +225,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-dev deps-peers demo test test-peers test-long bench reference format lint test-asan test-tsan test-sanitized install clean help
+.PHONY: all deps deps-test deps-dev deps-peers demo test test-later test-peers test-long bench reference format lint test-asan test-tsan test-sanitized install clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

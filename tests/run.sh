@@ -54,10 +54,14 @@ list() {
         done
     done
 }
+# Without those that are named in the file $HOODOO_TEST_BUT, one a line, if there is such.
+wanted() {
+    if [ -n "${HOODOO_TEST_BUT:-}" ]; then awk -F '\t' 'NR == FNR { but[$1]; next } !($2 in but)' "$HOODOO_TEST_BUT" -; else cat; fi
+}
 at_once=$(nproc)
 [ "$*" = peers ] && at_once=1
 # Those that take long start first: the last to start would be alone at the end.
-list "$@" | awk -F '\t' 'NR == FNR { rank[$1] = NR; next } { print ($2 in rank ? rank[$2] : 1e6) "\t" $0 }' "$top/tests/longest" - |
+list "$@" | wanted | awk -F '\t' 'NR == FNR { rank[$1] = NR; next } { print ($2 in rank ? rank[$2] : 1e6) "\t" $0 }' "$top/tests/longest" - |
     sort -s -n -k 1,1 | cut -f 2- | tr '\t' '\n' | xargs -d '\n' -r -n 2 -P "$at_once" sh "$top/tests/run.sh" --one
 find "$HOODOO_SCRATCH" -name '*.count' -exec cat {} + >"$HOODOO_SCRATCH/counts"
 awk '$3 > 0 { print $4 }' "$HOODOO_SCRATCH/counts" >"$build/skipped"

@@ -146,6 +146,7 @@ status model_save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
     *out = (struct checkpoint){.frame = m->frame, .years = m->years};
+    gpu_stage(m->gpu, "checkpoint");
     TRY(section_add_domain(out, m->job));
     TRY(m->type->save(m, out));
 done:
