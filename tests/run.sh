@@ -3,7 +3,7 @@
 # named, as unit/test_job or cli/aov.py. Each prints TAP lines ("ok ...", "not ok ...", either with "# skip ..."); the last
 # line here is "N passed, N failed". What is skipped counts as neither; the names of those that skipped something go to
 # BUILD/skipped, for root may be able to run them. A program that dies without saying "not ok" counts as one failure. As
-# many run side by side as there are cores; peers one by one, for they are systems of their own.
+# many run side by side as there are cores.
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -59,7 +59,6 @@ wanted() {
     if [ -n "${HOODOO_TEST_BUT:-}" ]; then awk -F '\t' 'NR == FNR { but[$1]; next } !($2 in but)' "$HOODOO_TEST_BUT" -; else cat; fi
 }
 at_once=$(nproc)
-[ "$*" = peers ] && at_once=1
 # Those that take long start first: the last to start would be alone at the end.
 list "$@" | wanted | awk -F '\t' 'NR == FNR { rank[$1] = NR; next } { print ($2 in rank ? rank[$2] : 1e6) "\t" $0 }' "$top/tests/longest" - |
     sort -s -n -k 1,1 | cut -f 2- | tr '\t' '\n' | xargs -d '\n' -r -n 2 -P "$at_once" sh "$top/tests/run.sh" --one
