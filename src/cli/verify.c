@@ -123,8 +123,8 @@ done:
     return st;
 }
 
-/* The folder's job, by which the frames that should be there are known, is the one that made them. Where its inputs are not at
- * hand nobody can tell. */
+/* The folder's job, by which the frames that should be there are known unless they are asked for, is the one that made them.
+ * Where its inputs are not at hand nobody can tell. */
 static status verify_job(struct search *s)
 {
     status st = OK;
@@ -134,6 +134,8 @@ static status verify_job(struct search *s)
     TRY(folder_job_hash(s->root, &s->job_hash));
     TRY(path_join(&path, s->root, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));
+    if (!s->only_frames)
+        s->frames = job->frames;
     st = job_hash(job, &hash);
     if (st == E_INPUT) {
         log_info("%s cannot be compared with the frames' job: %s", path.text, status_message());
@@ -239,8 +241,6 @@ status cli_verify(int argc, char **argv)
     TRY(folder_open(s.root, s.name));
     s.frames = c.frames;
     s.only_frames = c.frames.step > 0;
-    if (!s.only_frames)
-        TRY(job_frames(s.root, &s.frames));
     if (s.json) {
         json_object(&s.answer, NULL);
         json_text(&s.answer, "folder", s.root);

@@ -16,7 +16,8 @@
  *   name    struct arenite has a member `struct name name`, which name_destroy() frees, finished or not
  *   lasts   LASTS_RUN: from the start on; LASTS_JOB: from the first rock on, and it is made anew where edits change the job;
  *           LASTS_ROCK: as long as the particles, which edits may replace
- *   bytes   of a job with n particles, `bare` of them at the surface, `ends` of rows along x, in so many voxels, its edits included; 0: it has no need of it
+ *   bytes   of a job with n particles, `bare` of them at the surface and `ends` at the ends of rows along x, in so many voxels, its
+ *           edits included; 0: it has no need of it
  *   create  makes it in *a, for a->m.job; OK: that has no need of it, or it is made when it is first used
  */
 #define ARENITE_PARTS(PART)                                                                                  \

@@ -62,7 +62,6 @@ static void set_limits(uint64_t base, uint64_t size)
         const rlim_t space = address_space_used() + (most < available ? most : available);
         limit(RLIMIT_AS, space, space);
     }
-    signal(SIGXFSZ, SIG_IGN);
     signal(SIGXCPU, SIG_DFL);
 }
 

@@ -4,7 +4,7 @@
 
 #include "wind/flow.h"
 
-/* s by spacing and wind speed: half a spacing, a quarter of the support, at 2.5 times the wind's speed, which
+/* A step, in the time that the wind takes for a spacing: half a spacing, a quarter of the support, at 2.5 times the wind's speed, which
  * air around a rock hardly reaches and is held to. */
 #define FLOW_DT 0.2
 
