@@ -4,14 +4,7 @@ set -u
 job=$HOODOO_TOP/tests/restart/twelve.yaml
 
 # check NAME COMMAND...: ok if the command succeeds
-check() {
-    name=$1
-    shift
-    if "$@"; then echo "ok $name"; else
-        echo "not ok $name"
-        sed 's/^/# err: /' err
-    fi
-}
+. "$HOODOO_TOP/tests/lib/check.sh"
 
 # refused CODE TEXT ARGUMENT...: hoodoo exits with CODE, its last line holds TEXT, and the others are information
 refused() {

@@ -1,14 +1,7 @@
 #!/bin/sh
 # status, verify and inspect on the folder of a small run, whole and then damaged.
 set -u
-check() {
-    name=$1
-    shift
-    if "$@"; then echo "ok $name"; else
-        echo "not ok $name"
-        sed 's/^/# /' out err
-    fi
-}
+. "$HOODOO_TOP/tests/lib/check.sh"
 
 says() {
     want=$1

@@ -1,14 +1,7 @@
 #!/bin/sh
 # inspect on JSON files: the same content in words and as JSON. (Checkpoints, VDB and EXR files need a run.)
 set -u
-check() {
-    name=$1
-    shift
-    if "$@"; then echo "ok $name"; else
-        echo "not ok $name"
-        sed 's/^/# /' out
-    fi
-}
+. "$HOODOO_TOP/tests/lib/check.sh"
 
 cat >run.json <<'END'
 {"version": "0.1.0", "device": {"name": "a \"device\"", "memory_bytes": 2147483648}, "seed": 7,

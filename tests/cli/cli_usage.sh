@@ -4,15 +4,7 @@ set -u
 VERBS="run plan submit status verify mesh preview inspect devices"
 
 # check NAME COMMAND...: ok if the command succeeds
-check() {
-    name=$1
-    shift
-    if "$@"; then echo "ok $name"; else
-        echo "not ok $name"
-        sed 's/^/# out: /' out
-        sed 's/^/# err: /' err
-    fi
-}
+. "$HOODOO_TOP/tests/lib/check.sh"
 
 # says CODE COMMAND...: runs hoodoo; true if it exits with CODE
 says() {

@@ -3,16 +3,7 @@
 # command finishes with the same bytes. Needs root, for a small tmpfs.
 set -u
 job=$HOODOO_TOP/tests/restart/twelve.yaml
-ok() { echo "ok $1"; }
-not_ok() {
-    echo "not ok $1"
-    sed 's/^/# /' err | tail -n 5
-}
-check() {
-    name=$1
-    shift
-    if "$@"; then ok "$name"; else not_ok "$name"; fi
-}
+. "$HOODOO_TOP/tests/lib/check.sh"
 tree() {
     (cd "$1" && find . -type f ! -path './log/*' -exec sha256sum {} + | sort -k 2)
 }
@@ -23,7 +14,8 @@ if ! mount -t tmpfs -o size=4k tmpfs disk 2>/dev/null; then
     exit 0
 fi
 trap 'umount disk' EXIT
-"$HOODOO" run "$job" --out whole --progress none 2>err || { not_ok "an uninterrupted run"; exit 1; }
+"$HOODOO" run "$job" --out whole --progress none 2>err
+check "an uninterrupted run" [ $? = 0 ]
 tree whole >whole.sums
 whole_kb=$(du -sk whole | cut -f 1)
 

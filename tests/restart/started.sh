@@ -3,14 +3,7 @@
 # are ignored. Frames are the same, or the exit code says why there are none.
 set -u
 job=$HOODOO_TOP/tests/restart/twelve.yaml
-check() {
-    name=$1
-    shift
-    if "$@"; then echo "ok $name"; else
-        echo "not ok $name"
-        sed 's/^/# /' err | tail -n 5
-    fi
-}
+. "$HOODOO_TOP/tests/lib/check.sh"
 run() { "$HOODOO" run "$job" --frames 1001-1002 --progress plain --out "$@"; }
 same() {
     (cd "$1" && find . -type f ! -path './log/*' -exec sha256sum {} + | sort -k 2) >sums
