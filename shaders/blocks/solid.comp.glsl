@@ -13,13 +13,8 @@ PARAMS(voxel_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
-
-float fill_at(ivec3 v)
-{
-    v.z = max(v.z, 0);
-    uint s = voxel_inside(v) ? voxel_slot(v) : NOT_HELD;
-    return s == NOT_HELD ? 0.0 : LOAD_F(fill, s);
-}
+#define GROUND_IS_ROCK
+#include "particles/fill.glsl"
 #include "particles/share.glsl"
 
 void main()
