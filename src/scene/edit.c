@@ -193,8 +193,8 @@ static status paint(const struct job *job, const struct job_edit *edit, struct r
         double x[3];
         rock_position(rock, p, x);
         struct paint_values v = paint_at(s.paint, x, (double)rock->vegetation[p]);
-        rock->viability[p] = (float)(v.viability * (double)rock->viability[p]);
-        rock->rate_factor[p] = v.inert ? 0 : (float)(v.erodibility * (double)rock->rate_factor[p]);
+        rock->rate_factor[p] =
+            v.inert ? 0 : (float)(v.erodibility / v.viability * (double)rock->rate_factor[p]);
         rock->interlock_factor[p] = (float)(v.interlock * (double)rock->interlock_factor[p]);
         rock->vegetation[p] = (float)v.vegetation;
     }

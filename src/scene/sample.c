@@ -48,7 +48,8 @@ double sampler_rate_factor(const struct sampler *s, size_t layer, const double x
     double amplitude = own >= 0 ? own : s->job->noise.amplitude;
     if (paint->inert || solid_at(s->solid, x).inert)
         return 0;
-    return paint->erodibility * (amplitude > 0 ? exp(amplitude * noise_at(&s->noise[layer], x)) : 1);
+    return paint->erodibility / paint->viability *
+           (amplitude > 0 ? exp(amplitude * noise_at(&s->noise[layer], x)) : 1);
 }
 
 static void fill_particle(const struct sampler *s, const int voxel[3], unsigned share, struct rock *rock,
@@ -71,7 +72,6 @@ static void paint_particle(const struct sampler *s, struct rock *rock, size_t p)
     double x[3];
     rock_position(rock, p, x);
     struct paint_values paint = paint_at(s->paint, x, 0);
-    rock->viability[p] = (float)(paint.viability * (double)rock->viability[p]);
     rock->phase[p] = solid_at(s->solid, x).loose ? 1 : 0;
     rock->layer[p] = (uint32_t)job_layer_at(s->job, x[2]);
     rock->rate_factor[p] = (float)sampler_rate_factor(s, rock->layer[p], x, &paint);
@@ -274,7 +274,7 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
                 if (covered == 0)
                     continue;
                 struct paint_values paint = paint_at(s.paint, x, 0);
-                share[v] = (float)(paint.viability * covered / COVERAGE_FULL);
+                share[v] = (float)covered / COVERAGE_FULL;
                 factor[v] = (float)sampler_rate_factor(&s, job_layer_at(job, x[2]), x, &paint);
             }
     }

@@ -56,8 +56,8 @@ enum solid_share solid_in_box(const struct solid *solid, const double min[3], co
  * hostile. E_MEMORY: says how many particles it would be. */
 MUST_USE status scene_sample(const struct job *job, struct rock *rock);
 
-/* The same rock as a grid, for voxels: of each voxel of the domain, its share of rock (times painted
- * viability; 0: air) and its rate_factor, at its middle. The caller has room for scene_voxels() of each.
+/* The same rock as a grid, for voxels: of each voxel of the domain, its share of rock (0: air) and
+ * its rate_factor, at its middle. The caller has room for scene_voxels() of each.
  * Errors as scene_sample()'s; rock that `floats` need not touch the ground. */
 MUST_USE status scene_grid(const struct job *job, bool floats, float *share, float *factor);
 

@@ -411,9 +411,10 @@ static void an_edit_paints_what_is_there(void **state)
     assert_true(done.added == 0 && done.carved == 0);
     for (size_t i = 0; i < rock.n; i++) {
         bool is_low = rock.P[4 * i + 2] <= 10, is_left = rock.P[4 * i] <= 5;
-        assert_true(rock.rate_factor[i] == (is_low ? 2.0f : 1.0f) * (is_left ? 3.0f : 1.0f));
+        assert_true(rock.rate_factor[i] ==
+                    (is_low ? 2.0f : 1.0f) * (is_left ? 6.0f : 1.0f)); /* of half the life */
         assert_true(rock.interlock_factor[i] == (is_left ? 5 : 1));
-        assert_true(rock.viability[i] == (is_left ? 0.5f : 1));
+        assert_true(rock.viability[i] == 1);
         assert_true(rock.vegetation[i] == (is_left ? 1 : is_low ? 0.25f : 0));
     }
     rock_free(&rock);
