@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which particles nothing on the ground holds.
+// Which particles nothing on the ground holds, of those of which something is left.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -9,9 +9,10 @@ READ_U(1, solid)
 READ_U(2, root)
 READ_U(3, start)
 READ_U(4, phase)
-WRITE_U(5, flags)
-READ_U(6, words)
-PARAMS(voxel_params)
+READ_F(5, viability)
+WRITE_U(6, flags)
+READ_U(7, words)
+PARAMS(crumble_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
@@ -21,6 +22,8 @@ PARAMS(voxel_params)
 void main()
 {
     uint i = THREAD;
-    if (i < k.n)
-        AT(flags, i) = held(voxel_of(LOAD_V(position, i).xyz), LOAD_U(phase, i)) ? 0u : 1u;
+    if (i >= k.n)
+        return;
+    bool stays = LOAD_F(viability, i) <= 0.0 || held(voxel_of(LOAD_V(position, i).xyz), LOAD_U(phase, i));
+    AT(flags, i) = stays ? 0u : 1u;
 }

@@ -56,6 +56,15 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 20)
 
+/* Of blocks: the same, and how many particles one has at least. */
+struct crumble_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;
+    uint least;
+};
+SHARED_SIZE(crumble_params, 24)
+
 struct hold_params {
     uint n; /* words of bits, and one */
     uint nx, ny, nz;

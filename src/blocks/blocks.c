@@ -78,13 +78,24 @@ done:
     return st;
 }
 
-status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p, size_t *n)
+status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
+                    size_t least, uint32_t *n_crumbs, size_t *n)
 {
     status st = OK;
+    struct gpu_buffer *counts = gpu_work_words(work);
     TRY(find(gpu, work, b, p));
-    struct voxel_params k = particles_params(p, p->n);
+    struct crumble_params k = {
+        .n = (uint)p->n, .nx = (uint)p->voxels[0], .ny = (uint)p->voxels[1], .nz = (uint)p->voxels[2]};
+    k.h = (float)p->h;
+    k.least = (uint)least;
     GPU_RUN(gpu, blocks_loose, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->start,
-            p->field[ROCK_phase], p->flags, p->held.words);
+            p->field[ROCK_phase], p->field[ROCK_viability], p->flags, p->held.words);
+    gpu_fill(gpu, b->other, 0);
+    GPU_RUN(gpu, blocks_size, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->flags, p->held.words,
+            p->place, b->other);
+    gpu_fill(gpu, counts, 0);
+    GPU_RUN(gpu, blocks_crumble, p->n, k, p->place, b->other, p->flags, p->field[ROCK_viability], counts);
+    TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_crumbs, 1));
     TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, n));
     p->n_surface = 0;
 done:

@@ -29,9 +29,11 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b);
 MUST_USE status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b,
                             const struct held_voxels *held);
 
-/* Lists unsupported particles in p->surface, ascending; the surface is to be found anew after this. Waits. */
+/* Lists unsupported particles in p->surface, ascending, of blocks that have `least` particles or more; of smaller ones it
+ * takes the viability and counts the particles, which are not yet removed. What erosion left nothing of is neither. The
+ * surface is to be found anew after this. Waits. */
 MUST_USE status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
-                             size_t *n);
+                             size_t least, uint32_t *n_crumbs, size_t *n);
 
 /* Takes the viability of unsupported particles and counts them; they are not yet removed. Waits. */
 MUST_USE status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,

@@ -82,6 +82,23 @@ done:
     return st;
 }
 
+/* What breaks off and is too small to fall as a block goes the way of what eroded. */
+static status crumble(struct arenite *a, uint32_t *n_eroded)
+{
+    status st = OK;
+    uint32_t n_crumbs;
+    size_t n_loose;
+    if (!a->collapse.falls || *n_eroded == 0)
+        return OK;
+    gpu_stage(a->m.gpu, "blocks");
+    weigh(a, PROCESS_BLOCKS, false);
+    TRY(collapse_crumble(a->m.gpu, a->m.work, &a->collapse, &a->blocks, &a->particles, &n_crumbs, &n_loose));
+    weigh(a, PROCESS_BLOCKS, true);
+    *n_eroded += n_crumbs;
+done:
+    return st;
+}
+
 status arenite_unsupported(struct arenite *a)
 {
     status st = OK;
@@ -244,6 +261,7 @@ static status erode(struct arenite *a, int step, double least, double *kyr)
         plants_shield(a->m.gpu, a->m.job, &a->particles, a->erosion.intensity);
     gpu_stage(a->m.gpu, "viability");
     TRY(erosion_weather(a->m.gpu, a->m.work, &a->erosion, *kyr, &a->particles, &a->m.budget, &n_eroded));
+    TRY(crumble(a, &n_eroded));
     TRY(remove_eroded(a, step, n_eroded, &changed));
     if (changed)
         TRY(arenite_unsupported(a));

@@ -8,6 +8,9 @@
 #include "base/memory.h"
 #include "model/sections.h"
 
+/* Particles that two cells hold: a body of fewer has no shape that material points could keep. */
+static const double BODY = 16;
+
 bool collapse_shot(const struct job *job)
 {
     return job->clock.seconds_per_frame > 0;
@@ -71,7 +74,8 @@ status collapse_create(struct gpu *gpu, const struct job *job, struct particles 
     *c = (struct collapse){.shot = collapse_shot(job),
                            .falls = j->blocks == COLLAPSE_FALL,
                            .longest = j->longest_s,
-                           .rubble = j->rubble_m};
+                           .rubble = j->rubble_m,
+                           .least = (size_t)fmax(BODY, ceil(pow(j->rubble_m / p->h, 3)))};
     if (!collapse_wanted(job))
         return OK;
     mpm_soften(&options, j->wave_m_s);
@@ -270,31 +274,40 @@ done:
     return st;
 }
 
+status collapse_crumble(struct gpu *gpu, struct gpu_work *work, const struct collapse *c, struct blocks *b,
+                        struct particles *p, uint32_t *n_crumbs, size_t *n_loose)
+{
+    return blocks_loose(gpu, work, b, p, c->least, n_crumbs, n_loose);
+}
+
 status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *c, struct blocks *b,
                        struct particles *p, struct ledger *ledger)
 {
     status st = OK;
     size_t n, before = p->n;
-    uint32_t crumbs;
-    double seconds;
-    TRY(blocks_loose(gpu, work, b, p, &n));
-    if (n == 0)
+    uint32_t crumbs = 0, more = 0;
+    double seconds = 0;
+    TRY(collapse_crumble(gpu, work, c, b, p, &crumbs, &n));
+    if (n == 0 && crumbs == 0)
         return OK;
-    mpm_load(gpu, &c->mpm, p, p->surface, n);
-    mpm_obstacle(gpu, &c->mpm, p);
-    TRY(fall_to_rest(gpu, work, c, &seconds));
-    mpm_store(gpu, &c->mpm, p, false);
-    TRY(mpm_settle(gpu, &c->mpm, p, c->rubble));
-    mpm_obstacle(gpu, &c->mpm, NULL);
-    gpu_fill(gpu, p->field[ROCK_v], 0);
-    TRY(particles_index(gpu, work, p));
-    TRY(blocks_fall(gpu, work, b, p, &crumbs));
-    if (crumbs)
+    if (n > 0) {
+        mpm_load(gpu, &c->mpm, p, p->surface, n);
+        mpm_obstacle(gpu, &c->mpm, p);
+        TRY(fall_to_rest(gpu, work, c, &seconds));
+        mpm_store(gpu, &c->mpm, p, false);
+        TRY(mpm_settle(gpu, &c->mpm, p, c->rubble));
+        mpm_obstacle(gpu, &c->mpm, NULL);
+        gpu_fill(gpu, p->field[ROCK_v], 0);
+        TRY(particles_index(gpu, work, p));
+        TRY(blocks_fall(gpu, work, b, p, &more));
+    }
+    if (crumbs + more > 0)
         TRY(particles_index(gpu, work, p));
     ledger->left += before - p->n;
     TRY(collapse_count(gpu, p, ledger));
-    log_note("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds, before - p->n,
-             (unsigned)crumbs);
+    if (n > 0)
+        log_note("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds,
+                 before - p->n, (unsigned)(crumbs + more));
 done:
     return st;
 }

@@ -17,6 +17,7 @@ struct collapse {
     struct gpu_buffer *table; /* uint [ids]: scratch */
     double longest;           /* s */
     double rubble;            /* m: the smallest block that stays one */
+    size_t least;             /* particles: smaller blocks crumble instead of falling */
 };
 
 /* Is it a shot in real time? */
@@ -44,9 +45,15 @@ MUST_USE status collapse_frame(struct gpu *gpu, struct gpu_work *work, struct co
 /* Rock, deposit and, as fallen, falling blocks and rubble by phase; with what has been taken out before. Waits. */
 MUST_USE status collapse_count(struct gpu *gpu, const struct particles *p, struct ledger *ledger);
 
+/* Of what nothing holds, blocks smaller than rubble is, or than material points can show, crumble: their viability is
+ * taken and their particles are counted, to be moved or taken out with what eroded. *n_loose are those of larger blocks,
+ * which collapse_blocks() lets fall once p is indexed. Waits. */
+MUST_USE status collapse_crumble(struct gpu *gpu, struct gpu_work *work, const struct collapse *c,
+                                 struct blocks *b, struct particles *p, uint32_t *n_crumbs, size_t *n_loose);
+
 /* Blocks that nothing holds fall until they rest on ground and rock: p is indexed after it. Large fragments are
- * rubble then, small ones and grains deposit; what left the domain, and crumbs that rest without touching what
- * stands, leave. Waits. */
+ * rubble then, small ones and grains deposit; what left the domain, what crumbles, and crumbs that rest without
+ * touching what stands, leave. Waits. */
 MUST_USE status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *c, struct blocks *b,
                                 struct particles *p, struct ledger *ledger);
 

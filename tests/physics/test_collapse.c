@@ -273,6 +273,47 @@ static void blocks_become_rubble(void **state)
     sim_end(&s);
 }
 
+/* What breaks off and is smaller than rubble is, or than material points can show, is laid down with what eroded. */
+static const char CRUMB[] = "hoodoo: 1\nname: crumb\nframes: 1001-1100\nclock: {years_per_frame: 500}\n"
+                            "domain: {size_m: [16, 16, 12], spacing_m: 1}\n"
+                            "scene:\n"
+                            "  union:\n"
+                            "    - box: {min_m: [2, 2, 0], max_m: [14, 14, 3]}\n"
+                            "    - box: {min_m: [7, 7, 3], max_m: [9, 9, 6]}\n"
+                            "strata:\n"
+                            "  - {to_m: 3, weak_m_per_kyr: 0, strong_m_per_kyr: 0}\n"
+                            "  - {to_m: 4, weak_m_per_kyr: 5, strong_m_per_kyr: 5}\n"
+                            "  - {weak_m_per_kyr: 0, strong_m_per_kyr: 0}\n"
+                            "collapse: {blocks: fall}\nwind: {abrasion: 0}\n";
+
+static void small_blocks_crumble(void **state)
+{
+    static const char *const deposition[] = {"deposition: {viability: 1}\n", "deposition: {viability: 0}\n"};
+    (void)state;
+    for (int laid = 1; laid >= 0; laid--) {
+        char text[1024];
+        snprintf(text, sizeof text, "%s%s", CRUMB, deposition[!laid]);
+        struct sim s = sim_begin(text);
+        const uint64_t base = 12 * 12 * 3, neck = 4, block = 8;
+        assert_ok(model_step(s.model));
+        struct frame frame = sim_output(&s);
+        print_message(
+            "# a block of 8 particles breaks off, %s: %llu rock, %llu deposit, %llu fallen, %llu left\n",
+            deposition[!laid], (unsigned long long)frame.ledger.rock,
+            (unsigned long long)frame.ledger.deposit, (unsigned long long)frame.ledger.fallen,
+            (unsigned long long)frame.ledger.left);
+        adds_up(&frame);
+        assert_int_equal(frame.ledger.start, base + neck + block);
+        assert_int_equal(frame.ledger.rock, base);
+        assert_int_equal(frame.ledger.deposit, laid ? neck + block : 0);
+        assert_int_equal(frame.ledger.left, laid ? 0 : neck + block);
+        for (size_t i = 0; i < frame.rock.n; i++)
+            assert_true((double)frame.rock.P[4 * i + 2] < 5);
+        frame_free(&frame);
+        sim_end(&s);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -280,6 +321,7 @@ int main(void)
         cmocka_unit_test(resumes_in_the_fall),
         cmocka_unit_test(threads_do_not_matter),
         cmocka_unit_test(blocks_become_rubble),
+        cmocka_unit_test(small_blocks_crumble),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
