@@ -1,6 +1,6 @@
 # hoodoo: build, demo, test. `make help` lists the targets.
 
-PACKAGES = build-essential pkg-config glslang-tools spirv-tools libvulkan-dev mesa-vulkan-drivers \
+PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa-vulkan-drivers \
 	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
 	libseccomp-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
@@ -35,10 +35,10 @@ Q = $(if $(V),,@)
 SRC = $(shell find src farm render -name '*.c')
 SHIM = $(shell find src farm render -name '*_shim.cpp')
 SHADER = $(shell find shaders -name '*.comp.glsl')
-KERNEL = $(subst /,_,$(patsubst shaders/%.comp.glsl,%,$(SHADER)))
+KERNELS = $(sort $(patsubst shaders/%/,%,$(dir $(SHADER)))) kernels
 SHIM_OBJ = $(SHIM:%.cpp=$(SHARE)/%.o)
 LIB_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out $(wildcard src/*.c),$(SRC))) $(SHIM_OBJ) \
-	$(BUILD)/gen/gpu/kernels.o $(BUILD)/gen/render/scene_parts.o
+	$(KERNELS:%=$(BUILD)/gen/gpu/%.o) $(BUILD)/gen/render/scene_parts.o
 TEST_SRC = $(wildcard tests/*/test_*.c)
 TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
 BENCH_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/*.c)) $(BUILD)/tests/bench/surface
@@ -112,23 +112,25 @@ $(BUILD)/src/base/version.o: private CPPFLAGS += -DHOODOO_VERSION='"$(VERSION)"'
 	-DHOODOO_BUILD='"$(shell cat $(SHARE)/gen/build)"'
 $(BUILD)/src/base/version.o: $(SHARE)/gen/build $(wildcard $(addprefix $(shell git rev-parse --git-dir 2>/dev/null)/,HEAD logs/HEAD))
 
-# ---- shaders: GLSL -> three SPIR-V variants, checked, embedded as words
+# ---- shaders: GLSL -> three SPIR-V variants, checked, embedded: a folder at a time
 
-VARIANTS = texel storage wide
-SPV = $(foreach v,$(VARIANTS),$(patsubst shaders/%.comp.glsl,$(SHARE)/shaders/%.$(v).spv,$(SHADER)))
-define spirv_rule
-$(SHARE)/shaders/%.$(1).spv: shaders/%.comp.glsl | $(BUILD)/.deps
-	@echo "glsl $$< $(1)"
-	$$(Q)mkdir -p $$(@D) && glslangValidator -V --target-env vulkan1.2 --quiet -Ishaders -DVARIANT_$(1) \
-		--depfile $$@.d -o $$@ $$< && spirv-val --target-env vulkan1.2 --scalar-block-layout $$@
-endef
-$(foreach v,$(VARIANTS),$(eval $(call spirv_rule,$(v))))
+GLSLANG = -lglslang -lMachineIndependent -lGenericCodeGen -lOSDependent -lOGLCompiler -lSPIRV -lglslang-default-resource-limits \
+	-lSPIRV-Tools-opt -lSPIRV-Tools
+$(SHARE)/embed_kernels: src/embed_kernels.c | $(BUILD)/.deps
+	@echo "cc $<"
+	$(Q)$(CC) -std=c11 -D_GNU_SOURCE $(WARN) -O1 -o $@ $< $(GLSLANG) -lstdc++ -lm -lpthread
 
 $(SHARE)/gen/gpu/kernels.h: $(SHADER) src/gpu/embed.sh | $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && sh src/gpu/embed.sh header $(sort $(SHADER)) > $@.tmp && if cmp -s $@.tmp $@; then rm $@.tmp; else mv $@.tmp $@; fi
-$(SHARE)/gen/gpu/kernels.c: $(SPV) $(SHARE)/gen/gpu/kernels.h src/gpu/embed.sh
-	$(Q)sh src/gpu/embed.sh source $(SHARE)/shaders $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
-$(BUILD)/gen/gpu/kernels.o: $(SHARE)/gen/gpu/kernels.c $(SHARE)/gen/gpu/kernels.h
+$(SHARE)/gen/gpu/kernels.c: $(SHARE)/gen/gpu/kernels.h src/gpu/embed.sh
+	$(Q)sh src/gpu/embed.sh table $(sort $(SHADER)) > $@.tmp && mv $@.tmp $@
+define kernels_rule
+$(SHARE)/gen/gpu/$(1).c: $(filter shaders/$(1)/%,$(SHADER)) $(SHARE)/gen/gpu/kernels.h $(SHARE)/embed_kernels
+	@echo "glsl shaders/$(1)"
+	$$(Q)$(SHARE)/embed_kernels $$(@:%.c=%) $(sort $(filter shaders/$(1)/%,$(SHADER)))
+endef
+$(foreach k,$(filter-out kernels,$(KERNELS)),$(eval $(call kernels_rule,$(k))))
+$(BUILD)/gen/gpu/%.o: $(SHARE)/gen/gpu/%.c $(SHARE)/gen/gpu/kernels.h src/gpu/kernel_source.h
 	@echo "cc $<"
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
@@ -187,14 +189,14 @@ format:
 	$(Q)clang-format -i $(shell find src farm render tests -name '*.[ch]' -o -name '*_shim.cpp')
 
 ## lint: warnings of both compilers, format, headers that stand alone, walls between folders
-lint: $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.c
+lint: $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.h
 	$(Q)sh tests/run.sh $(BUILD) lint.sh
 
 # The sanitizers' builds are of the C. They share the shaders and the C++ with the ordinary build: half of the C++ is
 # OpenVDB's templates, which take minutes to compile with checks, and what its threads wait for in a library that has none
 # the thread sanitizer cannot see. They share what stands beside hoodoo, too, and its hash: a reader's limit on memory leaves no
 # room for what a sanitizer reserves. Of the cases that are many they take a quarter (tests/effort.h), for all take too long.
-SHARED = $(SHARE)/gen/gpu/kernels.c $(SHARE)/gen/render/scene_parts.c $(SHARE)/gen/build $(SHIM_OBJ) $(BESIDE)
+SHARED = $(KERNELS:%=$(SHARE)/gen/gpu/%.c) $(SHARE)/gen/render/scene_parts.c $(SHARE)/gen/build $(SHIM_OBJ) $(BESIDE)
 SANITIZED = SHARE=$(SHARE) OPT='-O1 -g1' HOODOO_TEST_EFFORT=$(or $(HOODOO_TEST_EFFORT),0.25) test-sanitized
 ## test-asan: the unit and gpu tests under the address, leak and undefined behaviour sanitizers
 test-asan: $(SHARED)

@@ -8,17 +8,17 @@
 /* "rF wV " -> binding i is bindings[3 i], bindings[3 i + 1] */
 static uint32_t binding_count(enum gpu_kernel kernel)
 {
-    return (uint32_t)(strlen(kernel_source[kernel].bindings) / 3);
+    return (uint32_t)(strlen(kernel_source[kernel]->bindings) / 3);
 }
 
 static bool binding_writes(enum gpu_kernel kernel, uint32_t i)
 {
-    return kernel_source[kernel].bindings[3 * i] == 'w';
+    return kernel_source[kernel]->bindings[3 * i] == 'w';
 }
 
 static char binding_letter(enum gpu_kernel kernel, uint32_t i)
 {
-    return kernel_source[kernel].bindings[3 * i + 1];
+    return kernel_source[kernel]->bindings[3 * i + 1];
 }
 
 static VkDescriptorType descriptor_type(enum gpu_kernel kernel, enum kernel_variant variant, uint32_t i)
@@ -52,8 +52,8 @@ const struct pipeline *pipeline_get(struct gpu *gpu, enum gpu_kernel kernel, enu
                                          .pushConstantRangeCount = 1,
                                          .pPushConstantRanges = &push};
     VkShaderModuleCreateInfo code = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                     .codeSize = kernel_source[kernel].size[variant],
-                                     .pCode = kernel_source[kernel].spirv[variant]};
+                                     .codeSize = kernel_source[kernel]->size[variant],
+                                     .pCode = kernel_source[kernel]->spirv[variant]};
     VkShaderModule module = VK_NULL_HANDLE;
     VK_TRY(gpu, vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &p->set_layout));
     VK_TRY(gpu, vkCreatePipelineLayout(gpu->device, &layout, NULL, &p->layout));

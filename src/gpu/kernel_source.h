@@ -1,4 +1,4 @@
-/* The compiled kernels, embedded at build time by embed.sh. */
+/* The compiled kernels, embedded at build time by src/embed_kernels.c. */
 #ifndef HOODOO_KERNEL_SOURCE_H
 #define HOODOO_KERNEL_SOURCE_H
 
@@ -22,6 +22,6 @@ struct kernel_source {
     size_t size[VARIANTS]; /* bytes */
 };
 
-extern const struct kernel_source kernel_source[KERNELS];
+extern const struct kernel_source *const kernel_source[KERNELS];
 
 #endif

@@ -185,5 +185,5 @@ void gpu_times_reset(struct gpu *gpu)
     for (int i = 0; i < gpu->n_stages; i++)
         gpu->stage[i].ns = gpu->stage[i].dispatches = 0;
     for (int i = 0; i < KERNELS; i++)
-        gpu->kernel[i] = (struct gpu_time){.name = kernel_source[i].name};
+        gpu->kernel[i] = (struct gpu_time){.name = kernel_source[i]->name};
 }
