@@ -1,6 +1,4 @@
-/* The first particles: counted slab by slab, then filled in voxel order, so that neither the number of
- * threads nor their order shows in the result.
- */
+/* What the rock is like at any voxel, and about how much of it there is. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -52,31 +50,10 @@ double sampler_rate_factor(const struct sampler *s, size_t layer, const double x
            (amplitude > 0 ? exp(amplitude * noise_at(&s->noise[layer], x)) : 1);
 }
 
-static void fill_particle(const struct sampler *s, const int voxel[3], unsigned share, struct rock *rock,
-                          size_t p)
-{
-    sampler_place(s, voxel, rock->P + 4 * p);
-    rock->id[p] = (uint32_t)p;
-    rock->viability[p] = (float)share / COVERAGE_FULL;
-}
-
 void rock_position(const struct rock *rock, size_t p, double x[3])
 {
     for (size_t a = 0; a < 3; a++)
         x[a] = (double)rock->P[4 * p + a];
-}
-
-/* What depends on where the particle sits. */
-static void paint_particle(const struct sampler *s, struct rock *rock, size_t p)
-{
-    double x[3];
-    rock_position(rock, p, x);
-    struct paint_values paint = paint_at(s->paint, x, 0);
-    rock->phase[p] = solid_at(s->solid, x).loose ? 1 : 0;
-    rock->layer[p] = (uint32_t)job_layer_at(s->job, x[2]);
-    rock->rate_factor[p] = (float)sampler_rate_factor(s, rock->layer[p], x, &paint);
-    rock->interlock_factor[p] = (float)paint.interlock;
-    rock->vegetation[p] = (float)paint.vegetation;
 }
 
 void sampler_see(const struct sampler *s, const struct rock *rock)
@@ -88,23 +65,13 @@ void sampler_see(const struct sampler *s, const struct rock *rock)
     }
 }
 
-static size_t count_slab(const struct sampler *s, int k)
+static bool slab_has_rock(const struct sampler *s, int k)
 {
-    size_t count = 0;
     for (int j = 0; j < s->n[1]; j++)
         for (int i = 0; i < s->n[0]; i++)
-            count += coverage_at(s->coverage, i, j, k) > 0;
-    return count;
-}
-
-static void fill_slab(const struct sampler *s, int k, size_t p, struct rock *rock)
-{
-    for (int j = 0; j < s->n[1]; j++)
-        for (int i = 0; i < s->n[0]; i++) {
-            unsigned share = coverage_at(s->coverage, i, j, k);
-            if (share > 0)
-                fill_particle(s, (const int[]){i, j, k}, share, rock, p++);
-        }
+            if (coverage_at(s->coverage, i, j, k) > 0)
+                return true;
+    return false;
 }
 
 static status no_rock(const struct sampler *s)
@@ -121,42 +88,20 @@ static status no_rock(const struct sampler *s)
         min[0], max[0], min[1], max[1], min[2], max[2], size[0], size[1], size[2]);
 }
 
-/* first[k]: particles below slab k. */
-static status count_particles(const struct sampler *s, bool floats, size_t **first)
+status sampler_check(const struct sampler *s, bool floats)
 {
-    status st = OK;
-    const int nz = s->n[2];
-    size_t *count;
-    TRY(memory_alloc((size_t)nz + 1, sizeof *count, "the scene's slabs", &count));
-    *first = count;
-#pragma omp parallel for schedule(dynamic)
-    for (int k = 0; k < nz; k++)
-        count[k + 1] = count_slab(s, k);
-    for (int k = 0; k < nz; k++)
-        count[k + 1] += count[k];
-    if (count[nz] == 0)
+    int lowest = 0;
+    while (lowest < s->n[2] && !slab_has_rock(s, lowest))
+        lowest++;
+    if (lowest == s->n[2])
         return no_rock(s);
-    if (count[1] == 0 && !floats) {
-        int lowest = 1;
-        while (count[lowest + 1] == 0)
-            lowest++;
+    if (lowest > 0 && !floats)
         return fail(E_USAGE,
                     "scene: the rock floats in the air: lowest rock is at z = %.4g m, and the ground is z = "
                     "0: lower it, "
                     "or add what it stands on",
                     lowest * s->h);
-    }
-    size_t bytes = 0;
-    for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_table[f].keep == STATE)
-            bytes += rock_field_size((enum rock_field)f);
-    if (count[nz] > memory_available() / bytes)
-        return fail(E_MEMORY,
-                    "the scene has %zu particles, which need %.3g GB, and %.3g GB are free: raise "
-                    "domain.spacing_m",
-                    count[nz], 1e-9 * (double)(count[nz] * bytes), 1e-9 * (double)memory_available());
-done:
-    return st;
+    return OK;
 }
 
 /* The scene without the beds of its rivers. */
@@ -227,37 +172,13 @@ void sampler_deinit(struct sampler *s)
     free(s->noise);
 }
 
-status scene_sample(const struct job *job, struct rock *rock)
-{
-    status st = OK;
-    struct sampler s;
-    size_t *first = NULL;
-    *rock = (struct rock){0};
-    TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
-    TRY(sampler_fill(&s, job->paint, job->n_paint));
-    TRY(count_particles(&s, false, &first));
-    TRY(rock_alloc(rock, first[s.n[2]], STATE));
-#pragma omp parallel for schedule(dynamic)
-    for (int k = 0; k < s.n[2]; k++)
-        fill_slab(&s, k, first[k], rock);
-    sampler_see(&s, rock);
-#pragma omp parallel for schedule(static)
-    for (size_t p = 0; p < rock->n; p++)
-        paint_particle(&s, rock, p);
-done:
-    free(first);
-    sampler_deinit(&s);
-    return st;
-}
-
 status scene_grid(const struct job *job, bool floats, float *share, float *factor)
 {
     status st = OK;
     struct sampler s;
-    size_t *first = NULL;
     TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
     TRY(sampler_fill(&s, job->paint, job->n_paint));
-    TRY(count_particles(&s, floats, &first));
+    TRY(sampler_check(&s, floats));
     for (int k = 0; paint_sees(s.paint) && k < s.n[2]; k++)
         for (int j = 0; j < s.n[1]; j++)
             for (int i = 0; i < s.n[0]; i++)
@@ -279,7 +200,6 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
             }
     }
 done:
-    free(first);
     sampler_deinit(&s);
     return st;
 }
@@ -309,11 +229,33 @@ static size_t count_ends(const struct sampler *s, const int voxel[3], bool *bare
     return ends;
 }
 
+/* Is there air, or the domain's end, within SCENE_NEAR voxels on every axis? Looked for at the corners and the faces' middles of the
+ * cube of that size. */
+static bool is_near(const struct sampler *s, const int voxel[3])
+{
+    const double middle[3] = {(voxel[0] + 0.5) * s->h, (voxel[1] + 0.5) * s->h, (voxel[2] + 0.5) * s->h};
+    for (int a = 0; a < 3; a++)
+        if (voxel[a] < SCENE_NEAR || voxel[a] + SCENE_NEAR >= s->n[a])
+            return true;
+    if (solid_at(s->solid, middle).distance < -sqrt(3) * SCENE_NEAR * s->h)
+        return false;
+    for (int c = 0; c < 27; c++) {
+        const int d[3] = {c % 3 - 1, c / 3 % 3 - 1, c / 9 - 1};
+        const int axes = abs(d[0]) + abs(d[1]) + abs(d[2]);
+        if ((axes == 1 || axes == 3) &&
+            !coverage_holds_rock(s->solid, s->h, voxel[0] + SCENE_NEAR * d[0], voxel[1] + SCENE_NEAR * d[1],
+                                 voxel[2] + SCENE_NEAR * d[2]))
+            return true;
+    }
+    return false;
+}
+
 /* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels. */
 static status estimate(const struct sampler *s, struct scene_size *out)
 {
     status st = OK;
-    size_t total = 1, probes = 1, found = 0, bare = 0, ends = 0, blocks[3], capacity = out->n_points;
+    size_t total = 1, probes = 1, found = 0, bare = 0, near = 0, ends = 0, blocks[3],
+           capacity = out->n_points;
     for (int a = 0; a < 3; a++)
         total *= (size_t)s->n[a];
     int side = (int)ceil(cbrt((double)total / 262144) - 1e-9);
@@ -323,7 +265,7 @@ static status estimate(const struct sampler *s, struct scene_size *out)
         probes *= blocks[a];
     }
     TRY(memory_grow(&out->point, &capacity, out->n_points + probes, sizeof *out->point, "an estimate"));
-#pragma omp parallel for reduction(+ : bare, ends)
+#pragma omp parallel for reduction(+ : bare, near, ends)
     for (size_t b = 0; b < probes; b++) {
         const size_t at[3] = {b % blocks[0], b / blocks[0] % blocks[1], b / blocks[0] / blocks[1]};
         int voxel[3], inside = 1;
@@ -339,6 +281,7 @@ static status estimate(const struct sampler *s, struct scene_size *out)
         bool is_surface;
         ends += count_ends(s, voxel, &is_surface);
         bare += is_surface;
+        near += is_surface || is_near(s, voxel);
 #pragma omp atomic capture
         place = found++;
         for (int a = 0; a < 3; a++)
@@ -347,6 +290,8 @@ static status estimate(const struct sampler *s, struct scene_size *out)
     out->n_points += found;
     out->n_particles += found * weight;
     out->n_surface += bare * weight;
+    out->n_near += near * weight;
+    out->n_kept = out->n_particles;
     out->n_ends += ends * weight;
 done:
     return st;

@@ -29,6 +29,9 @@ MUST_USE status sampler_init(struct sampler *s, const struct job *job, const str
 MUST_USE status sampler_fill(struct sampler *s, const struct job_paint *paint, size_t n);
 void sampler_deinit(struct sampler *s);
 
+/* Is there rock, and unless it `floats` on the ground? E_USAGE if not. */
+MUST_USE status sampler_check(const struct sampler *s, bool floats);
+
 /* Where a voxel's particle sits: its middle and a jitter that depends on the seed and the voxel alone. */
 void sampler_place(const struct sampler *s, const int voxel[3], float P[4]);
 

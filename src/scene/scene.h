@@ -81,10 +81,13 @@ MUST_USE status scene_edit(const struct job *job, const struct job_edit *edit, u
 /* Reads every file and makes every shape of the edits after `frame`, so that what is wrong is said now. */
 MUST_USE status scene_edits_check(const struct job *job, int frame);
 
-/* About how many particles scene_sample() and the edits will make, how many of them are at the surface, and at how many
- * ends their rows along x have, from a quarter of a million voxels of each. */
+/* About how many particles scene_sample() and the edits will make, how many of them are at the surface, how many within SCENE_NEAR
+ * voxels of it, and at how many ends their rows along x have, from a quarter of a million voxels of each. */
+enum { SCENE_NEAR = 8 };
 struct scene_size {
-    size_t n_particles, n_surface, n_ends;
+    size_t n_particles, n_surface, n_near, n_ends;
+    size_t
+        n_kept; /* of the particles, those that a run keeps at all: n_particles unless its model says otherwise */
     size_t n_points;
     float (*point)[3]; /* m: those of the looked-at voxels that are rock, in any order; freed with free() */
 };
