@@ -8,7 +8,9 @@ bool stands(ivec3 v)
     if (!voxel_inside(v))
         return false;
     uint s = voxel_slot(v), ground = voxel_rank(ivec3(0, 0, 1));
-    return s != NOT_HELD && LOAD_U(solid, s) != 0u && LOAD_U(root, s) < ground;
+    if (s == NOT_HELD)
+        return voxel_deep(v); // what does not stand is not left deep
+    return LOAD_U(solid, s) != 0u && LOAD_U(root, s) < ground;
 }
 
 bool holds(ivec3 v)

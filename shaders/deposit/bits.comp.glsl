@@ -21,7 +21,9 @@ void main()
         return;
     uint x = i % k.nx, y = (i / k.nx) % k.ny, z = i / (k.nx * k.ny) * 32u, word = 0u;
     for (uint b = 0u; b < 32u && z + b < k.nz; b++) {
-        uvec2 in_voxel = voxel_particles(ivec3(x, y, z + b));
+        ivec3 v = ivec3(x, y, z + b);
+        uvec2 in_voxel = voxel_particles(v);
+        word |= voxel_deep(v) ? 1u << b : 0u;
         for (uint j = in_voxel.x; j < in_voxel.y; j++)
             if (LOAD_U(crumb, j) == 0u)
                 word |= 1u << b;

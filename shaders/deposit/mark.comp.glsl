@@ -20,7 +20,7 @@ PARAMS(deposit_params)
 uint inside(ivec3 v)
 {
     uvec2 in_voxel = voxel_particles(v);
-    uint most = 0u;
+    uint most = voxel_deep(v) ? 2u : 0u;
     for (uint j = in_voxel.x; j < in_voxel.y; j++)
         if (LOAD_F(viability, j) > 0.0)
             most = max(most, LOAD_U(phase, j) == 1u ? 1u : 2u);

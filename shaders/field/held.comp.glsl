@@ -1,16 +1,27 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which bricks are kept: those with samples FIELD_REACH or nearer to anything. Farther off the share is 0 and the distance that of
-// the band's end: the share is of neighbours, the surface lies between those, and the band is 3 wide from there.
+// Which bricks are kept: those with samples FIELD_REACH or nearer both to rock and to what is not all rock. Farther off the share
+// is 0 or 1 and the distance that of one of the band's ends: the share is of neighbours, the surface lies between those, and the
+// band is 3 wide from there. Those that are not kept get their slots, for they are all outside or all inside.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, extent)
-WRITE_U(1, held)
+READ_U(0, rock)
+READ_U(1, bare)
+WRITE_U(2, held)
+WRITE_U(3, slot)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 
 const int FIELD_REACH = 5;
+
+// Does what has this extent in the brick that begins at `first` come near the one that begins at `own`?
+bool comes_near(uint e, ivec3 first, ivec3 own)
+{
+    ivec3 low = first + ivec3(e & 7u, (e >> 3) & 7u, (e >> 6) & 7u) - FIELD_REACH;
+    ivec3 high = first + ivec3((e >> 9) & 7u, (e >> 12) & 7u, (e >> 15) & 7u) + FIELD_REACH;
+    return e != 0u && all(lessThanEqual(low, own + 7)) && all(greaterThanEqual(high, own));
+}
 
 void main()
 {
@@ -19,15 +30,15 @@ void main()
         return;
     ivec3 own = brick_first(brick), last = ivec3(bricks_across()) - 1;
     ivec3 from = max((own >> 3) - 1, ivec3(0)), to = min((own >> 3) + 1, last);
-    bool near = false;
+    // Beyond the lattice nothing is rock.
+    bool near_rock = false, near_bare = any(equal(own >> 3, ivec3(0))) || any(equal(own >> 3, last));
     for (int z = from.z; z <= to.z; z++)
         for (int y = from.y; y <= to.y; y++)
             for (int x = from.x; x <= to.x; x++) {
                 ivec3 first = ivec3(x, y, z) << 3;
-                uint e = LOAD_U(extent, brick_of(first));
-                ivec3 low = first + ivec3(e & 7u, (e >> 3) & 7u, (e >> 6) & 7u) - FIELD_REACH;
-                ivec3 high = first + ivec3((e >> 9) & 7u, (e >> 12) & 7u, (e >> 15) & 7u) + FIELD_REACH;
-                near = near || (e != 0u && all(lessThanEqual(low, own + 7)) && all(greaterThanEqual(high, own)));
+                near_rock = near_rock || comes_near(LOAD_U(rock, brick_of(first)), first, own);
+                near_bare = near_bare || comes_near(LOAD_U(bare, brick_of(first)), first, own);
             }
-    AT(held, brick) = near ? 1u : 0u;
+    AT(held, brick) = near_rock && near_bare ? 1u : 0u;
+    AT(slot, brick) = near_rock && !near_bare ? SLOT_INSIDE : 0u;
 }

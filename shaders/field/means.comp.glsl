@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the rock around a sample carries: means of stress, von Mises stress and viability, and the share of
-// deposits, over the particles
-// of the sample's voxel and its neighbours, weighted as in the rock's share; 0 where there are none.
+// What the rock around a sample carries: means of stress, von Mises stress and viability, and the share of deposits, over the
+// particles of the sample's voxel and its neighbours, weighted as in the rock's share; 0 where there are none. Farther than
+// NEAR_REACH voxels from an empty one there need not be any: no stress is shown there, and of the rest the voxel's own.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -14,7 +14,8 @@ READ_F(4, viability)
 READ_U(5, phase)
 READ_U(6, list)
 READ_F(7, share)
-WRITE_V(8, means)
+READ_U(8, near)
+WRITE_V(9, means)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
@@ -24,6 +25,11 @@ PARAMS(field_params)
 
 vec4 sum = vec4(0.0);
 float weights = 0.0;
+
+bool is_near(ivec3 v)
+{
+    return !voxel_inside(v) || (LOAD_U(near, voxel_word(v)) & voxel_bit(v)) != 0u;
+}
 
 void add(ivec3 v, float weight)
 {
@@ -38,12 +44,27 @@ void add(ivec3 v, float weight)
 }
 #include "field/around.glsl"
 
+void add_deep()
+{
+    sum.z = 1.0;
+    weights = 1.0;
+}
+
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    if (LOAD_F(share, i) > 0.0)
-        add_around(brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES) - int(k.margin));
-    AT(means, i) = weights > 0.0 ? sum / weights : vec4(0.0);
+    ivec3 v = brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES) - int(k.margin);
+    bool all_around = is_near(v);
+    if (LOAD_F(share, i) > 0.0) {
+        if (all_around)
+            add_around(v);
+        else if (voxel_deep(v))
+            add_deep();
+        else
+            add(v, 1.0);
+    }
+    vec4 mean = weights > 0.0 ? sum / weights : vec4(0.0);
+    AT(means, i) = all_around ? mean : vec4(0.0, 0.0, mean.zw);
 }

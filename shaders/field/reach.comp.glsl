@@ -1,13 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where in each brick there is rock: the corners of the box of its samples that are not 0, three bits a number, and EXTENT_ANY; 0
-// where there is none. The voxels, k.nx by k.ny by k.nz, begin at the field's sample k.margin.
+// Where in each brick there is rock, and where there is not: the corners of the box of its samples of which more than 0 is rock,
+// three bits a number, and EXTENT_ANY, 0 where there are none; and of those of which less than all is. The voxels, k.nx by k.ny by
+// k.nz, begin at the field's sample k.margin.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, words)
 READ_F(1, fill)
-WRITE_U(2, extent)
+WRITE_U(2, rock)
+WRITE_U(3, bare)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
@@ -15,18 +17,8 @@ PARAMS(field_params)
 #include "particles/held.glsl"
 #include "particles/fill.glsl"
 
-uint extent_of(uint brick)
+uint extent(ivec3 low, ivec3 high)
 {
-    ivec3 first = brick_first(brick), low = ivec3(8), high = ivec3(-1);
-    ivec3 from = max(first - int(k.margin), ivec3(0)), to = min(first - int(k.margin) + 7, ivec3(k.nx, k.ny, k.nz) - 1);
-    for (int z = from.z; z <= to.z; z++)
-        for (int y = from.y; y <= to.y; y++)
-            for (int x = from.x; x <= to.x; x++)
-                if (fill_at(ivec3(x, y, z)) > 0.0) {
-                    ivec3 c = ivec3(x, y, z) + int(k.margin) - first;
-                    low = min(low, c);
-                    high = max(high, c);
-                }
     return high.x < 0 ? 0u
                       : EXTENT_ANY | uint(low.x | (low.y << 3) | (low.z << 6) | (high.x << 9) | (high.y << 12) |
                                           (high.z << 15));
@@ -35,6 +27,24 @@ uint extent_of(uint brick)
 void main()
 {
     uint brick = THREAD;
-    if (brick < k.n)
-        AT(extent, brick) = extent_of(brick);
+    if (brick >= k.n)
+        return;
+    ivec3 first = brick_first(brick) - int(k.margin);
+    ivec3 rock_low = ivec3(8), rock_high = ivec3(-1), bare_low = ivec3(8), bare_high = ivec3(-1);
+    for (int z = 0; z < 8; z++)
+        for (int y = 0; y < 8; y++)
+            for (int x = 0; x < 8; x++) {
+                ivec3 c = ivec3(x, y, z);
+                float share = fill_at(first + c);
+                if (share > 0.0) {
+                    rock_low = min(rock_low, c);
+                    rock_high = max(rock_high, c);
+                }
+                if (share < 1.0) {
+                    bare_low = min(bare_low, c);
+                    bare_high = max(bare_high, c);
+                }
+            }
+    AT(rock, brick) = extent(rock_low, rock_high);
+    AT(bare, brick) = extent(bare_low, bare_high);
 }

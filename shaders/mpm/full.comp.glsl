@@ -14,8 +14,8 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint full_bits = 0u, s = LOAD_U(words, 2u * i + 1u);
-    for (uint bits = LOAD_U(words, 2u * i); bits != 0u; bits &= bits - 1u)
+    uint full_bits = LOAD_U(words, HELD_STRIDE * i + 2u), s = LOAD_U(words, HELD_STRIDE * i + 1u);
+    for (uint bits = LOAD_U(words, HELD_STRIDE * i); bits != 0u; bits &= bits - 1u)
         if (LOAD_F(fill, s++) > 0.5)
             full_bits |= bits & (~bits + 1u);
     AT(full, i) = full_bits;

@@ -6,6 +6,8 @@ float fill_at(ivec3 v)
 #ifdef GROUND_IS_ROCK
     v.z = max(v.z, 0);
 #endif
-    uint s = voxel_inside(v) ? voxel_slot(v) : NOT_HELD;
-    return s == NOT_HELD ? 0.0 : LOAD_F(fill, s);
+    if (!voxel_inside(v))
+        return 0.0;
+    uint s = voxel_slot(v);
+    return s != NOT_HELD ? LOAD_F(fill, s) : voxel_deep(v) ? 1.0 : 0.0;
 }

@@ -1,18 +1,25 @@
-// What there is of a voxel is kept only for some of them: those are held. `words` has two words for each word of bits, the bits
-// of held voxels and how many are held before them, and two more at the end. A held voxel's place among them, its slot, is its
-// place in buffers of voxels; so slots ascend as voxels do. Needs READ_U(words) and particles/bits.glsl.
+// What there is of a voxel is kept only for some of them: those are held. `words` has HELD_STRIDE words for each word of bits: the
+// bits of held voxels, how many are held before them, and the bits of deep ones, which are whole rock without a particle; and as
+// many more at the end. A held voxel's place among them, its slot, is its place in buffers of voxels; so slots ascend as voxels
+// do. Needs READ_U(words) and particles/bits.glsl.
 
 const uint NOT_HELD = 0xffffffffu;
 
 // How many voxels are held before this one, which may be one past the end of its row.
 uint voxel_rank(ivec3 v)
 {
-    uint w = 2u * voxel_word(v);
+    uint w = HELD_STRIDE * voxel_word(v);
     return LOAD_U(words, w + 1u) + uint(bitCount(LOAD_U(words, w) & (voxel_bit(v) - 1u)));
 }
 
 uint voxel_slot(ivec3 v)
 {
-    uint w = 2u * voxel_word(v), bits = LOAD_U(words, w), own = voxel_bit(v);
+    uint w = HELD_STRIDE * voxel_word(v), bits = LOAD_U(words, w), own = voxel_bit(v);
     return (bits & own) == 0u ? NOT_HELD : LOAD_U(words, w + 1u) + uint(bitCount(bits & (own - 1u)));
+}
+
+// Is it rock that no weather has come near, which has no particle yet? Of a voxel of the domain.
+bool voxel_deep(ivec3 v)
+{
+    return (LOAD_U(words, HELD_STRIDE * voxel_word(v) + 2u) & voxel_bit(v)) != 0u;
 }

@@ -1,13 +1,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which voxels are held: those that have particles, and with k.around those around them too. Their bits, and the number of
-// them; of the word after the last there are none.
+// Which voxels are held: those that have particles, and with k.around those around occupied ones too; never deep ones, which
+// are occupied by rock that has no particles. Their bits, and the number of them; of the word after the last there are none.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, occupied)
-WRITE_U(1, words)
-WRITE_U(2, count)
+READ_U(1, deep)
+WRITE_U(2, words)
+WRITE_U(3, count)
 PARAMS(hold_params)
 #include "particles/bits.glsl"
 
@@ -36,9 +37,12 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint bits = 0u;
-    if (i + 1u < k.n)
-        bits = k.around != 0u ? around(voxel_at(32u * i)) : LOAD_U(occupied, i);
-    AT(words, 2u * i) = bits;
+    uint bits = 0u, inside = 0u;
+    if (i + 1u < k.n) {
+        inside = LOAD_U(deep, i);
+        bits = (k.around != 0u ? around(voxel_at(32u * i)) : LOAD_U(occupied, i)) & ~inside;
+    }
+    AT(words, HELD_STRIDE * i) = bits;
+    AT(words, HELD_STRIDE * i + 2u) = inside;
     AT(count, i) = uint(bitCount(bits));
 }

@@ -13,7 +13,7 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint slot = LOAD_U(words, 2u * i + 1u);
-    for (uint bits = LOAD_U(words, 2u * i); bits != 0u; bits &= bits - 1u)
+    uint slot = LOAD_U(words, HELD_STRIDE * i + 1u);
+    for (uint bits = LOAD_U(words, HELD_STRIDE * i); bits != 0u; bits &= bits - 1u)
         AT(list, slot++) = 32u * i + uint(findLSB(bits));
 }

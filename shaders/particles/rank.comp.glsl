@@ -12,5 +12,5 @@ void main()
 {
     uint i = THREAD;
     if (i < k.n)
-        AT(words, 2u * i + 1u) = LOAD_U(before, i);
+        AT(words, HELD_STRIDE * i + 1u) = LOAD_U(before, i);
 }

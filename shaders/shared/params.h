@@ -65,12 +65,37 @@ struct crumble_params {
 };
 SHARED_SIZE(crumble_params, 24)
 
+/* Words for each word of bits in held voxels' `words` (particles/held.glsl). */
+#define HELD_STRIDE 3u
+
 struct hold_params {
     uint n; /* words of bits, and one */
     uint nx, ny, nz;
     uint around; /* 1: the voxels around occupied ones are held too */
 };
 SHARED_SIZE(hold_params, 20)
+
+/* Rock within NEAR_REACH voxels of an empty one, on every axis, always has particles, and so have its neighbours: nothing that
+ * happens at the surface or is shown of it looks at others. Where a voxel without comes that near, NEAR_AHEAD more layers get
+ * theirs as well, so that it is not asked for in every step. */
+#define NEAR_REACH 4u
+#define NEAR_AHEAD 3u
+
+/* Runs of deep voxels among the nodes of blocks. */
+struct runs_params {
+    uint n; /* words of bits, and one where runs are counted */
+    uint nx, ny, nz;
+    uint slots; /* held voxels, whose nodes come first */
+};
+SHARED_SIZE(runs_params, 20)
+
+/* One axis of the search for voxels near the rock's surface. */
+struct near_params {
+    uint n; /* words of bits */
+    uint nx, ny, nz;
+    uint axis, reach; /* 0 to 2; voxels, at most 31 */
+};
+SHARED_SIZE(near_params, 24)
 
 #define PHASE_ROCK 0u
 #define PHASE_DEPOSIT 1u
@@ -161,6 +186,7 @@ SHARED_SIZE(erosion_params, 24)
 #define COUNT_FALLEN 1u
 #define COUNT_CHANGED 2u
 #define COUNT_FASTEST 3u
+#define COUNT_BORN 4u
 
 /* The budget of a frame: a row for each process (enum process in job/job.h), a sum of two words for each of the
  * lanes. */

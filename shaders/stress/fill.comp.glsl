@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each kept cell's share of rock: the viability of the particles in its eight voxels, over eight.
+// Each kept cell's share of rock: the viability of the particles in its eight voxels, deep ones being whole, over eight.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -17,6 +17,17 @@ PARAMS(stress_params)
 #include "particles/held.glsl"
 #include "particles/within.glsl"
 
+float rock_in(ivec3 v)
+{
+    if (voxel_deep(v))
+        return 1.0;
+    float sum = 0.0;
+    uvec2 in_voxel = voxel_particles(v);
+    for (uint j = in_voxel.x; j < in_voxel.y; j++)
+        sum += LOAD_F(viability, j);
+    return sum;
+}
+
 void main()
 {
     uint i = THREAD;
@@ -28,9 +39,8 @@ void main()
     if (own != STRESS_NO_RUN && all(greaterThanEqual(c, ivec3(1))) && all(lessThan(c, cells - 1)))
         for (int b = 0; b < 4; b++) {
             ivec3 v = 2 * (c - 1) + ivec3(0, b & 1, b >> 1);
-            uvec2 row = row_particles(v.x, v.x + 1, v.y, v.z);
-            for (uint j = row.x; j < row.y; j++)
-                sum += LOAD_F(viability, j);
+            for (int x = v.x; x <= v.x + 1; x++)
+                sum += rock_in(ivec3(x, v.yz));
         }
     AT(fill, i) = min(sum / 8.0, 1.0);
 }

@@ -5,13 +5,15 @@ uint64_t blocks_bytes(size_t n)
     return (uint64_t)n * 12;
 }
 
-/* For so many held voxels: what is in the buffers is lost where they are too small. */
+/* For so many nodes: what is in the buffers is lost where they are too small. */
 static status keep(struct gpu *gpu, struct blocks *b, size_t n)
 {
     status st = OK;
     if (b->solid && gpu_buffer_count(b->solid) >= n)
         return OK;
-    blocks_destroy(gpu, b);
+    gpu_buffer_destroy(gpu, &b->solid);
+    gpu_buffer_destroy(gpu, &b->pointer);
+    gpu_buffer_destroy(gpu, &b->other);
     TRY(gpu_buffer_create(gpu, "solid voxels", n, 4, &b->solid));
     TRY(gpu_buffer_create(gpu, "block pointers", n, 4, &b->pointer));
     TRY(gpu_buffer_create(gpu, "block pointers (other)", n, 4, &b->other));
@@ -35,37 +37,73 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b)
     gpu_buffer_destroy(gpu, &b->solid);
     gpu_buffer_destroy(gpu, &b->pointer);
     gpu_buffer_destroy(gpu, &b->other);
+    gpu_buffer_destroy(gpu, &b->first);
 }
 
-status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct held_voxels *h)
+/* Pointers to roots. `runs`: NULL where there are none. */
+static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct held_voxels *h,
+                   const struct runs_params *runs, size_t n_runs)
 {
     status st = OK;
-    const size_t n = h->n;
+    const size_t n = h->n + n_runs;
     const struct voxel_params k = {
-        .n = (uint)n, .nx = (uint)h->voxels[0], .ny = (uint)h->voxels[1], .nz = (uint)h->voxels[2]};
+        .n = (uint)h->n, .nx = (uint)h->voxels[0], .ny = (uint)h->voxels[1], .nz = (uint)h->voxels[2]};
     struct gpu_buffer *counts = gpu_work_words(work);
-    uint32_t changed = n > 0;
-    if (n == 0)
+    uint32_t changed = h->n > 0;
+    if (h->n == 0)
         return OK;
-    GPU_RUN(gpu, blocks_below, n, k, h->words, h->list, b->solid, b->pointer);
+    if (runs) {
+        const struct count_params all = {(uint)n};
+        GPU_RUN(gpu, gpu_iota, n, all, b->pointer);
+    }
+    GPU_RUN(gpu, blocks_below, h->n, k, h->words, h->list, b->solid, b->pointer);
     while (changed) {
         TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
         gpu_fill(gpu, counts, 0);
         gpu_copy(gpu, b->other, b->pointer, n);
-        GPU_RUN(gpu, blocks_join, n, k, h->words, h->list, b->solid, b->other, b->pointer, counts);
+        GPU_RUN(gpu, blocks_join, h->n, k, h->words, h->list, b->solid, b->other, b->pointer, counts);
+        if (runs)
+            GPU_RUN(gpu, blocks_join_runs, runs->n, *runs, h->deep, b->first, h->words, b->solid, b->other,
+                    b->pointer, counts);
         TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
     }
 done:
     return st;
 }
 
-/* What stands on the ground, of the particles as they are. Waits. */
-static status find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p)
+status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct held_voxels *h)
+{
+    return join(gpu, work, b, h, NULL, 0);
+}
+
+/* Numbers the runs. */
+static status count_runs(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct particles *p,
+                         struct runs_params *k, size_t *n)
 {
     status st = OK;
+    const size_t words = held_words(p->voxels);
+    uint32_t found;
+    *k = (struct runs_params){.n = (uint)words + 1,
+                              .nx = (uint)p->voxels[0],
+                              .ny = (uint)p->voxels[1],
+                              .nz = (uint)p->voxels[2],
+                              .slots = (uint)p->held.n};
+    if (!b->first)
+        TRY(gpu_buffer_create(gpu, "runs of deep voxels", words + 1, 4, &b->first));
+    GPU_RUN(gpu, blocks_count_runs, k->n, *k, p->held.deep, b->first);
+    gpu_scan(gpu, work, b->first, words + 1);
+    TRY(gpu_download(gpu, b->first, words, &found, 1));
+    k->n = (uint)words;
+    *n = found;
+done:
+    return st;
+}
+
+/* Which held voxels are solid. */
+static void find_solid(struct gpu *gpu, struct blocks *b, struct particles *p)
+{
     const size_t n = p->held.n;
     const struct voxel_params k = particles_params(p, n);
-    TRY(keep(gpu, b, n));
     particles_fill(gpu, p);
     GPU_RUN(gpu, blocks_solid, n, k, p->held.words, p->held.list, p->fill, b->solid);
     if (b->rubble) {
@@ -73,7 +111,30 @@ static status find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
                 b->other);
         gpu_copy(gpu, b->solid, b->other, n);
     }
-    TRY(blocks_join(gpu, work, b, &p->held));
+}
+
+status blocks_find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
+                   size_t *n_cut)
+{
+    status st = OK;
+    struct runs_params runs;
+    size_t n_runs = 0;
+    uint32_t cut;
+    struct gpu_buffer *counts = gpu_work_words(work);
+    *n_cut = 0;
+    if (p->n_deep)
+        TRY(count_runs(gpu, work, b, p, &runs, &n_runs));
+    TRY(keep(gpu, b, p->held.n + n_runs));
+    find_solid(gpu, b, p);
+    TRY(join(gpu, work, b, &p->held, p->n_deep ? &runs : NULL, n_runs));
+    if (p->n_deep == 0)
+        return OK;
+    gpu_fill(gpu, counts, 0);
+    GPU_RUN(gpu, blocks_cut_runs, runs.n, runs, p->held.deep, b->first, p->held.words, b->pointer, p->born,
+            counts);
+    TRY(gpu_download(gpu, counts, COUNT_BORN, &cut, 1));
+    gpu_fill(gpu, counts, 0);
+    *n_cut = cut;
 done:
     return st;
 }
@@ -83,7 +144,6 @@ status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, st
 {
     status st = OK;
     struct gpu_buffer *counts = gpu_work_words(work);
-    TRY(find(gpu, work, b, p));
     struct crumble_params k = {
         .n = (uint)p->n, .nx = (uint)p->voxels[0], .ny = (uint)p->voxels[1], .nz = (uint)p->voxels[2]};
     k.h = (float)p->h;
@@ -108,7 +168,7 @@ status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
     status st = OK;
     struct voxel_params k = particles_params(p, p->n);
     struct gpu_buffer *counts = gpu_work_words(work);
-    TRY(find(gpu, work, b, p));
+    gpu_fill(gpu, counts, 0);
     GPU_RUN(gpu, blocks_fall, p->n, k, p->field[ROCK_P], b->solid, b->pointer, p->start, p->field[ROCK_phase],
             p->field[ROCK_viability], counts, p->held.words);
     TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_fallen, 1));

@@ -9,12 +9,15 @@
 
 #include "gpu/gpu.h"
 #include "gpu/primitives.h"
-#include "particles/particles.h"
+#include "particles/deep.h"
 
 struct blocks {
-    struct gpu_buffer *solid;           /* uint [held voxels]: 1 inside the surface */
-    struct gpu_buffer *pointer, *other; /* uint [held voxels]: towards a block's lowest voxel, as slots */
-    bool rubble;                        /* may there be any? It rests on what lies below, across small gaps */
+    struct gpu_buffer *solid; /* uint [held voxels]: 1 inside the surface */
+    /* uint [held voxels, then runs along x of deep ones]: towards a block's lowest held voxel, as slots */
+    struct gpu_buffer *pointer, *other;
+    struct gpu_buffer
+        *first;  /* uint [held_words() + 1]: runs of deep voxels before; NULL while there never were any */
+    bool rubble; /* may there be any? It rests on what lies below, across small gaps */
 };
 
 /* Bytes on the device where n voxels are held. */
@@ -29,13 +32,18 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b);
 MUST_USE status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b,
                             const struct held_voxels *held);
 
-/* Lists unsupported particles in p->surface, ascending, of blocks that have `least` particles or more; of smaller ones it
- * takes the viability and counts the particles, which are not yet removed. What erosion left nothing of is neither. The
- * surface is to be found anew after this. Waits. */
+/* What stands on the ground, of the rock as it is. If *n_cut is not 0 there are deep voxels that do not: their particles are due,
+ * their bits are in p->born, and once they have come it is to be asked again. Waits. */
+MUST_USE status blocks_find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
+                            size_t *n_cut);
+
+/* Of what blocks_find() has found: lists unsupported particles in p->surface, ascending, of blocks that have `least`
+ * particles or more; of smaller ones it takes the viability and counts the particles, which are not yet removed. What
+ * erosion left nothing of is neither. The surface is to be found anew after this. Waits. */
 MUST_USE status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
                              size_t least, uint32_t *n_crumbs, size_t *n);
 
-/* Takes the viability of unsupported particles and counts them; they are not yet removed. Waits. */
+/* Likewise: takes the viability of unsupported particles and counts them; they are not yet removed. Waits. */
 MUST_USE status blocks_fall(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
                             uint32_t *n_fallen);
 

@@ -1,5 +1,7 @@
 #include "field/field.h"
 
+#include "particles/deep.h"
+
 static struct field geometry(const int voxels[3], double h)
 {
     struct field f = {.voxel = h};
@@ -98,7 +100,6 @@ int field_mean(enum value_id value)
 status field_keep(struct gpu *gpu, struct field *f, size_t n)
 {
     status st = OK;
-    const struct count_params k = {(uint)n};
     if (n > f->room || f->room == 0) {
         const size_t room = room_for(f, n), samples = room * BRICK_SAMPLES;
         destroy_samples(gpu, f);
@@ -109,9 +110,6 @@ status field_keep(struct gpu *gpu, struct field *f, size_t n)
         f->room = room;
     }
     f->n_bricks = n;
-    gpu_fill(gpu, f->slot, 0);
-    if (n)
-        GPU_RUN(gpu, field_slots, n, k, f->list, f->slot);
 done:
     return st;
 }
@@ -130,16 +128,20 @@ static struct field_params extent_params(const struct field *f, const int n[3], 
                                  .margin = (uint)margin};
 }
 
-/* The bricks near what is in f->place, each brick's extent. */
+/* The bricks near the surface, which is between what is rock and what is not all rock: each brick's extents of both are in f->place
+ * and f->list. */
 static status choose(struct gpu *gpu, struct gpu_work *work, struct field *f)
 {
     status st = OK;
     size_t count;
     const size_t all = all_bricks(f);
     const struct field_params k = extent_params(f, f->n, 0);
-    GPU_RUN(gpu, field_held, k.n, k, f->place, f->held);
+    GPU_RUN(gpu, field_held, k.n, k, f->place, f->list, f->held, f->slot);
     TRY(gpu_compact(gpu, work, f->held, f->place, f->list, all, &count));
     TRY(field_keep(gpu, f, count));
+    const struct count_params each = {(uint)count};
+    if (count)
+        GPU_RUN(gpu, field_slots, each.n, each, f->list, f->slot);
 done:
     return st;
 }
@@ -152,9 +154,10 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
     struct field_params k = params_of(f, p);
     if (k.n == 0)
         return;
+    particles_near(gpu, p, NEAR_REACH);
     GPU_RUN(gpu, field_means, k.n, k, p->held.words, p->start, p->field[ROCK_stress],
             p->field[ROCK_von_mises], p->field[ROCK_viability], p->field[ROCK_phase], f->list, f->share,
-            f->means);
+            p->near, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->list, f->slot, f->share, f->distance);
     /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
@@ -168,7 +171,7 @@ status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, stru
     status st = OK;
     particles_fill(gpu, p);
     const struct field_params rock = extent_params(f, p->voxels, FIELD_MARGIN);
-    GPU_RUN(gpu, field_reach, rock.n, rock, p->held.words, p->fill, f->place);
+    GPU_RUN(gpu, field_reach, rock.n, rock, p->held.words, p->fill, f->place, f->list);
     TRY(choose(gpu, work, f));
     const struct field_params k = params_of(f, p);
     if (k.n)

@@ -56,7 +56,7 @@ MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct parti
  * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
 MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);
 
-/* Room on the device for the list's n bricks, which are in their slots then. What was in the samples is lost where there was less
+/* Room on the device for n bricks. What was in the samples is lost where there was less
  * room. */
 MUST_USE status field_keep(struct gpu *gpu, struct field *f, size_t n);
 

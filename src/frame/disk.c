@@ -36,7 +36,7 @@ static double volumes_bytes(const struct job *job, const struct scene_size *size
     /* Measured with this many grids: each further one holds a tenth of what the surface takes. */
     enum { MEASURED = 5 };
     const double further = 0.1 * ((double)value_grids(HAS_ALWAYS | p->has) - MEASURED);
-    return ((double)size->n_particles * p->volumes_inside +
+    return ((double)size->n_near * p->volumes_inside +
             (double)size->n_surface * (p->volumes_bare * (1 + further))) *
            codec[vdb->codec] * (vdb->half ? 0.75 : 1);
 }

@@ -11,12 +11,12 @@ uint64_t host_rock_bytes(size_t n)
     return bytes;
 }
 
-/* How thick a layer of air bricks take with them: the band around the surface, and half a brick. */
+/* How thick a layer of air and of rock bricks take with them: the band around the surface, and half a brick. */
 enum { AIR = GRID_BAND + BRICK_SIDE / 2 };
 
 uint64_t host_grid_samples(const int voxels[3], uint64_t rock, uint64_t bare)
 {
-    const uint64_t kept = rock + AIR * bare;
+    const uint64_t kept = (rock < AIR * bare ? rock : AIR * bare) + AIR * bare;
     int samples[3], bricks[3];
     for (int a = 0; a < 3; a++)
         samples[a] = voxels[a] + 2 * FIELD_MARGIN;
@@ -52,10 +52,10 @@ static uint64_t writing(const struct job *job, const struct scene_size *size, co
 uint64_t host_frame_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
                           uint64_t own)
 {
+    const uint64_t n = job->output.vdb.points == VDB_POINTS_ALL ? size->n_particles : size->n_kept;
     const bool moves = job->clock.seconds_per_frame > 0 || job->collapse.blocks == COLLAPSE_FALL;
-    return host_rock_bytes(size->n_particles) + (moves ? 16 * size->n_particles : 0) +
-           value_grids(HAS_ALWAYS) * samples * sizeof(float) + own +
-           aov_picture_bytes(job) * job->output.aov.n_cameras;
+    return host_rock_bytes(n) + (moves ? 16 * n : 0) + value_grids(HAS_ALWAYS) * samples * sizeof(float) +
+           own + aov_picture_bytes(job) * job->output.aov.n_cameras;
 }
 
 uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,

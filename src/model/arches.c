@@ -339,7 +339,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
     /* The surface's voxels, about: caves and walls as much again as the ground, three voxels thick; the sides. */
     needs->size.n_particles = 6 * (size_t)n[0] * (size_t)n[1] + 2 * (size_t)(n[0] + n[1]) * (size_t)n[2];
     /* The surface alone, on a lattice. */
-    needs->size.n_surface = needs->size.n_particles;
+    needs->size.n_surface = needs->size.n_near = needs->size.n_kept = needs->room = needs->size.n_particles;
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
     needs->samples = host_grid_samples(n, 0, needs->size.n_surface);
     needs->frame_bytes = value_grids(HAS_TERRAIN) * needs->samples * sizeof(float);

@@ -21,6 +21,7 @@
 #include "base/memory.h"
 #include "frame/rocks.h"
 #include "model/air.h"
+#include "model/arenite_deep.h"
 #include "model/edits.h"
 #include "plants/plants.h"
 
@@ -40,7 +41,7 @@ status arenite_count(struct arenite *a)
     if (a->deposits)
         TRY(deposit_count(a->m.gpu, a->m.work, &a->particles, &n_deposits));
     a->m.ledger.deposit = n_deposits;
-    a->m.ledger.rock = a->particles.n - n_deposits;
+    a->m.ledger.rock = a->particles.n + a->particles.n_deep - n_deposits;
 done:
     return st;
 }
@@ -82,6 +83,20 @@ done:
     return st;
 }
 
+/* What stands on the ground. What does not has all of its particles after this; what has eroded is still among them. */
+static status find_blocks(struct arenite *a)
+{
+    status st = OK;
+    size_t n_cut;
+    TRY(blocks_find(a->m.gpu, a->m.work, &a->blocks, &a->particles, &n_cut));
+    if (n_cut) {
+        TRY(arenite_bear_cut(a));
+        TRY(blocks_find(a->m.gpu, a->m.work, &a->blocks, &a->particles, &n_cut));
+    }
+done:
+    return st;
+}
+
 /* What breaks off and is too small to fall as a block goes the way of what eroded. */
 static status crumble(struct arenite *a, uint32_t *n_eroded)
 {
@@ -91,6 +106,7 @@ static status crumble(struct arenite *a, uint32_t *n_eroded)
     if (!a->collapse.falls || *n_eroded == 0)
         return OK;
     gpu_stage(a->m.gpu, "blocks");
+    TRY(find_blocks(a));
     weigh(a, PROCESS_BLOCKS, false);
     TRY(collapse_crumble(a->m.gpu, a->m.work, &a->collapse, &a->blocks, &a->particles, &n_crumbs, &n_loose));
     weigh(a, PROCESS_BLOCKS, true);
@@ -104,6 +120,7 @@ status arenite_unsupported(struct arenite *a)
     status st = OK;
     uint32_t n_fallen = 0;
     gpu_stage(a->m.gpu, "blocks");
+    TRY(find_blocks(a));
     weigh(a, PROCESS_BLOCKS, false);
     if (a->collapse.falls) {
         TRY(collapse_blocks(a->m.gpu, a->m.work, &a->collapse, &a->blocks, &a->particles, &a->m.ledger));
@@ -153,6 +170,7 @@ status arenite_settle(struct arenite *a, bool solved)
 {
     status st = OK;
     gpu_stage(a->m.gpu, "surface");
+    TRY(arenite_bear_near(a));
     TRY(particles_surface(a->m.gpu, a->m.work, &a->particles));
     gpu_stage(a->m.gpu, "stress");
     if (!arenite_rests(a->m.job))
@@ -228,6 +246,7 @@ static status edit(struct arenite *a)
             TRY(particles_hold_around(a->m.gpu, a->m.work, &a->particles));
     }
     if (kind == EDITS_ROCK) {
+        TRY(arenite_bear_all(a));
         weigh(a, PROCESS_EDITS, false);
         TRY(particles_download(a->m.gpu, &a->particles, STATE, &rock));
         TRY(edits_apply(a->m.whole, a->m.frame, &rock, &a->m.ledger, &a->m.start_volume));
@@ -317,11 +336,12 @@ done:
 
 /* ---- what a frame shows */
 
-/* Volume and largest stress, of all n particles. */
+/* Volume, and the largest stress at the surface. */
 static status measure(const struct arenite *a, const float *stress, const float *viability, struct frame *out)
 {
     status st = OK;
     const struct particles *p = &a->particles;
+    uint32_t *surface = NULL;
     double most = 0;
     for (size_t i = 0; i < p->n; i++) {
         if (!isfinite(stress[i]) || !isfinite(viability[i])) {
@@ -332,11 +352,15 @@ static status measure(const struct arenite *a, const float *stress, const float 
                       a->m.frame, (unsigned)id, (double)stress[i], (double)viability[i]);
             goto done;
         }
-        most = fmax(most, fabs((double)stress[i]));
     }
-    out->volume_m3 = model_sum(viability, p->n) * pow(a->m.h, 3);
+    TRY(memory_alloc(p->n_surface, sizeof *surface, "the surface", &surface));
+    TRY(gpu_download(a->m.gpu, p->surface, 0, surface, p->n_surface));
+    for (size_t i = 0; i < p->n_surface; i++)
+        most = fmax(most, fabs((double)stress[surface[i]]));
+    out->volume_m3 = (model_sum(viability, p->n) + (double)p->n_deep) * pow(a->m.h, 3);
     out->max_stress_Pa = most;
 done:
+    free(surface);
     return st;
 }
 
@@ -389,7 +413,7 @@ static status output(struct model *m, struct frame *out)
     if (wants.volumes || wants.pictures)
         TRY(field_build(m->gpu, m->work, &m->field, &a->particles));
     if (wants.points || (wants.volumes && a->tile.n)) {
-        TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
+        TRY(arenite_show_rock(a, wants.points && m->whole->output.vdb.points == VDB_POINTS_ALL, &out->rock));
         TRY(measure(a, out->rock.stress, out->rock.viability, out));
     } else {
         TRY(measure_alone(a, out));

@@ -8,6 +8,7 @@
 #include "model/collapse.h"
 #include "model/type.h"
 #include "piles/piles.h"
+#include "scene/source.h"
 #include "stress/elastic.h"
 #include "water/water.h"
 #include "wind/wind.h"
@@ -16,12 +17,12 @@
  *   name    struct arenite has a member `struct name name`, which name_destroy() frees, finished or not
  *   lasts   LASTS_RUN: from the start on; LASTS_JOB: from the first rock on, and it is made anew where edits change the job;
  *           LASTS_ROCK: as long as the particles, which edits may replace
- *   bytes   of a job with n particles, `bare` of them at the surface and `ends` at the ends of rows along x, in so many voxels, its
- *           edits included; 0: it has no need of it
+ *   bytes   of a job with room for n particles, of a rock that would have `all`, `bare` of them at the surface and `ends` at the
+ *           ends of rows along x, in so many voxels, its edits included; 0: it has no need of it
  *   create  makes it in *a, for a->m.job; OK: that has no need of it, or it is made when it is first used
  */
 #define ARENITE_PARTS(PART)                                                                                  \
-    PART(elastic, LASTS_RUN, arenite_ever(job, arenite_rests) ? elastic_bytes(voxels, n, bare, ends) : 0,    \
+    PART(elastic, LASTS_RUN, arenite_ever(job, arenite_rests) ? elastic_bytes(voxels, all, bare, ends) : 0,  \
          elastic_create(a->m.gpu, a->m.voxels, a->m.h,                                                       \
                         (const struct elastic_options[]){elastic_options(a->m.job)}, &a->elastic))           \
     PART(blocks, LASTS_ROCK, blocks_bytes(n), blocks_create(a->m.gpu, a->particles.held.n, &a->blocks))      \
@@ -43,6 +44,7 @@ enum lasts { LASTS_RUN, LASTS_JOB, LASTS_ROCK };
 struct arenite {
     struct model m; /* shared by all models */
     struct particles particles;
+    struct scene_source *source; /* of the rock that has no particles yet; NULL: all has */
 #define PART(name, lasts, bytes, create) struct name name;
     ARENITE_PARTS(PART)
 #undef PART

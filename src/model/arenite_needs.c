@@ -1,6 +1,6 @@
 /* What a job of arenite's takes, before anything is allocated. */
 #include "frame/host.h"
-#include "model/arenite.h"
+#include "model/arenite_deep.h"
 #include "model/edits.h"
 #include "plants/plants.h"
 #include "scene/scene.h"
@@ -31,9 +31,12 @@ size_t arenite_work_items(const struct job *job, const int voxels[3])
     return most > stress ? most : stress;
 }
 
-static uint64_t device_bytes(const struct job *job, const int voxels[3], const struct scene_size *size)
+_Static_assert(SCENE_NEAR == NEAR_REACH + 1 + NEAR_AHEAD, "the scene's estimate is of what gets particles");
+
+static uint64_t device_bytes(const struct job *job, const int voxels[3], const struct scene_size *size,
+                             size_t n)
 {
-    const size_t n = size->n_particles, bare = size->n_surface, ends = size->n_ends;
+    const size_t all = size->n_particles, bare = size->n_surface, ends = size->n_ends;
     uint64_t sum = 0;
 #define PART(name, lasts, bytes, create) sum += (bytes);
     ARENITE_PARTS(PART)
@@ -60,15 +63,18 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     status st = OK;
     TRY(scene_estimate(job, &needs->size));
     TRY(wind_check(job, needs->voxels));
-    const size_t n = needs->size.n_particles;
+    if (arenite_may_be_deep(job))
+        needs->size.n_kept = needs->size.n_near;
+    const size_t n = needs->size.n_kept;
+    needs->room = n < needs->size.n_particles ? particles_room_for(n) : n;
     const unsigned has = arenite_has(water_ever_flows(job), plants_wanted(job) || edits_plant(job),
                                      arenite_ever(job, deposit_wanted));
-    needs->device_bytes = device_bytes(job, needs->voxels, &needs->size);
-    needs->samples = host_grid_samples(needs->voxels, n, needs->size.n_surface);
+    needs->device_bytes = device_bytes(job, needs->voxels, &needs->size, needs->room);
+    needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * needs->samples * sizeof(float);
     needs->disk = (struct disk_particle){
         .inside = 15.5, .bare = 45, .volumes_inside = 2.2, .volumes_bare = 88, .channel = 1.9, .has = has};
-    needs->checkpoint_bytes = 15 * (uint64_t)n +
+    needs->checkpoint_bytes = 15 * (uint64_t)n + held_words(needs->voxels) / 4 +
                               (uint64_t)(0.3 * (double)wind_checkpoint_bytes(job, needs->voxels)) +
                               collapse_checkpoint_bytes(job, n);
     needs->steps = steps(job);

@@ -3,10 +3,12 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "frame/rocks.h"
 #include "model/air.h"
+#include "model/arenite_deep.h"
 #include "model/edits.h"
 #include "model/sections.h"
 #include "plants/plants.h"
@@ -85,6 +87,7 @@ status arenite_save(struct model *m, struct checkpoint *out)
         TRY(section_add(out, displacements, 4, 4 * a->elastic.lattice.n_active, &data));
         TRY(elastic_download(a->m.gpu, &a->elastic, data));
     }
+    TRY(arenite_save_deep(a, out));
     TRY(sections_add_counts(out, m));
     TRY(section_add(out, "iterations", 4, 1, &data));
     memcpy(data, &a->elastic.iterations, 4);
@@ -129,20 +132,20 @@ static void set_range(const struct model *m, int f, struct section_rule *rule)
 
 /* The ledger counts particles that there are, and ids are of particles that there were at some time. */
 static status check_rock(const struct model *m, const struct checkpoint *c, const struct rock *rock,
-                         struct idset *ids)
+                         size_t n_deep, struct idset *ids)
 {
     status st = OK;
     const struct ledger *l = &m->ledger;
     size_t falling = 0;
     for (size_t i = 0; i < rock->n; i++)
         falling += rock->phase[i] == PHASE_FALLING;
-    if (l->rock + l->deposit + falling != rock->n || l->fallen < falling)
+    if (l->rock + l->deposit + falling != rock->n + n_deep || l->fallen < falling)
         return fail(
             E_CHECKPOINT,
             "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock, %llu deposited and "
-            "%llu fallen, and there are %zu particles, %zu of them falling",
+            "%llu fallen, and there are %zu particles, %zu of them falling, and %zu voxels of rock beside",
             c->frame, (unsigned long long)l->rock, (unsigned long long)l->deposit,
-            (unsigned long long)l->fallen, rock->n, falling);
+            (unsigned long long)l->fallen, rock->n, falling, n_deep);
     TRY(section_check_ids(c, "id", rock->id, rock->n, l->start, ids));
 done:
     return st;
@@ -150,7 +153,7 @@ done:
 
 /* The STATE fields, borrowed from the checkpoint: they are not to be freed. `ids` becomes the particles'. */
 static status restore_rock(const struct model *m, const struct checkpoint *c, struct rock *rock,
-                           struct idset *ids)
+                           size_t n_deep, struct idset *ids)
 {
     status st = OK;
     const struct checkpoint_section *id = checkpoint_find(c, "id", 4);
@@ -167,7 +170,7 @@ static status restore_rock(const struct model *m, const struct checkpoint *c, st
         TRY(section_take(c, &rule, &data, NULL));
         rock->field[f] = (void *)(uintptr_t)data;
     }
-    TRY(check_rock(m, c, rock, ids));
+    TRY(check_rock(m, c, rock, n_deep, ids));
 done:
     return st;
 }
@@ -224,13 +227,14 @@ status arenite_restore(struct model *m, const struct checkpoint *c)
     struct idset ids = {0};
     const void *data;
     bool solved;
-    TRY(restore_rock(m, c, &rock, &ids));
+    TRY(restore_rock(m, c, &rock, arenite_deep_count(a, c), &ids));
     TRY(section_take(c, &(struct section_rule){"processes", SECTION_DOUBLE, 2, 1, {{0, 1}}}, &data, NULL));
     a->deposits |= ((const double *)data)[0] != 0;
     a->plants |= ((const double *)data)[1] != 0;
     if (a->wind.flows)
         TRY(air_restore(m->gpu, &a->wind, c));
     TRY(arenite_create_particles(a, &rock));
+    TRY(arenite_restore_deep(a, c, &ids));
     TRY(restore_stress(a, c, &solved));
     /* A shot may begin where years have passed. */
     if (a->collapse.shot && checkpoint_find(c, mpm_word_names[MPM_ID], 4))
@@ -250,12 +254,17 @@ status arenite_begin(struct model *m)
     status st = OK;
     struct arenite *a = arenite_of(m);
     struct rock rock = {0};
-    TRY(scene_sample(m->whole, &rock));
-    m->ledger = (struct ledger){.start = rock.n, .rock = rock.n};
+    uint32_t *deep = NULL;
+    size_t n_deep;
+    TRY(arenite_first_rock(a, &rock, &deep, &n_deep));
+    m->ledger = (struct ledger){.start = rock.n + n_deep, .rock = rock.n + n_deep};
     TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
     for (size_t i = 0; i < rock.n && !a->deposits; i++)
         a->deposits = rock.phase[i] == PHASE_DEPOSIT; /* a scene of stacks has loose ground */
     TRY(arenite_create_particles(a, &rock));
+    if (n_deep)
+        TRY(particles_set_deep(m->gpu, m->work, &a->particles, deep, n_deep));
+    TRY(arenite_bear_near(a));
     TRY(arenite_count(a));
     if (a->collapse.shot)
         TRY(collapse_load(m->gpu, &a->collapse, &a->particles));
@@ -265,9 +274,10 @@ status arenite_begin(struct model *m)
         model_warn_unheld(m);
     rock_free(&rock);
     TRY(particles_download(m->gpu, &a->particles, STATE, &rock));
-    m->start_volume = model_sum(rock.viability, rock.n) * pow(m->h, 3);
+    m->start_volume = (model_sum(rock.viability, rock.n) + (double)a->particles.n_deep) * pow(m->h, 3);
     TRY(arrive(a, false));
 done:
+    free(deep);
     rock_free(&rock);
     return st;
 }
@@ -292,4 +302,5 @@ void arenite_destroy(struct model *m)
     arenite_destroy_parts(a, LASTS_JOB);
     arenite_destroy_parts(a, LASTS_RUN);
     pile_tile_destroy(&a->tile);
+    scene_source_destroy(&a->source);
 }

@@ -101,12 +101,12 @@ status collapse_count(struct gpu *gpu, const struct particles *p, struct ledger 
 {
     status st = OK;
     uint32_t *phase = NULL;
-    uint64_t n[3] = {0}, gone = ledger->start - ledger->left - p->n;
+    uint64_t n[3] = {0}, gone = ledger->start - ledger->left - p->n - p->n_deep;
     TRY(memory_alloc(p->n, sizeof *phase, "phases", &phase));
     TRY(gpu_download(gpu, p->field[ROCK_phase], 0, phase, p->n));
     for (size_t i = 0; i < p->n; i++)
         n[phase[i] <= PHASE_FALLING ? phase[i] : PHASE_ROCK]++;
-    ledger->rock = n[PHASE_ROCK];
+    ledger->rock = n[PHASE_ROCK] + p->n_deep;
     ledger->deposit = n[PHASE_DEPOSIT];
     ledger->fallen = gone + n[PHASE_FALLING];
 done:
@@ -284,7 +284,7 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
                        struct particles *p, struct ledger *ledger)
 {
     status st = OK;
-    size_t n, before = p->n;
+    size_t n, n_cut, before = p->n;
     uint32_t crumbs = 0, more = 0;
     double seconds = 0;
     TRY(collapse_crumble(gpu, work, c, b, p, &crumbs, &n));
@@ -299,6 +299,7 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
         mpm_obstacle(gpu, &c->mpm, NULL);
         gpu_fill(gpu, p->field[ROCK_v], 0);
         TRY(particles_index(gpu, work, p));
+        TRY(blocks_find(gpu, work, b, p, &n_cut));
         TRY(blocks_fall(gpu, work, b, p, &more));
     }
     if (crumbs + more > 0)

@@ -311,6 +311,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
     size_t words;
     TRY(scene_estimate(job, &needs->size));
     /* A third of the rock active is more than most have. */
+    needs->room = needs->size.n_particles;
     needs->device_bytes = voxels_bytes(job, needs->voxels, needs->size.n_particles / 3, &words) +
                           blocks_bytes(voxel_count(needs->voxels)) +
                           held_bytes(needs->voxels, voxel_count(needs->voxels)) +

@@ -36,7 +36,7 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     const size_t n = needs.size.n_particles;
     out->n_particles = n;
     out->device_bytes = needs.device_bytes + gpu_work_bytes(type->work_items(job, out->voxels)) +
-                        particles_bytes(n, out->voxels) + field_bytes(out->voxels, needs.samples) +
+                        particles_bytes(needs.room, out->voxels) + field_bytes(out->voxels, needs.samples) +
                         aov_bytes(aov_pixels(job));
     out->disk = disk_frame(job, &needs.size, &needs.disk);
     out->disk.other += needs.disk_other;

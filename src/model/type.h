@@ -42,6 +42,7 @@ struct model_needs {
     struct scene_size size;    /* of the rock that frames show. size.point is freed by the caller */
     struct disk_particle disk; /* what one particle of it takes */
     uint64_t disk_other;       /* of a frame: files that only this model has */
+    size_t room;               /* particles there is room for on the device */
     uint64_t device_bytes;     /* of the model's own buffers */
     uint64_t samples;          /* of each grid of a frame */
     uint64_t frame_bytes;      /* of a waiting frame: what only this model's frames have */

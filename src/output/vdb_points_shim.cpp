@@ -1,5 +1,5 @@
-/* Particles to an OpenVDB PointDataGrid: sorted into voxels in two stable passes, so that the order is always
- * the same.
+/* Particles to an OpenVDB PointDataGrid: sorted into voxels, and by id within each, so that the order in the file is always the same,
+ * whatever that of the particles is.
  *
  * In 16 bits a position is the nearest of 65,536 along each side of its voxel. What is a share (BITS_SHARE of
  * values.def) is the nearest of as many from 0 to 1, with 0 and 1 exact and nothing else made 0; v and Cd are
@@ -12,6 +12,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 #include <vector>
@@ -153,7 +154,7 @@ class leaf_maker
 {
   public:
     leaf_maker(const rock &r, const vdb_options &options, const placement &at)
-        : at_(at), options_(options), layer_(r.layer)
+        : at_(at), options_(options), layer_(r.layer), id_(r.id)
     {
         pscale_ = options.instances ? 1 : float(options.spacing / 2);
         attributes_.push_back({"pscale", CONSTANT, &pscale_});
@@ -186,11 +187,14 @@ class leaf_maker
 
     leaf_node *make(const Coord &origin, const uint32_t *particle, size_t n) const
     {
-        /* by voxel; within a voxel by particle */
+        /* by voxel; within a voxel by id */
+        std::vector<uint32_t> by_id(particle, particle + n);
+        if (id_)
+            std::sort(by_id.begin(), by_id.end(), [this](uint32_t a, uint32_t b) { return id_[a] < id_[b]; });
         uint32_t end[leaf_node::SIZE] = {0};
         std::vector<uint16_t> voxel(n);
         for (size_t k = 0; k < n; k++) {
-            voxel[k] = uint16_t(leaf_node::coordToOffset(Coord::round(at_.index(particle[k]))));
+            voxel[k] = uint16_t(leaf_node::coordToOffset(Coord::round(at_.index(by_id[k]))));
             end[voxel[k]]++;
         }
         std::vector<leaf_node::ValueType> offsets(leaf_node::SIZE);
@@ -203,7 +207,7 @@ class leaf_maker
         }
         std::vector<uint32_t> order(n);
         for (size_t k = 0; k < n; k++)
-            order[end[voxel[k]]++] = particle[k];
+            order[end[voxel[k]]++] = by_id[k];
 
         std::unique_ptr<leaf_node> leaf(new leaf_node(origin));
         leaf->initializeAttributes(position_, Index(n));
@@ -310,7 +314,7 @@ class leaf_maker
 
     const placement &at_;
     const vdb_options &options_;
-    const uint32_t *layer_;
+    const uint32_t *layer_, *id_;
     float pscale_;
     std::vector<attribute> attributes_;
     descriptor::Ptr position_, all_;

@@ -58,16 +58,17 @@ struct scalar {
     using grid = openvdb::FloatGrid;
     const float *value, *density;
     float background, inside;
+    bool hollow;
     bool get(ptrdiff_t at, const Coord &, float &v) const
     {
-        const bool active = density[at] != 0;
+        const bool active = density[at] != 0 && !(hollow && value[at] == 0);
         v = active ? value[at] : 0;
         return active;
     }
     bool deep(float &v) const
     {
         v = inside;
-        return true;
+        return !hollow;
     }
 };
 struct vector {
@@ -212,7 +213,7 @@ openvdb::GridBase::Ptr make_grid(const frame_grid &g, const lattice &l, const pl
         grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
         return grid;
     }
-    auto grid = sparse_grid(l, p, scalar{g.value, density ? density : g.value, 0, g.inside});
+    auto grid = sparse_grid(l, p, scalar{g.value, density ? density : g.value, 0, g.inside, g.hollow});
     grid->setGridClass(g.kind == GRID_FOG ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_UNKNOWN);
     return grid;
 }

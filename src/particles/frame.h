@@ -78,7 +78,7 @@ struct frame {
     double start_volume_m3;
     size_t n_changes;
     struct frame_change change[PROCESSES];
-    double max_stress_Pa;
+    double max_stress_Pa; /* at the surface */
     int stress_iterations;
 };
 

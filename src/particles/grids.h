@@ -6,7 +6,7 @@
  *           an array, x, y and z being from 0 to 7; those beyond the lattice hold the background.
  * Background  what samples outside all bricks are: 3 voxels in level sets, 0 otherwise.
  * Inside    bricks that are all inside need not be kept either (BRICK_INSIDE): level sets are -3 voxels there, and every other
- *           grid one value, which is 0 for most (grid_inside()).
+ *           grid one value, which is 0 for most (grid_inside()). Hollow grids have no values there.
  * Calling sequence   frame_grids_begin(), frame_grids_choose(); then frame_grids_add() and an array for each.
  */
 #ifndef HOODOO_GRIDS_H
@@ -46,6 +46,7 @@ struct frame_grid {
     enum grid_class kind;
     int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
     float inside;   /* level sets: unused. What samples inside that are not kept hold */
+    bool hollow;    /* samples of 0 have no value, nor have those inside that are not kept */
     float *value;   /* owned by the frame: grid_items() of them */
     /* Where it is sampled otherwise than the frame's other grids, densely, numbered (k ny + j) nx + i; n[0] is 0 where it
      * is not. */

@@ -1,7 +1,7 @@
 /* Which of a domain's voxels anything is kept of: the held ones, so that memory grows with the rock and not with its box.
  *
- * A bit for each voxel says whether it is occupied, another whether it is held; held voxels are numbered in the order of all
- * voxels, and their numbers, the slots, are places in buffers of voxels. The kernels' side is shaders/particles/bits.glsl and
+ * A bit for each voxel says whether it is occupied, others whether it is held or deep; held voxels are numbered in the order of
+ * all voxels, and their numbers, the slots, are places in buffers of voxels. The kernels' side is shaders/particles/bits.glsl and
  * held.glsl, which tell what the words mean.
  */
 #ifndef HOODOO_HELD_H
@@ -14,7 +14,8 @@ struct held_voxels {
     int voxels[3];
     size_t n, room;              /* held voxels; numbers there is room for in the list */
     struct gpu_buffer *occupied; /* uint [words]: a bit for each voxel, set by the caller */
-    /* uint [2 (words + 1)]: bits of held voxels, and how many are held before them */
+    struct gpu_buffer *deep; /* uint [words]: those of the occupied voxels that are not to be held (deep.h) */
+    /* uint [HELD_STRIDE (words + 1)]: bits of held voxels, how many are held before them, and bits of deep ones */
     struct gpu_buffer *words;
     struct gpu_buffer *list; /* uint [room]: 32 times its word and its bit, of each held voxel */
 };
@@ -33,11 +34,12 @@ static inline size_t held_words(const int voxels[3])
 /* Bytes on the device where n voxels are held. */
 uint64_t held_bytes(const int voxels[3], size_t n);
 
-/* No voxel is occupied or held; there is room for n. */
+/* No voxel is occupied, held or deep; there is room for n. */
 MUST_USE status held_create(struct gpu *gpu, const int voxels[3], size_t n, struct held_voxels *out);
 void held_destroy(struct gpu *gpu, struct held_voxels *h);
 
-/* Finds what is held: the occupied voxels; if `around`, also those that touch one by a face, an edge or a corner. Waits. */
+/* Finds what is held: the occupied voxels; if `around`, also those that touch one by a face, an edge or a corner; but no deep one.
+ * Waits. */
 MUST_USE status held_find(struct gpu *gpu, struct gpu_work *work, struct held_voxels *h, bool around);
 
 /* All voxels are occupied and held, for users that have a place for each. Waits. */

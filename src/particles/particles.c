@@ -1,11 +1,13 @@
 #include "particles/particles.h"
 
+#include <string.h>
+
 uint64_t particles_bytes(size_t n, const int voxels[3])
 {
     uint64_t item = 3 * 4 + 3 * 4; /* surface, flags, place; start, fill, taken: a voxel each */
     for (int f = 0; f < ROCK_FIELDS; f++)
         item += f == ROCK_v ? 0 : rock_field_size((enum rock_field)f);
-    return (uint64_t)n * item + held_bytes(voxels, n);
+    return (uint64_t)n * item + held_bytes(voxels, n) + (uint64_t)held_words(voxels) * 8;
 }
 
 struct voxel_params particles_params(const struct particles *p, size_t n)
@@ -44,15 +46,23 @@ static void reorder(struct gpu *gpu, struct particles *p, struct gpu_buffer **fi
     *spare = old;
 }
 
-/* The order of particles_index(), for fields up to `keep`. The spare buffers, of vectors and of words, are zero after it. */
-static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep,
+/* The order of particles_index(), for fields up to `keep`; `all`: none is dropped. The spare buffers, of vectors and of words, are
+ * zero after it. */
+static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep, bool all,
                            struct gpu_buffer **vector, struct gpu_buffer **word)
 {
     status st = OK;
     const struct voxel_params k = particles_params(p, p->n);
     uint32_t alive;
-    gpu_fill(gpu, p->held.occupied, 0);
-    GPU_RUN(gpu, particles_occupy, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->held.occupied);
+    struct gpu_buffer *left = all ? p->place : p->field[ROCK_viability];
+    if (all) {
+        const float one = 1;
+        uint32_t bits;
+        memcpy(&bits, &one, sizeof bits);
+        gpu_fill(gpu, left, bits);
+    }
+    gpu_copy(gpu, p->held.occupied, p->held.deep, held_words(p->voxels));
+    GPU_RUN(gpu, particles_occupy, p->n, k, p->field[ROCK_P], left, p->held.occupied);
     TRY(held_find(gpu, work, &p->held, p->around));
     TRY(keep_voxels(gpu, p));
     const struct gpu_sort sort = {.keys = p->flags,
@@ -64,7 +74,7 @@ static status index_fields(struct gpu *gpu, struct gpu_work *work, struct partic
                                   .n = p->n,
                                   .n_keys = p->held.n + 1,
                                   .n_ordered = p->held.n};
-    GPU_RUN(gpu, particles_key, p->n, k, p->field[ROCK_P], p->field[ROCK_viability], p->held.words, p->flags);
+    GPU_RUN(gpu, particles_key, p->n, k, p->field[ROCK_P], left, p->held.words, p->flags);
     gpu_sort(gpu, work, &sort);
     TRY(gpu_download(gpu, p->start, p->held.n, &alive, 1));
     for (int f = 0; f < ROCK_FIELDS; f++)
@@ -79,9 +89,9 @@ done:
 }
 
 /* The fields of the state: two that are derived, and stale, serve as spare. */
-static status index_state(struct gpu *gpu, struct gpu_work *work, struct particles *p)
+static status index_state(struct gpu *gpu, struct gpu_work *work, struct particles *p, bool all)
 {
-    return index_fields(gpu, work, p, STATE, &p->field[ROCK_N], &p->field[ROCK_stress]);
+    return index_fields(gpu, work, p, STATE, all, &p->field[ROCK_N], &p->field[ROCK_stress]);
 }
 
 /* All fields. */
@@ -91,7 +101,7 @@ static status index_derived(struct gpu *gpu, struct gpu_work *work, struct parti
     struct gpu_buffer *vector = NULL, *word = NULL;
     TRY(gpu_buffer_create(gpu, "spare vectors", p->n_max, 16, &vector));
     TRY(gpu_buffer_create(gpu, "spare words", p->n_max, 4, &word));
-    TRY(index_fields(gpu, work, p, DERIVED, &vector, &word));
+    TRY(index_fields(gpu, work, p, DERIVED, false, &vector, &word));
     TRY(gpu_wait(gpu));
 done:
     gpu_buffer_destroy(gpu, &vector);
@@ -125,7 +135,9 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     TRY(gpu_buffer_create(gpu, "surface list", p->n_max, 4, &p->surface));
     TRY(gpu_buffer_create(gpu, "particle flags", p->n_max, 4, &p->flags));
     TRY(gpu_buffer_create(gpu, "particle places", p->n_max, 4, &p->place));
-    TRY(keep == STATE ? index_state(gpu, work, p) : index_derived(gpu, work, p));
+    TRY(gpu_buffer_create(gpu, "voxels near the surface", held_words(voxels), 4, &p->near));
+    TRY(gpu_buffer_create(gpu, "voxels whose particles are due", held_words(voxels), 4, &p->born));
+    TRY(keep == STATE ? index_state(gpu, work, p, false) : index_derived(gpu, work, p));
 done:
     if (st != OK)
         particles_destroy(gpu, p);
@@ -143,12 +155,19 @@ void particles_destroy(struct gpu *gpu, struct particles *p)
     gpu_buffer_destroy(gpu, &p->surface);
     gpu_buffer_destroy(gpu, &p->flags);
     gpu_buffer_destroy(gpu, &p->place);
+    gpu_buffer_destroy(gpu, &p->near);
+    gpu_buffer_destroy(gpu, &p->born);
     *p = (struct particles){0};
 }
 
 status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p)
 {
-    return index_state(gpu, work, p);
+    return index_state(gpu, work, p, false);
+}
+
+status particles_index_all(struct gpu *gpu, struct gpu_work *work, struct particles *p)
+{
+    return index_state(gpu, work, p, true);
 }
 
 status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct particles *p)
@@ -156,7 +175,7 @@ status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct part
     if (p->around)
         return OK;
     p->around = true;
-    return index_state(gpu, work, p);
+    return index_state(gpu, work, p, false);
 }
 
 status particles_allow_motion(struct gpu *gpu, struct particles *p)

@@ -14,6 +14,7 @@
 
 struct particles {
     size_t n, n_max;
+    size_t n_deep; /* voxels of rock that have no particle yet (deep.h); 0 unless somebody says otherwise */
     int voxels[3];
     double h;                              /* m: spacing, and a voxel's size */
     struct gpu_buffer *field[ROCK_FIELDS]; /* n_max items each; v is NULL while nothing can move */
@@ -26,10 +27,17 @@ struct particles {
     /* Scratch, uint [n_max]: what a process leaves in it is lost to the next. `taken` may have more, a word for each held
      * voxel. */
     struct gpu_buffer *flags, *place, *taken;
+    struct gpu_buffer *near, *born; /* uint [held_words()]: scratch of deep.h and particles_fill() */
     bool moving; /* particles are not in their voxels' middles: particles_fill() spreads them */
 };
 
-/* Bytes on the device for n particles in a domain of so many voxels. */
+/* Particles there is room for, so that a few more do not ask for more room, where n are asked for. */
+static inline size_t particles_room_for(size_t n)
+{
+    return n + n / 8;
+}
+
+/* Bytes on the device with room for n particles in a domain of so many voxels. */
 uint64_t particles_bytes(size_t n, const int voxels[3]);
 
 /* Uploads the rock's fields up to `keep` (STATE, or DERIVED for all; NULL ones are zero) and orders them. The
@@ -41,6 +49,9 @@ void particles_destroy(struct gpu *gpu, struct particles *p);
 /* Drops particles of which nothing is left and restores the order. DERIVED fields are stale after it. Waits.
  * */
 MUST_USE status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p);
+
+/* The same, but drops none. */
+MUST_USE status particles_index_all(struct gpu *gpu, struct gpu_work *work, struct particles *p);
 
 /* From now on the voxels around those with particles are held too, as long as there may be rubble or rock in motion: it fills
  * voxels that have none. As particles_index(). Waits. */

@@ -156,11 +156,17 @@ done:
 void elastic_recover(struct gpu *gpu, struct elastic *e, struct particles *p)
 {
     const struct stress_lattice *l = &e->lattice;
-    struct stress_params k = params(e, lattice_items(l));
+    const struct stress_params k = params(e, lattice_items(l));
     GPU_RUN(gpu, stress_recover, k.n, k, l->run, l->table, e->u, l->fill, e->normal_stress, e->shear_stress);
     GPU_RUN(gpu, stress_slope, k.n, k, l->run, l->table, l->fill, e->normal_stress, e->shear_stress, e->q,
             e->r);
-    k.n = (uint)p->n;
+    elastic_sample(gpu, e, p);
+}
+
+void elastic_sample(struct gpu *gpu, struct elastic *e, struct particles *p)
+{
+    const struct stress_lattice *l = &e->lattice;
+    const struct stress_params k = params(e, p->n);
     GPU_RUN(gpu, stress_sample, k.n, k, l->table, p->field[ROCK_P], l->fill, e->normal_stress,
             e->shear_stress, e->q, e->r, p->field[ROCK_stress], p->field[ROCK_von_mises]);
 }

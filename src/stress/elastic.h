@@ -80,4 +80,7 @@ MUST_USE status elastic_solve(struct gpu *gpu, struct gpu_work *work, struct ela
 /* From u to the cells' stress, and to the particles' `stress` and `von_mises`. Records only. */
 void elastic_recover(struct gpu *gpu, struct elastic *e, struct particles *p);
 
+/* The last step of it again, for others whose P lies in the rock, before anything else is done with *e. Records only. */
+void elastic_sample(struct gpu *gpu, struct elastic *e, struct particles *p);
+
 #endif

@@ -80,12 +80,12 @@ static void check_held(struct bed *b, bool around)
 {
     const int *n = b->held.voxels;
     const size_t words = held_words(n);
-    uint32_t *word = calloc(2 * (words + 1), 4), *list;
+    uint32_t *word = calloc(HELD_STRIDE * (words + 1), 4), *list;
     size_t slot = 0;
     assert_ok(held_find(b->gpu, b->work, &b->held, around));
     assert_true(b->held.n <= b->held.room);
     list = calloc(b->held.n + 1, 4);
-    assert_ok(gpu_download(b->gpu, b->held.words, 0, word, 2 * (words + 1)));
+    assert_ok(gpu_download(b->gpu, b->held.words, 0, word, HELD_STRIDE * (words + 1)));
     assert_ok(gpu_download(b->gpu, b->held.list, 0, list, b->held.n));
     for (int z = 0; z < n[2]; z++)
         for (int y = 0; y < n[1]; y++)
@@ -94,14 +94,14 @@ static void check_held(struct bed *b, bool around)
                 const size_t w = word_of(n, v);
                 const bool is = around ? near(b, v) : occupied(b, v);
                 if (x % 32 == 0)
-                    assert_int_equal(word[2 * w + 1], slot);
-                assert_int_equal(word[2 * w] >> (x % 32) & 1, is);
+                    assert_int_equal(word[HELD_STRIDE * w + 1], slot);
+                assert_int_equal(word[HELD_STRIDE * w] >> (x % 32) & 1, is);
                 if (is)
                     assert_int_equal(list[slot++], 32 * w + (size_t)(x % 32));
             }
     assert_int_equal(slot, b->held.n);
-    assert_int_equal(word[2 * words], 0);
-    assert_int_equal(word[2 * words + 1], slot);
+    assert_int_equal(word[HELD_STRIDE * words], 0);
+    assert_int_equal(word[HELD_STRIDE * words + 1], slot);
     free(word);
     free(list);
 }

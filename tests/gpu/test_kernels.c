@@ -262,6 +262,135 @@ static void surface_and_normals_agree(void **state)
     bed_end(&bed);
 }
 
+static bool all_around(const uint8_t *rock, const int n[3], int i, int j, int k)
+{
+    for (int c = 0; c < 27; c++) {
+        const int v[3] = {i + c % 3 - 1, j + c / 3 % 3 - 1, k + c / 9 - 1};
+        if (v[2] < 0)
+            continue; /* below the ground is more rock */
+        for (int a = 0; a < 3; a++)
+            if (v[a] < 0 || v[a] >= n[a])
+                return false;
+        if (!rock[((size_t)v[2] * (size_t)n[1] + (size_t)v[1]) * (size_t)n[0] + (size_t)v[0]])
+            return false;
+    }
+    return true;
+}
+
+/* Lumps of a few voxels, whole; of those with rock all around, most are to be deep. Bits of these. */
+static struct rock lumps(const int n[3], double h, uint32_t seed, uint32_t *deep, size_t *n_deep)
+{
+    struct rock rock;
+    uint32_t random = seed;
+    const size_t voxels = (size_t)n[0] * (size_t)n[1] * (size_t)n[2], across = ((size_t)n[0] + 31) / 32;
+    uint8_t *is = calloc(voxels, 1);
+    float lump[4096];
+    for (size_t i = 0; i < 4096; i++)
+        lump[i] = chance(&random);
+    assert_ok(rock_alloc(&rock, voxels, STATE));
+    rock.n = *n_deep = 0;
+    for (size_t v = 0; v < voxels; v++) {
+        const size_t at[3] = {v % (size_t)n[0], v / (size_t)n[0] % (size_t)n[1],
+                              v / (size_t)n[0] / (size_t)n[1]};
+        is[v] = lump[at[0] / 5 + 16 * (at[1] / 4) + 128 * (at[2] / 4)] < 0.55f;
+    }
+    for (size_t v = 0; v < voxels; v++) {
+        const size_t at[3] = {v % (size_t)n[0], v / (size_t)n[0] % (size_t)n[1],
+                              v / (size_t)n[0] / (size_t)n[1]};
+        if (!is[v])
+            continue;
+        for (size_t a = 0; a < 3; a++)
+            rock.P[4 * rock.n + a] = (float)(h * ((double)at[a] + 0.5));
+        rock.id[rock.n] = (uint32_t)rock.n;
+        rock.viability[rock.n++] = 1;
+        if (all_around(is, n, (int)at[0], (int)at[1], (int)at[2]) && chance(&random) < 0.9f) {
+            deep[(at[2] * (size_t)n[1] + at[1]) * across + at[0] / 32] |= 1U << at[0] % 32;
+            ++*n_deep;
+        }
+    }
+    free(is);
+    return rock;
+}
+
+static bool bit_at(const uint32_t *bits, const int n[3], double h, const float P[3])
+{
+    const size_t v[3] = {(size_t)((double)P[0] / h), (size_t)((double)P[1] / h), (size_t)((double)P[2] / h)};
+    return bits[(v[2] * (size_t)n[1] + v[1]) * (((size_t)n[0] + 31) / 32) + v[0] / 32] >> v[0] % 32 & 1;
+}
+
+/* Those of `all` whose voxel's bit is as `is`. */
+static struct rock pick(const struct rock *all, const uint32_t *bits, const int n[3], double h, bool is)
+{
+    struct rock out;
+    assert_ok(rock_alloc(&out, all->n, STATE));
+    out.n = 0;
+    for (size_t i = 0; i < all->n; i++) {
+        if (bit_at(bits, n, h, &all->P[4 * i]) != is)
+            continue;
+        memcpy(&out.P[4 * out.n], &all->P[4 * i], 4 * sizeof *out.P);
+        out.id[out.n] = all->id[i];
+        out.viability[out.n++] = all->viability[i];
+    }
+    return out;
+}
+
+/* Rock that has no particles holds as if it had, and what of it falls is found, run by run. */
+static void deep_rock_holds_as_particles_do(void **state)
+{
+    static const int n[3] = {75, 30, 31};
+    const double h = 0.5;
+    size_t cut_in_all = 0;
+    (void)state;
+    for (uint32_t seed = 1; seed <= 6; seed++) {
+        const size_t words = held_words(n);
+        uint32_t *deep = calloc(words, 4), *cut = calloc(words, 4), n_fallen;
+        struct gpu *gpu = open_gpu();
+        struct gpu_work *work;
+        struct particles p;
+        struct blocks blocks;
+        size_t n_deep, n_cut, expected = 0, falling = 0;
+        struct rock all = lumps(n, h, seed, deep, &n_deep), some = pick(&all, deep, n, h, false), missing;
+        uint8_t *falls = rock_ref_falls(&all, n, h);
+        assert_ok(gpu_work_create(gpu, voxel_count(n) + 2, &work));
+        assert_ok(particles_create(gpu, work, &some, STATE, n, h, &p));
+        assert_ok(particles_set_deep(gpu, work, &p, deep, n_deep));
+        assert_ok(blocks_create(gpu, p.held.n, &blocks));
+        assert_ok(blocks_find(gpu, work, &blocks, &p, &n_cut));
+        if (n_cut)
+            assert_ok(particles_due_chosen(gpu, &p, cut));
+        for (size_t i = 0; i < all.n; i++) {
+            const bool is = bit_at(deep, n, h, &all.P[4 * i]);
+            expected += is && falls[i];
+            falling += falls[i];
+            assert_int_equal(bit_at(cut, n, h, &all.P[4 * i]), is && falls[i]);
+        }
+        assert_int_equal(n_cut, expected);
+        if (n_cut) {
+            missing = pick(&all, cut, n, h, true);
+            assert_ok(particles_reserve(gpu, &p, p.n + missing.n));
+            assert_ok(particles_add(gpu, work, &p, &missing));
+            rock_free(&missing);
+            assert_ok(blocks_find(gpu, work, &blocks, &p, &n_cut));
+            assert_int_equal(n_cut, 0);
+        }
+        assert_ok(blocks_fall(gpu, work, &blocks, &p, &n_fallen));
+        assert_int_equal(n_fallen, falling);
+        print_message("# %zu of %zu fall; %zu were deep, %zu of them fall\n", falling, all.n, n_deep,
+                      expected);
+        cut_in_all += expected;
+        blocks_destroy(gpu, &blocks);
+        particles_destroy(gpu, &p);
+        gpu_work_destroy(gpu, &work);
+        gpu_destroy(&gpu);
+        rock_free(&all);
+        rock_free(&some);
+        free(falls);
+        free(deep);
+        free(cut);
+    }
+    assert_true(cut_in_all > 0);
+}
+
 static void the_same_blocks_fall(void **state)
 {
     (void)state;
@@ -269,10 +398,13 @@ static void the_same_blocks_fall(void **state)
         struct bed bed = bed_of((int[]){20, 18, 16}, 0.5, seed % 2 ? in_rubble : in_boulder, seed);
         struct blocks blocks;
         uint32_t n_fallen = 0;
+        size_t n_cut;
         uint8_t *falls = rock_ref_falls(&bed.rock, bed.n, bed.h);
         float *viability = malloc(bed.rock.n * sizeof *viability);
         size_t expected = 0;
         assert_ok(blocks_create(bed.gpu, bed.p.held.n, &blocks));
+        assert_ok(blocks_find(bed.gpu, bed.work, &blocks, &bed.p, &n_cut));
+        assert_int_equal(n_cut, 0);
         assert_ok(blocks_fall(bed.gpu, bed.work, &blocks, &bed.p, &n_fallen));
         assert_ok(gpu_download(bed.gpu, bed.p.field[ROCK_viability], 0, viability, bed.rock.n));
         for (size_t i = 0; i < bed.rock.n; i++) {
@@ -384,6 +516,7 @@ int main(void)
         cmocka_unit_test(stress_agrees_with_quadrature),
         cmocka_unit_test(surface_and_normals_agree),
         cmocka_unit_test(the_same_blocks_fall),
+        cmocka_unit_test(deep_rock_holds_as_particles_do),
         cmocka_unit_test(erodibility_jumps_where_grains_interlock),
         cmocka_unit_test(distance_to_a_sphere),
     };

@@ -1,0 +1,19 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How many runs of deep voxels begin in each word of bits; in the word after the last, none.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, deep)
+WRITE_U(1, first)
+PARAMS(runs_params)
+#include "particles/bits.glsl"
+#define NO_NODES
+#include "blocks/runs.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(first, i) = i + 1u < k.n ? uint(bitCount(own_starts(i))) : 0u;
+}

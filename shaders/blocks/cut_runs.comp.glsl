@@ -1,0 +1,32 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The deep voxels that nothing on the ground holds: their particles are due. Counts them.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, deep)
+READ_U(1, first)
+READ_U(2, words)
+READ_U(3, root)
+WRITE_U(4, born)
+WRITE_U(5, counts)
+PARAMS(runs_params)
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "blocks/runs.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint ground = voxel_rank(ivec3(0, 0, 1)), own = LOAD_U(deep, i), loose = 0u;
+    for (uint bits = own; bits != 0u; bits &= bits - 1u) {
+        uint bit = bits & (~bits + 1u);
+        if (LOAD_U(root, run_node(i, bit)) >= ground)
+            loose |= bit;
+    }
+    AT(born, i) = loose;
+    if (loose != 0u)
+        atomicAdd(AT(counts, COUNT_BORN), uint(bitCount(loose)));
+}

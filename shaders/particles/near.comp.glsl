@@ -1,0 +1,52 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Which voxels are within k.reach of an empty one, on every axis; outside the domain all are empty. One axis after the other: x
+// reads which are occupied, y and z what the axis before has found.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, before)
+WRITE_U(1, near)
+PARAMS(near_params)
+
+// The empty voxels of a word of its row, which has `across` of them.
+uint empty_of(int x, int across, uint row)
+{
+    if (x < 0 || x >= across)
+        return 0xffffffffu;
+    uint left = k.nx - 32u * uint(x), beyond = left < 32u ? ~((1u << left) - 1u) : 0u;
+    return ~LOAD_U(before, row + uint(x)) | beyond;
+}
+
+uint along_x(uint i, int across)
+{
+    int x = int(i) % across;
+    uint row = i - uint(x), own = empty_of(x, across, row), sum = own;
+    uint last = empty_of(x - 1, across, row), next = empty_of(x + 1, across, row);
+    for (uint s = 1u; s <= k.reach; s++)
+        sum |= own << s | own >> s | last >> (32u - s) | next << (32u - s);
+    return sum;
+}
+
+// Along y or z: words `step` apart, of which there are `most`, this one being number `at`.
+uint along(uint i, uint step, int at, int most)
+{
+    uint sum = 0u;
+    int reach = int(k.reach);
+    if (at < reach || at + reach >= most)
+        return 0xffffffffu;
+    for (int s = -reach; s <= reach; s++)
+        sum |= LOAD_U(before, uint(int(i) + s * int(step)));
+    return sum;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint across = (k.nx + 31u) >> 5;
+    AT(near, i) = k.axis == 0u   ? along_x(i, int(across))
+                  : k.axis == 1u ? along(i, across, int(i / across % k.ny), int(k.ny))
+                                 : along(i, across * k.ny, int(i / (across * k.ny)), int(k.nz));
+}

@@ -1,0 +1,353 @@
+/* Arenite's rock that has no particles yet: when they come, and how it lasts in checkpoints. */
+#include "model/arenite_deep.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "model/edits.h"
+#include "model/sections.h"
+
+bool arenite_may_be_deep(const struct job *job)
+{
+    const bool material_points = job->stress.solver == STRESS_MPM;
+    bool all = job->domain.particles == PARTICLES_ALL || collapse_shot(job) || material_points;
+    for (size_t i = 0; i < job->n_edits && !all; i++) {
+        const struct job *then = job->edits[i].set.job;
+        all = then && (collapse_shot(then) || then->stress.solver == STRESS_MPM);
+    }
+    return !all;
+}
+
+/* Words of bits for the domain's voxels. */
+static status alloc_bits(const struct arenite *a, uint32_t **bits)
+{
+    return memory_alloc(held_words(a->m.voxels), sizeof **bits, "bits of voxels", bits);
+}
+
+/* ---- births */
+
+/* Room for `more` particles. What depends on their number is made anew where there is not enough: nothing of it lasts. */
+static status make_room(struct arenite *a, size_t more)
+{
+    status st = OK;
+    const size_t n = a->particles.n + more;
+    const bool rubble = a->blocks.rubble;
+    if (n <= a->particles.n_max)
+        return OK;
+    TRY(particles_reserve(a->m.gpu, &a->particles, particles_room_for(n)));
+    arenite_destroy_parts(a, LASTS_ROCK);
+    TRY(arenite_create_parts(a, LASTS_ROCK));
+    a->blocks.rubble = rubble;
+done:
+    return st;
+}
+
+/* The particles of p->born, whose bits are these. */
+static status bear(struct arenite *a, const uint32_t *bits)
+{
+    status st = OK;
+    struct rock rock = {0};
+    TRY(scene_source_make(a->source, bits, NULL, &rock));
+    TRY(make_room(a, rock.n));
+    TRY(particles_add(a->m.gpu, a->m.work, &a->particles, &rock));
+done:
+    rock_free(&rock);
+    return st;
+}
+
+status arenite_bear_near(struct arenite *a)
+{
+    status st = OK;
+    size_t n;
+    uint32_t *bits = NULL;
+    if (a->particles.n_deep == 0)
+        return OK;
+    TRY(alloc_bits(a, &bits));
+    TRY(particles_due(a->m.gpu, a->m.work, &a->particles, bits, &n));
+    if (n)
+        TRY(bear(a, bits));
+done:
+    free(bits);
+    return st;
+}
+
+status arenite_bear_cut(struct arenite *a)
+{
+    status st = OK;
+    uint32_t *bits = NULL;
+    TRY(alloc_bits(a, &bits));
+    TRY(particles_due_chosen(a->m.gpu, &a->particles, bits));
+    TRY(bear(a, bits));
+done:
+    free(bits);
+    return st;
+}
+
+status arenite_bear_all(struct arenite *a)
+{
+    status st = OK;
+    uint32_t *bits = NULL;
+    if (a->particles.n_deep == 0)
+        return OK;
+    log_info("frame %d: an edit of the rock makes all of its %zu particles", a->m.frame,
+             a->particles.n + a->particles.n_deep);
+    TRY(alloc_bits(a, &bits));
+    TRY(particles_due_all(a->m.gpu, &a->particles, bits));
+    TRY(bear(a, bits));
+done:
+    free(bits);
+    return st;
+}
+
+/* ---- the start */
+
+status arenite_first_rock(struct arenite *a, struct rock *rock, uint32_t **deep, size_t *n_deep)
+{
+    status st = OK;
+    struct scene_source *source = NULL;
+    *deep = NULL;
+    *n_deep = 0;
+    TRY(scene_source_create(a->m.whole, &source));
+    if (arenite_may_be_deep(a->m.whole) && edits_of(a->m.whole, a->m.frame) != EDITS_ROCK) {
+        TRY(alloc_bits(a, deep));
+        scene_source_whole(source, *deep, n_deep);
+    }
+    TRY(scene_source_make(source, NULL, *deep, rock));
+    if (*n_deep) {
+        a->source = source;
+        source = NULL;
+    }
+done:
+    scene_source_destroy(&source);
+    return st;
+}
+
+/* ---- frames that show all rock */
+
+/* What the derived values of some particles follow from, and these. */
+static const enum rock_field given[] = {ROCK_P, ROCK_layer, ROCK_phase, ROCK_rate_factor,
+                                        ROCK_interlock_factor},
+                             derived[] = {ROCK_stress, ROCK_von_mises, ROCK_erodibility};
+enum { GIVEN = sizeof given / sizeof *given, DERIVES = sizeof derived / sizeof *derived, TOGETHER = 1 << 18 };
+
+/* Copies the STATE fields to rock[first ...], and derives the others there. */
+static status show_some(struct arenite *a, struct particles *some, const struct rock *from, struct rock *rock,
+                        size_t first)
+{
+    status st = OK;
+    for (int f = 0; f < ROCK_FIELDS; f++) {
+        const size_t size = rock_field_size((enum rock_field)f);
+        if (from->field[f])
+            memcpy((char *)rock->field[f] + first * size, from->field[f], from->n * size);
+    }
+    some->n = from->n;
+    for (size_t i = 0; i < GIVEN; i++)
+        TRY(gpu_upload(a->m.gpu, some->field[given[i]], 0, from->field[given[i]], from->n));
+    if (first == a->particles.n) /* a checkpoint may have been made since */
+        elastic_recover(a->m.gpu, &a->elastic, some);
+    else
+        elastic_sample(a->m.gpu, &a->elastic, some);
+    TRY(erosion_interlock(a->m.gpu, &a->erosion, a->m.job, a->m.frame, some));
+    for (size_t i = 0; i < DERIVES; i++)
+        TRY(gpu_download(a->m.gpu, some->field[derived[i]], 0, (float *)rock->field[derived[i]] + first,
+                         from->n));
+done:
+    return st;
+}
+
+/* Into `some`, of all bits the next words with TOGETHER voxels at most, or a word; *word is the first, and becomes the next. */
+static void take_words(const uint32_t *bits, size_t words, size_t *word, uint32_t *some)
+{
+    size_t n = 0;
+    memset(some, 0, words * sizeof *some);
+    for (; *word < words && n + 32 <= TOGETHER; ++*word) {
+        some[*word] = bits[*word];
+        n += (size_t)__builtin_popcount(bits[*word]);
+    }
+}
+
+static status show_deep(struct arenite *a, struct rock *rock)
+{
+    status st = OK;
+    const size_t words = held_words(a->m.voxels);
+    struct particles some = {.n_max = TOGETHER};
+    struct rock made = {0};
+    uint32_t *bits = NULL, *next = NULL;
+    size_t first = a->particles.n;
+    TRY(alloc_bits(a, &bits));
+    TRY(alloc_bits(a, &next));
+    TRY(gpu_download(a->m.gpu, a->particles.held.deep, 0, bits, words));
+    for (size_t i = 0; i < GIVEN + DERIVES; i++) {
+        const enum rock_field f = i < GIVEN ? given[i] : derived[i - GIVEN];
+        TRY(gpu_buffer_create(a->m.gpu, rock_field_table[f].name, TOGETHER, rock_field_size(f),
+                              &some.field[f]));
+    }
+    for (size_t word = 0; word < words;) {
+        take_words(bits, words, &word, next);
+        rock_free(&made);
+        TRY(scene_source_make(a->source, next, NULL, &made));
+        if (made.n)
+            TRY(show_some(a, &some, &made, rock, first));
+        first += made.n;
+    }
+done:
+    free(bits);
+    free(next);
+    rock_free(&made);
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        gpu_buffer_destroy(a->m.gpu, &some.field[f]);
+    return st;
+}
+
+status arenite_show_rock(struct arenite *a, bool all, struct rock *rock)
+{
+    status st = OK;
+    const struct particles *p = &a->particles;
+    const size_t n = p->n;
+    TRY(rock_alloc(rock, n + (all ? p->n_deep : 0), DERIVED));
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (p->field[f])
+            TRY(gpu_download(a->m.gpu, p->field[f], 0, rock->field[f], n));
+    if (all && p->n_deep)
+        TRY(show_deep(a, rock));
+done:
+    if (st != OK)
+        rock_free(rock);
+    return st;
+}
+
+/* ---- checkpoints */
+
+/* Bits of the deep voxels, and what their scene was: a few of its particles, three numbers each. */
+static const char deep_bits[] = "deep", deep_voxels[] = "deep voxels", deep_scene[] = "deep scene";
+enum { FEW_NUMBERS = 3 };
+
+static void few_numbers(const struct rock *few, size_t i, float out[FEW_NUMBERS])
+{
+    out[0] = (float)few->layer[i];
+    out[1] = few->rate_factor[i];
+    out[2] = few->interlock_factor[i];
+}
+
+status arenite_save_deep(struct arenite *a, struct checkpoint *out)
+{
+    status st = OK;
+    struct rock few = {0};
+    void *data;
+    const size_t words = held_words(a->m.voxels);
+    if (a->particles.n_deep == 0)
+        return OK;
+    TRY(section_add(out, deep_bits, 4, words, &data));
+    TRY(gpu_download(a->m.gpu, a->particles.held.deep, 0, data, words));
+    const uint64_t hash = scene_source_hash(a->source);
+    TRY(section_add(out, deep_voxels, 8, 1, &data));
+    memcpy(data, &hash, sizeof hash);
+    TRY(scene_source_few(a->source, &few));
+    TRY(section_add(out, deep_scene, 4, FEW_NUMBERS * few.n, &data));
+    for (size_t i = 0; i < few.n; i++)
+        few_numbers(&few, i, (float *)data + FEW_NUMBERS * i);
+done:
+    rock_free(&few);
+    return st;
+}
+
+/* The job's rock is that of the checkpoint, where this has no particles of it. */
+static status check_scene(const struct arenite *a, const struct checkpoint *c)
+{
+    status st = OK;
+    struct rock few = {0};
+    const void *data;
+    const char *differs = NULL;
+    TRY(section_take(c, &(struct section_rule){deep_voxels, SECTION_INTEGER, 1, 1, {SECTION_ALL}}, &data,
+                     NULL));
+    if (*(const uint64_t *)data != scene_source_hash(a->source))
+        differs = "shape";
+    TRY(scene_source_few(a->source, &few));
+    const struct section_rule rule = {
+        deep_scene, SECTION_FLOAT, SECTION_ANY, FEW_NUMBERS, {SECTION_ALL, SECTION_ALL, SECTION_ALL}};
+    size_t n;
+    TRY(section_take(c, &rule, &data, &n));
+    for (size_t i = 0; i < few.n && !differs && n == FEW_NUMBERS * few.n; i++) {
+        float own[FEW_NUMBERS];
+        static const char *const names[FEW_NUMBERS] = {"strata", "noise or painted rates",
+                                                       "painted interlocking"};
+        few_numbers(&few, i, own);
+        for (size_t k = 0; k < FEW_NUMBERS && !differs; k++)
+            if (fabs((double)(own[k] - ((const float *)data)[FEW_NUMBERS * i + k])) >
+                1e-4 * fabs((double)own[k]))
+                differs = names[k];
+    }
+    if (n != FEW_NUMBERS * few.n && !differs)
+        differs = "shape";
+    if (differs)
+        st =
+            fail(E_CHECKPOINT,
+                 "the checkpoint of frame %d leaves rock to its job's scene that no weather has reached, and "
+                 "this job's differs in its %s: branch from a run with domain.particles: all",
+                 c->frame, differs);
+done:
+    rock_free(&few);
+    return st;
+}
+
+/* Deep voxels are full rock, in the domain, of particles that are not there. */
+static status check_bits(const struct arenite *a, const struct checkpoint *c, const uint32_t *bits, size_t n,
+                         struct idset *ids)
+{
+    status st = OK;
+    uint32_t *id = NULL;
+    TRY(memory_alloc(n, sizeof *id, "ids", &id));
+    if (!scene_source_ids(a->source, bits, id)) {
+        st = fail(E_CHECKPOINT,
+                  "the checkpoint of frame %d is damaged: section '%s' has voxels that are not full of rock "
+                  "in its scene",
+                  c->frame, deep_bits);
+        goto done;
+    }
+    for (size_t i = 0; i < n; i++) {
+        bool added;
+        TRY(idset_add(ids, id[i], &added));
+        if (!added) {
+            st = fail(E_CHECKPOINT,
+                      "the checkpoint of frame %d is damaged: particle %u is in section 'id', and its voxel "
+                      "in section '%s'",
+                      c->frame, (unsigned)id[i], deep_bits);
+            goto done;
+        }
+    }
+done:
+    free(id);
+    return st;
+}
+
+size_t arenite_deep_count(const struct arenite *a, const struct checkpoint *c)
+{
+    const struct checkpoint_section *s = checkpoint_find(c, deep_bits, 4);
+    size_t n = 0;
+    if (s && s->n == held_words(a->m.voxels))
+        for (size_t i = 0; i < s->n; i++)
+            n += (size_t)__builtin_popcount(((const uint32_t *)s->data)[i]);
+    return n;
+}
+
+status arenite_restore_deep(struct arenite *a, const struct checkpoint *c, struct idset *ids)
+{
+    status st = OK;
+    const size_t n = arenite_deep_count(a, c);
+    const struct section_rule rule = {deep_bits, SECTION_WORD, held_words(a->m.voxels), 1, {SECTION_ALL}};
+    const void *bits;
+    if (!checkpoint_find(c, deep_bits, 4))
+        return OK;
+    TRY(section_take(c, &rule, &bits, NULL));
+    TRY(scene_source_create(a->m.whole, &a->source));
+    TRY(check_scene(a, c));
+    TRY(check_bits(a, c, bits, n, ids));
+    TRY(particles_set_deep(a->m.gpu, a->m.work, &a->particles, bits, n));
+    if (!arenite_may_be_deep(a->m.whole))
+        TRY(arenite_bear_all(a));
+done:
+    return st;
+}

@@ -1,0 +1,30 @@
+/* Arenite's rock that no weather has come near: it has no particles yet (particles/deep.h). */
+#ifndef HOODOO_ARENITE_DEEP_H
+#define HOODOO_ARENITE_DEEP_H
+
+#include "model/arenite.h"
+
+/* May a job's rock be without particles? Not where all of it moves, or is looked at as material points. */
+bool arenite_may_be_deep(const struct job *job);
+
+/* The first rock: particles of what has to have some, and bits of the voxels of all other, *n_deep of them; NULL: there are none. The
+ * caller frees both. */
+MUST_USE status arenite_first_rock(struct arenite *a, struct rock *rock, uint32_t **deep, size_t *n_deep);
+
+/* Particles come to be: where the surface has come near; of what blocks_find() has found cut off; of all rock. The DERIVED fields are
+ * stale where any have come. Waits. */
+MUST_USE status arenite_bear_near(struct arenite *a);
+MUST_USE status arenite_bear_cut(struct arenite *a);
+MUST_USE status arenite_bear_all(struct arenite *a);
+
+/* The rock with every field; with `all`, those that are no particles yet behind those that are, as they would be. The stress must be
+ * current. Waits. */
+MUST_USE status arenite_show_rock(struct arenite *a, bool all, struct rock *rock);
+
+/* Its sections of a checkpoint. Restoring follows the particles', whose ids are in *ids. E_CHECKPOINT: damaged, or of another
+ * scene. */
+MUST_USE status arenite_save_deep(struct arenite *a, struct checkpoint *out);
+size_t arenite_deep_count(const struct arenite *a, const struct checkpoint *c);
+MUST_USE status arenite_restore_deep(struct arenite *a, const struct checkpoint *c, struct idset *ids);
+
+#endif
