@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <new>
+#include <vector>
 
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Interpolation.h>
@@ -12,50 +13,40 @@ struct vdb_sdf {
     openvdb::FloatGrid::Ptr grid;
 };
 
-namespace
+/* The voxel in the middle of the vertices' box. */
+static openvdb::Coord middle_of(const double (*vertex)[3], size_t n, double voxel)
 {
-
-/* The mesh as meshToVolume() asks for it, without copying it. */
-struct adapter {
-    const double (*vertex)[3];
-    size_t n_vertices;
-    const uint32_t (*triangle)[3];
-    size_t n_triangles;
-    double voxel;
-
-    size_t polygonCount() const
-    {
-        return n_triangles;
-    }
-    size_t pointCount() const
-    {
-        return n_vertices;
-    }
-    size_t vertexCount(size_t) const
-    {
-        return 3;
-    }
-    void getIndexSpacePoint(size_t polygon, size_t corner, openvdb::Vec3d &out) const
-    {
-        const double *x = vertex[triangle[polygon][corner]];
-        out = openvdb::Vec3d(x[0] / voxel, x[1] / voxel, x[2] / voxel);
-    }
-};
-
-} // namespace
+    openvdb::BBoxd box;
+    for (size_t i = 0; i < n; i++)
+        box.expand(openvdb::Vec3d(vertex[i]));
+    return n ? openvdb::Coord::round(box.getCenter() / voxel) : openvdb::Coord();
+}
 
 extern "C" status sdf_make(const double (*vertex)[3], size_t n_vertices, const uint32_t (*triangle)[3],
                            size_t n_triangles, double voxel, double band, struct vdb_sdf **out)
 {
     try {
-        adapter mesh{vertex, n_vertices, triangle, n_triangles, voxel};
+        /* What the library has compiled takes floats. About the mesh's own middle, and that is a whole number of voxels off,
+         * they are as good as doubles. */
+        const openvdb::Coord middle = middle_of(vertex, n_vertices, voxel);
+        std::vector<openvdb::Vec3s> point(n_vertices);
+        for (size_t i = 0; i < n_vertices; i++)
+            for (int a = 0; a < 3; a++)
+                point[i][a] = float(vertex[i][a] / voxel - middle[a]);
+        std::vector<openvdb::Vec3I> corners(n_triangles);
+        for (size_t t = 0; t < n_triangles; t++)
+            corners[t] = openvdb::Vec3I(triangle[t]);
+        const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> mesh(point, corners);
         openvdb::math::Transform::Ptr transform = openvdb::math::Transform::createLinearTransform(voxel);
+        transform->postTranslate(middle.asVec3d() * voxel);
         const float voxels = float(band / voxel);
         openvdb::FloatGrid::Ptr grid;
+        openvdb::util::NullInterrupter never;
         /* One thread: where two triangles are equally near, the winner must not depend on who came first. */
         tbb::task_arena alone(1);
         alone.execute([&] {
-            grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(mesh, *transform, voxels, voxels);
+            grid = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
+                never, mesh, *transform, voxels, voxels, 0, static_cast<openvdb::Int32Grid *>(nullptr));
         });
         *out = new vdb_sdf{grid};
         return OK;
