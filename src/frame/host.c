@@ -2,6 +2,7 @@
 
 #include "field/aov.h"
 #include "field/field.h"
+#include "particles/pieces.h"
 
 uint64_t host_rock_bytes(size_t n)
 {
@@ -37,14 +38,23 @@ static uint64_t making(const struct job *job)
     return aov_pixels(job) * ((SOURCES + moving) * VECTOR + IDS);
 }
 
-/* The same while it is written, file by file. Points: an order of eight bytes, and what is not alike in a whole leaf
- * of the file's tree: six numbers and a position inside, a normal and more on the surface. Volumes: one grid at
- * a time, which may be full, and its leaves that the surface runs through, each six times as large as what is in it.
+/* The particles that a frame's files show. */
+static uint64_t shown(const struct job *job, const struct scene_size *size)
+{
+    return job->output.vdb.points == VDB_POINTS_ALL ? size->n_particles : size->n_kept;
+}
+
+/* The same while it is written, file by file. Points, a piece at a time: an order of eight bytes, and what is not alike in
+ * a whole leaf of the file's tree: six numbers and a position inside, a normal and more on the surface. Volumes: one grid
+ * at a time, which may be full, and its leaves that the surface runs through, each six times as large as what is in it.
  * Pictures: their packed rows, and the file these are put together in. */
 static uint64_t writing(const struct job *job, const struct scene_size *size, const struct disk_frame *files)
 {
-    const uint64_t n = size->n_particles, bare = size->n_surface, cameras = job->output.aov.n_cameras;
-    const uint64_t points = files->points ? n * (8 + 32) + bare * 32 + files->points : 0;
+    const uint64_t n = shown(job, size), bare = size->n_surface, cameras = job->output.aov.n_cameras;
+    const uint64_t piece = n < PIECE_MOST ? n : PIECE_MOST,
+                   copied = n > piece ? 2 * host_rock_bytes(piece) : 0;
+    const uint64_t points =
+        files->points ? piece * (8 + 32) + copied + (bare < piece ? bare : piece) * 32 + files->points : 0;
     const uint64_t volumes = n * 4 + bare * 6 * 4 + files->volumes;
     return most(points, most(volumes, most(2 * files->usd, cameras ? 2 * files->pictures / cameras : 0)));
 }
@@ -52,10 +62,11 @@ static uint64_t writing(const struct job *job, const struct scene_size *size, co
 uint64_t host_frame_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
                           uint64_t own)
 {
-    const uint64_t n = job->output.vdb.points == VDB_POINTS_ALL ? size->n_particles : size->n_kept;
+    const uint64_t n = size->n_kept, deep = shown(job, size) - n;
     const bool moves = job->clock.seconds_per_frame > 0 || job->collapse.blocks == COLLAPSE_FALL;
-    return host_rock_bytes(n) + (moves ? 16 * n : 0) + value_grids(HAS_ALWAYS) * samples * sizeof(float) +
-           own + aov_picture_bytes(job) * job->output.aov.n_cameras;
+    return host_rock_bytes(n) + (moves ? 16 * n : 0) + deep * DEEP_VALUES * sizeof(float) +
+           value_grids(HAS_ALWAYS) * samples * sizeof(float) + own +
+           aov_picture_bytes(job) * job->output.aov.n_cameras;
 }
 
 uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,

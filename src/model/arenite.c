@@ -413,7 +413,9 @@ static status output(struct model *m, struct frame *out)
     if (wants.volumes || wants.pictures)
         TRY(field_build(m->gpu, m->work, &m->field, &a->particles));
     if (wants.points || (wants.volumes && a->tile.n)) {
-        TRY(arenite_show_rock(a, wants.points && m->whole->output.vdb.points == VDB_POINTS_ALL, &out->rock));
+        TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
+        if (wants.points && m->whole->output.vdb.points == VDB_POINTS_ALL)
+            TRY(arenite_show_deep(a, &out->deep));
         TRY(measure(a, out->rock.stress, out->rock.viability, out));
     } else {
         TRY(measure_alone(a, out));

@@ -130,30 +130,29 @@ done:
 /* What the derived values of some particles follow from, and these. */
 static const enum rock_field given[] = {ROCK_P, ROCK_layer, ROCK_phase, ROCK_rate_factor,
                                         ROCK_interlock_factor},
-                             derived[] = {ROCK_stress, ROCK_von_mises, ROCK_erodibility};
-enum { GIVEN = sizeof given / sizeof *given, DERIVES = sizeof derived / sizeof *derived, TOGETHER = 1 << 18 };
+                             derived[DEEP_VALUES] = {ROCK_stress, ROCK_von_mises, ROCK_erodibility};
+enum { GIVEN = sizeof given / sizeof *given, TOGETHER = 1 << 18 };
 
-/* Copies the STATE fields to rock[first ...], and derives the others there. */
-static status show_some(struct arenite *a, struct particles *some, const struct rock *from, struct rock *rock,
-                        size_t first)
+static status make_deep(const void *source, const uint32_t *bits, struct rock *out)
+{
+    return scene_source_make(source, bits, NULL, out);
+}
+
+/* The derived values of some particles go to those of deep voxels, from number `first` on. */
+static status derive(struct arenite *a, struct particles *some, const struct rock *from, size_t first,
+                     struct frame_deep *deep)
 {
     status st = OK;
-    for (int f = 0; f < ROCK_FIELDS; f++) {
-        const size_t size = rock_field_size((enum rock_field)f);
-        if (from->field[f])
-            memcpy((char *)rock->field[f] + first * size, from->field[f], from->n * size);
-    }
     some->n = from->n;
     for (size_t i = 0; i < GIVEN; i++)
         TRY(gpu_upload(a->m.gpu, some->field[given[i]], 0, from->field[given[i]], from->n));
-    if (first == a->particles.n) /* a checkpoint may have been made since */
+    if (first == 0) /* a checkpoint may have been made since */
         elastic_recover(a->m.gpu, &a->elastic, some);
     else
         elastic_sample(a->m.gpu, &a->elastic, some);
     TRY(erosion_interlock(a->m.gpu, &a->erosion, a->m.job, a->m.frame, some));
-    for (size_t i = 0; i < DERIVES; i++)
-        TRY(gpu_download(a->m.gpu, some->field[derived[i]], 0, (float *)rock->field[derived[i]] + first,
-                         from->n));
+    for (size_t v = 0; v < DEEP_VALUES; v++)
+        TRY(gpu_download(a->m.gpu, some->field[derived[v]], 0, deep->value[v] + first, from->n));
 done:
     return st;
 }
@@ -169,32 +168,29 @@ static void take_words(const uint32_t *bits, size_t words, size_t *word, uint32_
     }
 }
 
-static status show_deep(struct arenite *a, struct rock *rock)
+static status derive_all(struct arenite *a, struct frame_deep *deep)
 {
     status st = OK;
     const size_t words = held_words(a->m.voxels);
     struct particles some = {.n_max = TOGETHER};
     struct rock made = {0};
-    uint32_t *bits = NULL, *next = NULL;
-    size_t first = a->particles.n;
-    TRY(alloc_bits(a, &bits));
+    uint32_t *next = NULL;
+    size_t first = 0;
     TRY(alloc_bits(a, &next));
-    TRY(gpu_download(a->m.gpu, a->particles.held.deep, 0, bits, words));
-    for (size_t i = 0; i < GIVEN + DERIVES; i++) {
+    for (size_t i = 0; i < GIVEN + DEEP_VALUES; i++) {
         const enum rock_field f = i < GIVEN ? given[i] : derived[i - GIVEN];
         TRY(gpu_buffer_create(a->m.gpu, rock_field_table[f].name, TOGETHER, rock_field_size(f),
                               &some.field[f]));
     }
     for (size_t word = 0; word < words;) {
-        take_words(bits, words, &word, next);
+        take_words(deep->bits, words, &word, next);
         rock_free(&made);
         TRY(scene_source_make(a->source, next, NULL, &made));
         if (made.n)
-            TRY(show_some(a, &some, &made, rock, first));
+            TRY(derive(a, &some, &made, first, deep));
         first += made.n;
     }
 done:
-    free(bits);
     free(next);
     rock_free(&made);
     for (int f = 0; f < ROCK_FIELDS; f++)
@@ -202,20 +198,19 @@ done:
     return st;
 }
 
-status arenite_show_rock(struct arenite *a, bool all, struct rock *rock)
+status arenite_show_deep(struct arenite *a, struct frame_deep *out)
 {
     status st = OK;
-    const struct particles *p = &a->particles;
-    const size_t n = p->n;
-    TRY(rock_alloc(rock, n + (all ? p->n_deep : 0), DERIVED));
-    for (int f = 0; f < ROCK_FIELDS; f++)
-        if (p->field[f])
-            TRY(gpu_download(a->m.gpu, p->field[f], 0, rock->field[f], n));
-    if (all && p->n_deep)
-        TRY(show_deep(a, rock));
+    *out = (struct frame_deep){.h = a->m.h, .n = a->particles.n_deep, .source = a->source, .make = make_deep};
+    memcpy(out->voxels, a->m.voxels, sizeof out->voxels);
+    if (out->n == 0)
+        return OK;
+    TRY(alloc_bits(a, &out->bits));
+    TRY(gpu_download(a->m.gpu, a->particles.held.deep, 0, out->bits, held_words(a->m.voxels)));
+    for (size_t v = 0; v < DEEP_VALUES; v++)
+        TRY(memory_alloc(out->n, sizeof *out->value[v], "values deep inside", &out->value[v]));
+    TRY(derive_all(a, out));
 done:
-    if (st != OK)
-        rock_free(rock);
     return st;
 }
 

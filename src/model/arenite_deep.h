@@ -17,9 +17,8 @@ MUST_USE status arenite_bear_near(struct arenite *a);
 MUST_USE status arenite_bear_cut(struct arenite *a);
 MUST_USE status arenite_bear_all(struct arenite *a);
 
-/* The rock with every field; with `all`, those that are no particles yet behind those that are, as they would be. The stress must be
- * current. Waits. */
-MUST_USE status arenite_show_rock(struct arenite *a, bool all, struct rock *rock);
+/* What a frame shows of the rock that has no particles; the frame's to free, finished or not. The stress must be current. Waits. */
+MUST_USE status arenite_show_deep(struct arenite *a, struct frame_deep *out);
 
 /* Its sections of a checkpoint. Restoring follows the particles', whose ids are in *ids. E_CHECKPOINT: damaged, or of another
  * scene. */

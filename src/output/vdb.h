@@ -39,7 +39,10 @@ struct vdb_bytes {
 
 MUST_USE status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options,
                             struct vdb_bytes *out);
+/* Points: a grid for each piece, `points`, `points_2` and so on. The rock alone, or with what a frame has behind it. */
 MUST_USE status vdb_points(const struct rock *rock, const struct vdb_options *options, struct vdb_bytes *out);
+MUST_USE status vdb_points_of_frame(const struct rock *rock, const struct frame_deep *deep,
+                                    const struct vdb_options *options, struct vdb_bytes *out);
 
 /* What a file holds: grids (name, type, class, active voxels or points, bounds in m in the file's axes,
  * attributes) and file metadata, written into `out` as a JSON object's members. E_INPUT if it is missing or

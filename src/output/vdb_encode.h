@@ -10,7 +10,15 @@ extern "C" {
 
 typedef status vdb_encode_volumes_function(const struct frame_grids *grids, const struct vdb_options *options,
                                            struct vdb_bytes *out);
-typedef status vdb_encode_points_function(const struct rock *rock, const struct vdb_options *options,
+/* A frame's rock, piece by piece (particles/pieces.h). Where get() fails the file is not made, and get() has said why. */
+struct vdb_pieces {
+    const struct rock *rock;
+    size_t n;
+    void *user;
+    status (*get)(void *user, size_t i, struct rock *out);
+    void (*drop)(void *user, struct rock *piece);
+};
+typedef status vdb_encode_points_function(const struct vdb_pieces *pieces, const struct vdb_options *options,
                                           struct vdb_bytes *out);
 
 vdb_encode_volumes_function vdb_encode_volumes;

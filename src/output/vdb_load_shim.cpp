@@ -174,16 +174,20 @@ void set_size(int32_t n[3], const openvdb::Vec3i &size, bool dense)
         throw std::runtime_error("its grids are larger than this machine's memory");
 }
 
-/* A particle file being read: its leaves, and where each leaf's particles start. */
+/* A particle file being read: the leaves of its grids of points, and where each leaf's particles start. */
 struct point_leaves {
-    std::vector<const openvdb::points::PointDataTree::LeafNodeType *> leaf;
+    struct source {
+        const openvdb::points::PointDataTree::LeafNodeType *leaf;
+        const openvdb::math::Transform *transform;
+    };
+    std::vector<source> leaf;
     std::vector<size_t> begin{0};
 
-    explicit point_leaves(const PointDataGrid &grid)
+    void add(const PointDataGrid &grid)
     {
         for (auto l = grid.tree().cbeginLeaf(); l; ++l) {
             l->validateOffsets();
-            leaf.push_back(&*l);
+            leaf.push_back({&*l, &grid.transform()});
             begin.push_back(begin.back() + l->getLastValue());
         }
     }
@@ -194,25 +198,24 @@ struct point_leaves {
     template <class work_fn> void each(const work_fn &work) const
     {
         for (size_t i = 0; i < leaf.size(); i++)
-            work(*leaf[i], begin[i]);
+            work(*leaf[i].leaf, begin[i], *leaf[i].transform);
     }
 };
 
 template <class T, class store_fn>
 void read_attribute(const point_leaves &leaves, const std::string &name, const store_fn &store)
 {
-    leaves.each([&](const auto &leaf, size_t begin) {
+    leaves.each([&](const auto &leaf, size_t begin, const auto &) {
         const openvdb::points::AttributeHandle<T> handle(leaf.constAttributeArray(name));
         for (openvdb::Index i = 0; i < leaf.getLastValue(); i++)
             store(begin + i, handle.get(i));
     });
 }
 
-std::vector<float> positions(const point_leaves &leaves, const PointDataGrid &grid, bool y_up)
+std::vector<float> positions(const point_leaves &leaves, bool y_up)
 {
     std::vector<float> P(4 * leaves.n());
-    const auto &transform = grid.transform();
-    leaves.each([&](const auto &leaf, size_t begin) {
+    leaves.each([&](const auto &leaf, size_t begin, const auto &transform) {
         const openvdb::points::AttributeHandle<Vec3f> handle(leaf.constAttributeArray("P"));
         for (auto i = leaf.beginIndexOn(); i; ++i) {
             const Vec3d x = transform.indexToWorld(Vec3d(handle.get(*i)) + i.getCoord().asVec3d());
@@ -335,21 +338,28 @@ try {
     const status st = vdb::load(q->path, &file);
     if (st != OK)
         return st;
-    const auto named = file.grid("points");
-    const auto grid = named ? openvdb::gridPtrCast<PointDataGrid>(named) : nullptr;
-    if (!grid)
+    point_leaves leaves;
+    std::vector<PointDataGrid::Ptr> grids; /* points, points_2 and so on */
+    for (std::string name = "points"; const auto named = file.grid(name.c_str());) {
+        const auto grid = openvdb::gridPtrCast<PointDataGrid>(named);
+        if (!grid)
+            break;
+        grids.push_back(grid);
+        leaves.add(*grid);
+        name = "points_" + std::to_string(grids.size() + 1);
+    }
+    if (grids.empty())
         throw std::runtime_error("it holds no points");
-    const point_leaves leaves(*grid);
     vdb_part_points part{};
     part.n = leaves.n();
     for (int f = 0; f < ROCK_FIELDS; f++)
-        part.has[f] =
-            f == ROCK_P || (*rock_field_table[f].vdb &&
-                            (leaves.leaf.empty() || leaves.leaf[0]->hasAttribute(rock_field_table[f].vdb)));
+        part.has[f] = f == ROCK_P ||
+                      (*rock_field_table[f].vdb &&
+                       (leaves.leaf.empty() || leaves.leaf[0].leaf->hasAttribute(rock_field_table[f].vdb)));
     must(serve_put(answer, &part, sizeof part));
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (f == ROCK_P) {
-            const std::vector<float> P = positions(leaves, *grid, file.y_up);
+            const std::vector<float> P = positions(leaves, file.y_up);
             must(serve_put(answer, P.data(), P.size() * sizeof P[0]));
         } else if (part.has[f]) {
             send_field(leaves, static_cast<enum rock_field>(f), file.y_up, answer);

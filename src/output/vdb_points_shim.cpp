@@ -319,28 +319,46 @@ class leaf_maker
     std::vector<attribute> attributes_;
     descriptor::Ptr position_, all_;
 };
-} // namespace
+/* A piece of a frame's rock, while its grid is made; refused() where there is none. */
+struct refused {
+    status st;
+};
+class piece
+{
+  public:
+    piece(const vdb_pieces &all, size_t i) : all_(all)
+    {
+        const status st = all.get(all.user, i, &rock_);
+        if (st != OK)
+            throw refused{st};
+    }
+    piece(const piece &) = delete;
+    piece &operator=(const piece &) = delete;
+    ~piece()
+    {
+        all_.drop(all_.user, &rock_);
+    }
+    const rock &get() const
+    {
+        return rock_;
+    }
 
-extern "C" status vdb_encode_points(const struct rock *rock, const struct vdb_options *options,
-                                    struct vdb_bytes *out)
-try {
-    vdb::start();
-    *out = vdb_bytes{nullptr, 0};
-    if (!(options->spacing > 0) || !std::isfinite(options->spacing))
-        return fail(E_OUTPUT, "points of frame %d: a spacing of %g m", options->frame, options->spacing);
-    if (rock->n >= UINT32_MAX || (rock->n && !rock->P))
-        return fail(E_OUTPUT, "points of frame %d: %zu particles%s", options->frame, rock->n,
-                    rock->P ? ", more than a file can number" : " without positions");
+  private:
+    const vdb_pieces &all_;
+    rock rock_{};
+};
 
+/* The leaves with the piece's particles. */
+PointDataGrid::Ptr make_grid(const rock &r, const vdb_options &options)
+{
     /* About eight particles a voxel, as OpenVDB advises. */
-    const placement at{rock->P, 2 * options->spacing, options->up == OUTPUT_UP_Y};
+    const placement at{r.P, 2 * options.spacing, options.up == OUTPUT_UP_Y};
     leaf_lists lists;
     size_t bad = 0;
-    if (!sort_into_leaves(*rock, *options, at, lists, bad))
-        return fail(E_NUMERIC, "points of frame %d: particle %zu is at (%g, %g, %g) m", options->frame, bad,
-                    double(rock->P[4 * bad]), double(rock->P[4 * bad + 1]), double(rock->P[4 * bad + 2]));
-
-    const leaf_maker maker(*rock, *options, at);
+    if (!sort_into_leaves(r, options, at, lists, bad))
+        throw refused{fail(E_NUMERIC, "points of frame %d: particle %zu is at (%g, %g, %g) m", options.frame,
+                           bad, double(r.P[4 * bad]), double(r.P[4 * bad + 1]), double(r.P[4 * bad + 2]))};
+    const leaf_maker maker(r, options, at);
     std::vector<std::unique_ptr<leaf_node>> leaves(lists.origin.size());
     tbb::parallel_for(
         tbb::blocked_range<size_t>(0, leaves.size()), [&](const tbb::blocked_range<size_t> &range) {
@@ -351,12 +369,33 @@ try {
     auto grid = PointDataGrid::create();
     for (auto &leaf : leaves)
         grid->tree().addLeaf(leaf.release());
-    const openvdb::MetaMap metadata = vdb::file_metadata(*options, at.voxel);
-    grid->setName("points");
-    grid->setCreator(metadata.metaValue<std::string>("creator"));
     grid->setTransform(openvdb::math::Transform::createLinearTransform(at.voxel));
-    vdb::encode(
-        1, [&](size_t) { return grid; }, *options, metadata, out);
+    return grid;
+}
+} // namespace
+
+extern "C" status vdb_encode_points(const struct vdb_pieces *pieces, const struct vdb_options *options,
+                                    struct vdb_bytes *out)
+try {
+    vdb::start();
+    *out = vdb_bytes{nullptr, 0};
+    const rock &whole = *pieces->rock;
+    if (!(options->spacing > 0) || !std::isfinite(options->spacing))
+        return fail(E_OUTPUT, "points of frame %d: a spacing of %g m", options->frame, options->spacing);
+    if (whole.n >= UINT32_MAX || (whole.n && !whole.P))
+        return fail(E_OUTPUT, "points of frame %d: %zu particles%s", options->frame, whole.n,
+                    whole.P ? ", more than a file can number" : " without positions");
+    const openvdb::MetaMap metadata = vdb::file_metadata(*options, 2 * options->spacing);
+    const auto make = [&](size_t i) {
+        const piece part(*pieces, i);
+        const PointDataGrid::Ptr grid = make_grid(part.get(), *options);
+        grid->setName(i == 0 ? "points" : "points_" + std::to_string(i + 1));
+        grid->setCreator(metadata.metaValue<std::string>("creator"));
+        return grid;
+    };
+    vdb::encode(pieces->n, make, *options, metadata, out);
     return OK;
+} catch (const refused &r) {
+    return r.st;
 }
 SHIM_CATCH(E_OUTPUT, "points")

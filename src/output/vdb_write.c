@@ -1,6 +1,7 @@
 #include "base/library.h"
 #include "output/vdb.h"
 #include "output/vdb_encode.h"
+#include "particles/pieces.h"
 
 status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options, struct vdb_bytes *out)
 {
@@ -9,9 +10,42 @@ status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *op
     return st == OK ? library_said(encode(grids, options, out)) : st;
 }
 
+/* Pieces, and what went wrong with one of them. */
+struct getting {
+    struct rock_pieces pieces;
+    status st;
+};
+
+static status get_piece(void *user, size_t i, struct rock *out)
+{
+    struct getting *g = user;
+    return g->st = rock_piece(&g->pieces, i, out);
+}
+
+static void drop_piece(void *user, struct rock *piece)
+{
+    const struct getting *g = user;
+    rock_piece_free(&g->pieces, piece);
+}
+
+status vdb_points_of_frame(const struct rock *rock, const struct frame_deep *deep,
+                           const struct vdb_options *options, struct vdb_bytes *out)
+{
+    status st = OK;
+    struct getting g = {{0}, OK};
+    vdb_encode_points_function *encode = NULL;
+    TRY(library_find("vdb_encode_points", &encode));
+    TRY(rock_pieces_begin(rock, deep, &g.pieces));
+    const struct vdb_pieces pieces = {rock, g.pieces.n, &g, get_piece, drop_piece};
+    st = encode(&pieces, options, out);
+    if (g.st == OK) /* else it is said already */
+        st = library_said(st);
+done:
+    rock_pieces_end(&g.pieces);
+    return st;
+}
+
 status vdb_points(const struct rock *rock, const struct vdb_options *options, struct vdb_bytes *out)
 {
-    vdb_encode_points_function *encode = NULL;
-    status st = library_find("vdb_encode_points", &encode);
-    return st == OK ? library_said(encode(rock, options, out)) : st;
+    return vdb_points_of_frame(rock, NULL, options, out);
 }

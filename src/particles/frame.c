@@ -16,6 +16,9 @@ void aov_image_free(struct aov_image *image)
 void frame_free(struct frame *frame)
 {
     rock_free(&frame->rock);
+    free(frame->deep.bits);
+    for (size_t v = 0; v < DEEP_VALUES; v++)
+        free(frame->deep.value[v]);
     rock_free(&frame->rocks.at);
     free(frame->rocks.box);
     free(frame->stacks.bytes);

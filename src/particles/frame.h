@@ -58,6 +58,19 @@ struct frame_rocks {
     float (*box)[2][3]; /* [n_shapes] m: the corners of each, from its P */
 };
 
+/* Rock of the frame that has no particles (particles/deep.h), where files show them all the same: pieces.h makes them. */
+enum { DEEP_VALUES = 3 };
+struct frame_deep {
+    int voxels[3]; /* of the domain; 0: there never is any */
+    double h;      /* m: their side */
+    size_t n;
+    uint32_t *bits;            /* [held_words()] of its voxels; NULL where n is 0 */
+    float *value[DEEP_VALUES]; /* [n] in voxel order: stress, von Mises stress, erodibility */
+    /* The STATE fields of the particles of some voxels. From any thread, as long as the model is there. */
+    const void *source;
+    status (*make)(const void *source, const uint32_t *bits, struct rock *out);
+};
+
 /* A file's bytes that a model made itself; NULL: none. */
 struct frame_bytes {
     void *bytes;
@@ -68,6 +81,7 @@ struct frame {
     int number;
     double years; /* since the first frame */
     struct rock rock;
+    struct frame_deep deep; /* behind its particles */
     struct frame_grids grids;
     struct frame_rocks rocks;
     struct frame_bytes stacks; /* arches: the terrain itself */

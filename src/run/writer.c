@@ -66,7 +66,7 @@ static status put_points(const struct job *job, uint64_t job_hash, const char *r
     struct vdb_bytes file = {0};
     if (options->points != VDB_POINTS_NONE) {
         options->identity = identity(job_hash, frame->number, FILE_POINTS);
-        TRY(vdb_points(&frame->rock, options, &file));
+        TRY(vdb_points_of_frame(&frame->rock, frame->deep.voxels[0] ? &frame->deep : NULL, options, &file));
         TRY(folder_path(&path, root, job->name, FILE_POINTS, frame->number, NULL));
         TRY(put(root, path.text, &file, manifest));
     }
