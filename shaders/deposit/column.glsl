@@ -1,5 +1,6 @@
-// Heights of columns, from their bits. Needs READ_U(bits). The domain's sides go on beyond it as they are, and
-// below the ground all is solid.
+// Heights of columns, from their bits. Needs READ_U(bits), k.walls and particles/bits.glsl. Beyond walls lies the mirror image,
+// the domain's open sides go on as they are, and below the ground all is solid.
+#include "particles/sides.glsl"
 
 uint column_word(int x, int y, int w)
 {
@@ -11,6 +12,11 @@ uint column_word(int x, int y, int w)
 // The 32 voxels from z up: bit 0 is z.
 uint column_bits(int x, int y, int z)
 {
+    if (k.walls != 0u) {
+        ivec3 seen = side_voxel(ivec3(x, y, 0));
+        x = seen.x;
+        y = seen.y;
+    }
     x = clamp(x, 0, int(k.nx) - 1);
     y = clamp(y, 0, int(k.ny) - 1);
     int w = z >> 5, s = z & 31;

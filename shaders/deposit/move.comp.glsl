@@ -18,6 +18,7 @@ WRITE_U(7, place)
 WRITE_U(8, key)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
 #include "shared/random.glsl"
 #include "deposit/grid.glsl"
 #include "deposit/column.glsl"

@@ -12,6 +12,7 @@ READ_U(2, tag)
 WRITE_U(3, room)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
 #include "deposit/grid.glsl"
 #include "deposit/column.glsl"
 #include "deposit/floors.glsl"

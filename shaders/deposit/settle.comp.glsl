@@ -18,6 +18,7 @@ READ_U(6, bits)
 WRITE_U(7, place)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
+#include "particles/bits.glsl"
 #include "shared/random.glsl"
 #include "deposit/grid.glsl"
 #include "deposit/column.glsl"

@@ -22,6 +22,7 @@ PARAMS(field_params)
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
 #include "particles/within.glsl"
+#include "particles/sides.glsl"
 
 vec4 sum = vec4(0.0);
 float weights = 0.0;
@@ -33,6 +34,7 @@ bool is_near(ivec3 v)
 
 void add(ivec3 v, float weight)
 {
+    v = side_voxel(v);
     if (!voxel_inside(v))
         return;
     uvec2 in_voxel = voxel_particles(v);

@@ -19,11 +19,13 @@ PARAMS(field_params)
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
 #include "particles/within.glsl"
+#include "particles/sides.glsl"
 
 vec2 sum = vec2(0.0);
 
 void add(ivec3 v, float weight)
 {
+    v = side_voxel(v);
     if (!voxel_inside(v))
         return;
     uvec2 in_voxel = voxel_particles(v);

@@ -57,6 +57,17 @@ vec3 go(vec3 x, vec3 d, inout vec3 v)
                 to = next;
         }
     }
+    for (int a = 0; a < 2; a++) { // walls, which do not rub
+        float end = float(a == 0 ? k.cx : k.cy) * k.dx;
+        if ((k.walls & (a == 0 ? WALL_X_MIN : WALL_Y_MIN)) != 0u && to[a] < 0.0) {
+            to[a] = 0.0;
+            v[a] = max(v[a], 0.0);
+        }
+        if ((k.walls & (a == 0 ? WALL_X_MAX : WALL_Y_MAX)) != 0u && to[a] >= end) {
+            to[a] = end * (1.0 - 1e-6);
+            v[a] = min(v[a], 0.0);
+        }
+    }
     if (to.z < 0.0) {
         to.z = 0.0;
         if (v.z < 0.0)

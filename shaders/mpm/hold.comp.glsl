@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The grid's velocity in the search for equilibrium, with the ground's nodes held; and the kinetic energy of
+// The grid's velocity in the search for equilibrium, with the ground's nodes held and those at walls along them; and the kinetic energy of
 // each node.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -26,6 +26,11 @@ void main()
     vec3 v = vec3(0.0);
     if (sum.w > 0.0 && mpm_at(node).z > 1)
         v = sum.xyz / sum.w - vec3(0.0, 0.0, k.gravity * k.dt);
+    ivec3 a = mpm_at(node);
+    if (((k.walls & WALL_X_MIN) != 0u && a.x <= 1) || ((k.walls & WALL_X_MAX) != 0u && a.x > int(k.cx)))
+        v.x = 0.0;
+    if (((k.walls & WALL_Y_MIN) != 0u && a.y <= 1) || ((k.walls & WALL_Y_MAX) != 0u && a.y > int(k.cy)))
+        v.y = 0.0;
     AT(velocity, i) = vec4(v, sum.w);
     AT(product, i) = 0.5 * sum.w * dot(v, v);
 }

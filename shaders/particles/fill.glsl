@@ -1,11 +1,13 @@
 // How much of a voxel is rock; with GROUND_IS_ROCK, below the ground is more of the same. Needs READ_U(words), READ_F(fill),
-// particles/voxel.glsl and particles/held.glsl.
+// k.walls, particles/voxel.glsl and particles/held.glsl.
+#include "particles/sides.glsl"
 
 float fill_at(ivec3 v)
 {
 #ifdef GROUND_IS_ROCK
     v.z = max(v.z, 0);
 #endif
+    v = side_voxel(v);
     if (!voxel_inside(v))
         return 0.0;
     uint s = voxel_slot(v);

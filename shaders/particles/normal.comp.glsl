@@ -19,20 +19,31 @@ PARAMS(voxel_params)
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
 #include "particles/within.glsl"
+#include "particles/sides.glsl"
 
 const uint NEIGHBOURS = 20u;
 const float REACH2 = 6.25; // h^2
 
-// Calls BODY(j, d) for each other particle j near i; d is its offset in units of h.
+// Calls BODY for each other particle j near i, of the rock and its images in walls; d is its offset in units of h.
 #define EACH_NEIGHBOUR(BODY)                                                                              \
-    for (int z = low.z; z <= high.z; z++)                                                                 \
-        for (int y = low.y; y <= high.y; y++) {                                                           \
-            uvec2 row = row_particles(low.x, high.x, y, z);                                               \
-            for (uint j = row.x; j < row.y; j++) {                                                        \
-                vec3 d = (LOAD_V(position, j).xyz - x) / k.h;                                             \
-                BODY                                                                                      \
+    for (int image = 0; image < (k.walls == 0u ? 1 : SIDE_IMAGES); image++) {                             \
+        vec3 at = x / k.h, flip;                                                                          \
+        if (!side_image(image, at.xy, flip))                                                              \
+            continue;                                                                                     \
+        ivec3 middle = image == 0 ? v : ivec3(floor(at));                                                 \
+        ivec3 low = max(middle - 2, ivec3(0)), high = min(middle + 2, ivec3(k.nx, k.ny, k.nz) - 1);       \
+        if (low.x > high.x)                                                                               \
+            continue;                                                                                     \
+        for (int z = low.z; z <= high.z; z++)                                                             \
+            for (int y = low.y; y <= high.y; y++) {                                                       \
+                uvec2 row = row_particles(low.x, high.x, y, z);                                           \
+                for (uint j = row.x; j < row.y; j++) {                                                    \
+                    bool other = image != 0 || j != self;                                                 \
+                    vec3 d = flip * (LOAD_V(position, j).xyz / k.h - at);                                 \
+                    BODY                                                                                  \
+                }                                                                                         \
             }                                                                                             \
-        }
+    }
 
 // Sixteen counters of eight bits.
 void count(inout uvec4 bins, uint bin)
@@ -86,14 +97,13 @@ void main()
     uint self = LOAD_U(list, i);
     vec3 x = LOAD_V(position, self).xyz;
     ivec3 v = voxel_of(x);
-    ivec3 low = max(v - 2, ivec3(0)), high = min(v + 2, ivec3(k.nx, k.ny, k.nz) - 1);
 
     uvec4 bins = uvec4(0u);
     vec3 inward = vec3(0.0);
     EACH_NEIGHBOUR(
         float d2 = dot(d, d);
         inward += d;
-        if (d2 < REACH2 && j != self)
+        if (d2 < REACH2 && other)
             count(bins, uint(d2 * (16.0 / REACH2)));)
     uint before = 0u;
     uint bin = reached(bins, before);
@@ -103,7 +113,7 @@ void main()
         uvec4 parts = uvec4(0u);
         EACH_NEIGHBOUR(
             float d2 = dot(d, d) - from;
-            if (d2 >= 0.0 && d2 < REACH2 / 16.0 && j != self)
+            if (d2 >= 0.0 && d2 < REACH2 / 16.0 && other)
                 count(parts, uint(d2 * (256.0 / REACH2)));)
         uint part = reached(parts, before);
         cut = from + float(min(part, 15u) + 1u) * (REACH2 / 256.0);

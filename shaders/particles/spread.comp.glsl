@@ -23,6 +23,10 @@ void main()
     if (i >= k.n)
         return;
     ivec3 v = voxel_at(LOAD_U(list, i));
+    // The ground holds what would lie below it, and a wall what would lie beyond it.
+    vec3 least = vec3((k.walls & WALL_X_MIN) != 0u ? 0.0 : -1e9, (k.walls & WALL_Y_MIN) != 0u ? 0.0 : -1e9, 0.0);
+    vec3 most = vec3((k.walls & WALL_X_MAX) != 0u ? float(k.nx) - 1.0 : 1e9,
+                     (k.walls & WALL_Y_MAX) != 0u ? float(k.ny) - 1.0 : 1e9, 1e9);
     ivec3 low = max(v - 1, ivec3(0)), high = min(v + 1, ivec3(k.nx, k.ny, k.nz) - 1);
     float sum = 0.0;
     for (int z = low.z; z <= high.z; z++)
@@ -30,8 +34,7 @@ void main()
             uvec2 row = row_particles(low.x, high.x, y, z);
             for (uint j = row.x; j < row.y; j++) {
                 vec3 x = LOAD_V(position, j).xyz / k.h - 0.5;
-                // The ground holds what would lie below it.
-                vec3 w = max(1.0 - abs(max(x, vec3(-1e9, -1e9, 0.0)) - vec3(v)), vec3(0.0));
+                vec3 w = max(1.0 - abs(clamp(x, least, most) - vec3(v)), vec3(0.0));
                 sum += w.x * w.y * w.z * LOAD_F(viability, j);
             }
         }

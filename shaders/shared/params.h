@@ -47,14 +47,23 @@ struct reduce_end_params {
 };
 SHARED_SIZE(reduce_end_params, 12)
 
+/* ---- the domain's sides, a bit each in `walls`: those beyond which the rock goes on, as its own mirror image. At the
+ * others it ends. See particles/sides.glsl. */
+
+#define WALL_X_MIN 1u
+#define WALL_X_MAX 2u
+#define WALL_Y_MIN 4u
+#define WALL_Y_MAX 8u
+
 /* ---- particles: the voxel index */
 
 struct voxel_params {
     uint n;
     uint nx, ny, nz; /* voxels of the domain */
     float h;         /* m: voxel size, the particle spacing */
+    uint walls;
 };
-SHARED_SIZE(voxel_params, 20)
+SHARED_SIZE(voxel_params, 24)
 
 /* Of blocks: the same, and how many particles one has at least. */
 struct crumble_params {
@@ -125,8 +134,9 @@ struct stress_params {
     float lambda, mu; /* Pa */
     float dx;         /* m */
     float weight;     /* N: of a full cell */
+    uint walls;
 };
-SHARED_SIZE(stress_params, 32)
+SHARED_SIZE(stress_params, 36)
 
 /* Of the multigrid smoother: the stress parameters of a level, and the weights of its step. */
 struct smooth_params {
@@ -136,8 +146,9 @@ struct smooth_params {
     float dx;
     float keep, gain;
     uint second; /* 1: the correction before this one was zero */
+    uint walls;
 };
-SHARED_SIZE(smooth_params, 40)
+SHARED_SIZE(smooth_params, 44)
 
 /* Between a level and the coarser one above it, whose cells are p. Cell c there has the children 2 c - 1 and 2 c
  * on each axis, and node a lies on node 2 a - 1: the ground is node 1 on all levels. */
@@ -145,8 +156,9 @@ struct coarse_params {
     uint n;
     uint cx, cy, cz;
     uint px, py, pz;
+    uint walls;
 };
-SHARED_SIZE(coarse_params, 28)
+SHARED_SIZE(coarse_params, 32)
 
 /* Words of the solver's scalar buffer; the energy that each iteration took out of the error begins at
  * CG_ENERGY. */
@@ -178,8 +190,9 @@ struct erosion_params {
     uint nx, ny, nz;
     float h;  /* m */
     float dt; /* kyr */
+    uint walls;
 };
-SHARED_SIZE(erosion_params, 24)
+SHARED_SIZE(erosion_params, 28)
 
 /* Words the erosion counts into; COUNT_FASTEST is a float. */
 #define COUNT_ERODED 0u
@@ -221,8 +234,9 @@ struct wind_params {
     uint bx, by, bz;                    /* cells of the averaged flow, */
     float origin_x, origin_y;           /* m: where they begin, */
     float cell;                         /* m: and how wide they are */
+    uint walls;
 };
-SHARED_SIZE(wind_params, 80)
+SHARED_SIZE(wind_params, 84)
 
 /* The flow's units are the spacing of its particles and the wind's speed; its origin is the low corner of the
  * box of air, on the ground. */
@@ -256,8 +270,9 @@ struct flow_params {
     float h;                  /* m */
     float origin_x, origin_y; /* m: of the box in the rock's domain */
     float spacing;            /* m */
+    uint walls;
 };
-SHARED_SIZE(flow_params, 112)
+SHARED_SIZE(flow_params, 116)
 
 /* ---- water: see water/water.h. Cells are 2 x 2 x 2 voxels; voxel v lies in cell (v + shift) / 2. A column's
  * cells are bits, `words` words of 32 levels each; its spans are nodes, numbered upwards, column by column. */
@@ -290,8 +305,9 @@ struct water_params {
     uint leak;
     uint random;             /* hash of seed, frame and step */
     float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
+    uint walls;
 };
-SHARED_SIZE(water_params, 68)
+SHARED_SIZE(water_params, 72)
 
 struct water_surface_params {
     uint n;
@@ -303,8 +319,9 @@ struct water_surface_params {
     float rate, shear, threshold; /* k_t (1/Pa), k_f (Pa), tau_c (Pa) */
     float steepest;
     float most; /* m/kyr */
+    uint walls;
 };
-SHARED_SIZE(water_surface_params, 64)
+SHARED_SIZE(water_surface_params, 68)
 
 /* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
 
@@ -324,8 +341,9 @@ struct deposit_params {
     uint round;
     uint last;     /* 1: the round after which nothing waits */
     float quicker; /* how many times faster than rock it was deposits erode */
+    uint walls;
 };
-SHARED_SIZE(deposit_params, 68)
+SHARED_SIZE(deposit_params, 72)
 
 /* Words the deposition counts into. */
 #define COUNT_LANDED 0u
@@ -344,8 +362,9 @@ struct plants_params {
     float binding, shelter;
     uint seed;
     uint spread; /* which voxel's step of this frame */
+    uint walls;
 };
-SHARED_SIZE(plants_params, 48)
+SHARED_SIZE(plants_params, 52)
 
 /* ---- mpm: material points on cells of 2 h. Nodes and base cells are numbered alike, on a lattice three longer
  * than the domain's cells on every axis; a particle's base cell is that of the first of its 27 nodes. Node (1, 1, 1) is the origin, or for rock in motion 3/4 of a cell below: what lies on
@@ -369,8 +388,9 @@ struct mpm_params {
     float lift;                  /* cells: of the domain above the nodes that are its ground */
     float rebound;               /* share of elastic energy that comes back from an impact */
     float full;                  /* kg: of a node's room full of rock */
+    uint walls;
 };
-SHARED_SIZE(mpm_params, 84)
+SHARED_SIZE(mpm_params, 88)
 
 /* 1/s: unloading this fast gives back no more than the rebound's share; slower, more. */
 #define MPM_REBOUND_RATE 0.2f
@@ -414,8 +434,9 @@ struct field_params {
     float h;         /* m */
     uint fx, fy, fz; /* samples of the field: the voxels and a margin */
     uint margin;     /* voxels */
+    uint walls;
 };
-SHARED_SIZE(field_params, 36)
+SHARED_SIZE(field_params, 40)
 
 /* In a slot: all of the brick is inside, and none of its samples are kept. */
 #define SLOT_INSIDE 0xffffffffu
@@ -488,8 +509,9 @@ struct voxels_params {
     uint skin_first;
     float dt;                /* kyr */
     float per_row, per_slab; /* 1 / row, 1 / slab */
+    uint walls;
 };
-SHARED_SIZE(voxels_params, 68)
+SHARED_SIZE(voxels_params, 72)
 
 #undef SHARED_SIZE
 #endif

@@ -6,7 +6,7 @@
 //   K_ab^ij = (lambda g_ai g_bj + mu g_aj g_bi) m_k / 4
 // where along each axis s = 1, m = 1/3 if a and b agree, s = -1, m = 1/6 if not, and g = -1 at the low end, 1
 // at the high end. These have ten distinct magnitudes; everything else below is a constant once unrolled.
-// Needs READ_U(run), READ_V(u), READ_F(fill), k.lambda, k.mu, k.dx and stress/rows.glsl.
+// Needs READ_U(run), READ_V(u), READ_F(fill), k.lambda, k.mu, k.dx, k.walls and stress/rows.glsl.
 
 #define SAME(a, b) ((a) == (b))
 #define M(a, b) (SAME(a, b) ? 1.0 / 3.0 : 1.0 / 6.0)
@@ -55,5 +55,7 @@ vec4 apply_stiffness(uint at)
     vec3 sum = vec3(0.0);
     float scales = 0.0;
     CELL(0, 0, 0) CELL(1, 0, 0) CELL(0, 1, 0) CELL(1, 1, 0) CELL(0, 0, 1) CELL(1, 0, 1) CELL(0, 1, 1) CELL(1, 1, 1)
+    if (k.walls != 0u)
+        sum = along_walls(sum, node_of(own, at, CELLS), ivec3(CELLS), k.walls);
     return vec4(sum, scales);
 }

@@ -26,6 +26,17 @@ ivec3 node_of(uint run, uint at, uvec3 cells)
     return ivec3(run % next.x * STRESS_RUN + at % STRESS_RUN, run % next.y / next.x, run / next.y);
 }
 
+// A wall lets its nodes slide along it, and holds them on it: what is left there of a force or a displacement at node a.
+// On coarser levels the last node may lie beyond the wall, as the last cell does.
+vec3 along_walls(vec3 f, ivec3 a, ivec3 cells, uint walls)
+{
+    if (((walls & WALL_X_MIN) != 0u && a.x <= 1) || ((walls & WALL_X_MAX) != 0u && a.x >= cells.x - 1))
+        f.x = 0.0;
+    if (((walls & WALL_Y_MIN) != 0u && a.y <= 1) || ((walls & WALL_Y_MAX) != 0u && a.y >= cells.y - 1))
+        f.y = 0.0;
+    return f;
+}
+
 // How much of the full stiffness a cell has. The floor keeps nearly empty cells from hanging on nothing.
 float stiffness(float fill)
 {

@@ -28,5 +28,6 @@ void main()
         sum += LOAD_V(coarse, row).xyz;
         sum += LOAD_V(coarse, row + uint(high.x - low.x)).xyz;
     }
+    sum = along_walls(sum, a, ivec3(k.cx, k.cy, k.cz), k.walls);
     AT(z, node) = vec4(LOAD_V(z_before, node).xyz + sum / 8.0, 0.0);
 }

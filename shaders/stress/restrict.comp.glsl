@@ -32,5 +32,6 @@ void main()
                 sum += weight * LOAD_V(defect, row + x).xyz;
             }
         }
+    sum = along_walls(sum, a, ivec3(k.px, k.py, k.pz), k.walls);
     AT(r, i) = vec4(sum, LOAD_V(r_before, i).w);
 }

@@ -30,15 +30,20 @@ void main()
     float weights = 0.0, t = 0.0, mises = 0.0;
     uint row = 0u;
     for (int b = 0; b < 8; b++) {
-        ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2);
-        if (corner.x == 0)
-            row = LOAD_U(table, run_of(low + ivec3(0, corner.yz), CELLS)) + uint(low.x) % STRESS_RUN;
+        ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2), seen = low + corner;
+        vec3 flip = vec3(1.0);
+        if (k.walls != 0u) { // of what lies behind one there is the mirror image
+            seen = side_cell(seen);
+            flip = mix(vec3(-1.0), flip, equal(seen, low + corner));
+        }
+        if (corner.x == 0 || k.walls != 0u)
+            row = LOAD_U(table, run_of(seen, CELLS)) + uint(seen.x) % STRESS_RUN - uint(corner.x);
         uint c = row + uint(corner.x);
         vec3 near = mix(1.0 - f, f, vec3(corner));
         float weight = near.x * near.y * near.z * LOAD_F(fill, c);
         if (weight == 0.0)
             continue;
-        vec3 beyond = at - vec3(low + corner);
+        vec3 beyond = flip * (at - vec3(low + corner));
         weights += weight;
         t += weight * (LOAD_V(normal_stress, c).w + dot(LOAD_V(t_slope, c).xyz, beyond));
         mises += weight * (LOAD_V(shear_stress, c).w + dot(LOAD_V(mises_slope, c).xyz, beyond));

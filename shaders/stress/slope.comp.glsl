@@ -27,11 +27,20 @@ void main()
     vec2 mean = vec2(0.0), here = vec2(LOAD_V(normal_stress, i).w, LOAD_V(shear_stress, i).w);
     mat3 spread = mat3(0.25); // what holds it level
     mat2x3 along = mat2x3(0.0);
+    // Behind a wall lies the mirror image: beside a cell at it, the cell itself.
+    ivec3 before = ivec3(-1), behind = ivec3(1);
+    if (k.walls != 0u) {
+        ivec3 c = node_of(own, i, CELLS);
+        before = side_cell(c - 1) - c;
+        behind = side_cell(c + 1) - c;
+        before.z = -1;
+        behind.z = 1;
+    }
     for (int z = -1; z <= 1; z++)
         for (int y = -1; y <= 1; y++) {
-            uint row = row_at(own, i, y, z);
+            uint row = row_at(own, i, clamp(y, before.y, behind.y), z);
             for (int x = -1; x <= 1; x++) {
-                uint at = row + uint(x);
+                uint at = row + uint(clamp(x, before.x, behind.x));
                 float weight = LOAD_F(fill, at);
                 vec3 d = vec3(x, y, z);
                 vec2 more = vec2(LOAD_V(normal_stress, at).w, LOAD_V(shear_stress, at).w) - here;

@@ -19,6 +19,7 @@ void main()
     if (gone != 0u) {
         AT(bits, k.words + w) &= ~gone;
         AT(gone_bricks, brick_of(word_place(i))) = 1u;
-        atomicAdd(AT(words, VOXELS_GONE), uint(bitCount(gone)));
+        uvec3 place = word_place(i);
+        atomicAdd(AT(words, VOXELS_GONE), uint(bitCount(gone & domain_bits(place.x, place.y))));
     }
 }

@@ -16,6 +16,15 @@ uvec3 word_place(uint i)
     return uvec3(in_slab - y * k.row, y, z + k.margin);
 }
 
+// Which of a word's bits are voxels of the domain, by its place in its row and its row's in the slab, margins counted.
+uint domain_bits(uint word, uint row)
+{
+    if (row < k.margin || row >= k.margin + k.ny || 32u * word >= k.nx)
+        return 0u;
+    uint left = k.nx - 32u * word;
+    return left < 32u ? (1u << left) - 1u : 0xffffffffu;
+}
+
 // The same word's number in a bit set; the set begins with one word of margin.
 uint word_number(uint i)
 {

@@ -18,8 +18,9 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint w = word_number(i), at = k.words + w, own = LOAD_U(bits, at);
-    bool touch = LOAD_U(touched, brick_of(word_place(i))) != 0u;
+    uvec3 place_of = word_place(i);
+    uint w = word_number(i), at = k.words + w, own = LOAD_U(bits, at) & domain_bits(place_of.x, place_of.y);
+    bool touch = LOAD_U(touched, brick_of(place_of)) != 0u;
     uint near = 0u, n = touch && own != 0u ? k.skin_rows : 0u;
     for (uint r = 0u; r < n; r++) {
         uint entry = k.skin_first + 2u * r;

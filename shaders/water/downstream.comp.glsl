@@ -1,13 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pointers for the sum along receivers: nothing flows in a cavity.
+// Pointers for the sum along receivers; what is outside stays there.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, receiver)
-READ_U(1, basin)
-READ_U(2, component)
-WRITE_U(3, pointer)
+WRITE_U(1, pointer)
 PARAMS(water_params)
 
 void main()
@@ -15,6 +13,5 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    bool flows = i < k.nodes && LOAD_U(component, LOAD_U(basin, i)) == k.basins;
-    AT(pointer, i) = flows ? LOAD_U(receiver, i) : k.nodes;
+    AT(pointer, i) = i < k.nodes ? LOAD_U(receiver, i) : k.nodes;
 }

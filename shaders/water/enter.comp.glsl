@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Where each source enters: the span its cell belongs to, or the nearest one with a way out, in cells; of
-// equally near ones the first. Spans at the domain's sides are outlets: water enters beside them if it can.
+// equally near ones the first. Spans at the domain's open sides are outlets: water enters beside them if it can.
 // Looks in ever wider squares of columns.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -48,8 +48,9 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    ivec2 margin = ivec2(k.cx > 2u ? 1 : 0, k.cy > 2u ? 1 : 0);
-    ivec2 low = margin, high = ivec2(k.cx, k.cy) - 1 - margin;
+    ivec2 margin = ivec2(k.cx > 2u ? 1 : 0, k.cy > 2u ? 1 : 0), last = ivec2(k.cx, k.cy) - 1;
+    ivec2 low = ivec2((k.walls & WALL_X_MIN) != 0u ? 0 : margin.x, (k.walls & WALL_Y_MIN) != 0u ? 0 : margin.y);
+    ivec2 high = last - ivec2((k.walls & WALL_X_MAX) != 0u ? 0 : margin.x, (k.walls & WALL_Y_MAX) != 0u ? 0 : margin.y);
     uvec3 voxel = uvec3(LOAD_U(source, 4u * i), LOAD_U(source, 4u * i + 1u), LOAD_U(source, 4u * i + 2u));
     uvec3 c = (voxel + uvec3(k.sx, k.sy, k.sz)) / 2u;
     ivec2 middle = clamp(ivec2(c.xy), low, high);

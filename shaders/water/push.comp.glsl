@@ -19,8 +19,10 @@ void main()
     if (i >= k.n)
         return;
     uint at = LOAD_U(pointer, i), beyond = LOAD_U(pointer, at);
+    if (beyond == at) // what has no way out, between walls on all sides, stays in its pit
+        beyond = k.nodes;
     AT(to, i) = beyond;
-    if (at == k.nodes)
+    if (at == k.nodes || at == i)
         return;
     uint own = LOAD_U(gathered, i);
     if (own != 0u)

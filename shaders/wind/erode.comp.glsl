@@ -25,7 +25,7 @@ float reached_by_wind(vec3 x, vec3 n)
     vec3 wind = vec3(k.wind_x, k.wind_y, k.wind_z), at = x + 1.5 * k.h * n - 0.5 * k.h * wind;
     int steps = int(k.shelter / k.h);
     for (int s = 0; s < steps; s++) {
-        ivec3 v = ivec3(floor(at / k.h));
+        ivec3 v = side_voxel(ivec3(floor(at / k.h)));
         if (!voxel_inside(v))
             return v.z < 0 ? 0.0 : 1.0;
         if (!voxel_empty(v))

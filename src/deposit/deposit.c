@@ -104,6 +104,7 @@ static struct deposit_params params(const struct job *job, int frame, int step,
         .repose = (float)tan(job->deposition.repose_deg * 3.14159265358979323846 / 180),
         .seed = random_hash((uint32_t)job->seed, (uint32_t)frame, (uint32_t)step, RANDOM_DEPOSIT),
         .quicker = (float)(viability > 0 ? 1 / viability : 1),
+        .walls = p->walls,
     };
 }
 

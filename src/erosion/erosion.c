@@ -99,6 +99,7 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
         .nz = (uint)p->voxels[2],
         .h = (float)p->h,
         .dt = (float)kyr,
+        .walls = p->walls,
     };
     struct voxel_params carry = particles_params(p, p->n);
     struct gpu_buffer *counts = gpu_work_words(work);

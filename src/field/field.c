@@ -80,6 +80,7 @@ static struct field_params params_of(const struct field *f, const struct particl
         .fy = (uint)f->n[1],
         .fz = (uint)f->n[2],
         .margin = FIELD_MARGIN,
+        .walls = p->walls,
     };
 }
 
@@ -148,7 +149,7 @@ done:
 
 /* ---- samples */
 
-/* Means and distance, from the share. */
+/* Means and distance, from the share, which walls cut off at last. */
 static void finish(struct gpu *gpu, struct field *f, struct particles *p)
 {
     struct field_params k = params_of(f, p);
@@ -164,6 +165,8 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
         GPU_RUN(gpu, field_distance, k.n, k, f->list, f->slot, f->distance, f->other);
         GPU_RUN(gpu, field_distance, k.n, k, f->list, f->slot, f->other, f->distance);
     }
+    if (k.walls)
+        GPU_RUN(gpu, field_cut, k.n, k, f->list, f->distance, f->share);
 }
 
 status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p)

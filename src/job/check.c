@@ -293,6 +293,24 @@ static status check_clock(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+/* The air's own boundary is the rock that there is, not its image behind a wall. */
+static status check_walls(const struct yaml *root, const struct job *job)
+{
+    static const char *const sides[] = {"x_min", "x_max", "y_min", "y_max"};
+    const struct yaml *wind = yaml_get(root, "wind"), *flow = wind ? yaml_get(wind, "flow") : NULL;
+    unsigned walls = job_walls(job);
+    int first = 0;
+    if (!walls || job->wind.flow.solver != FLOW_SPH || !job_model(job)->wind)
+        return OK;
+    while (!(walls >> first & 1))
+        first++;
+    return yaml_fail(
+        flow ? place(flow, "solver") : root, NULL,
+        "sph does not know what the air does at a wall, and domain.sides.%s is one (use uniform, "
+        "or open sides)",
+        sides[first]);
+}
+
 static status check_sources(const struct yaml *root, const struct job *job)
 {
     const struct yaml *list = yaml_get(root, "sources");
@@ -360,6 +378,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_strata(root, job));
     TRY(check_aov_cameras(root, job));
     TRY(check_sources(root, job));
+    TRY(check_walls(root, job));
     TRY(check_edits(root, job));
     TRY(check_wedge(root, &job->wedge));
     TRY(check_aov_layers(root, job));

@@ -7,6 +7,7 @@
 #include "base/atomic_file.h"
 #include "base/memory.h"
 #include "job/parse.h"
+#include "shared/params.h"
 
 static void free_node(struct job_node *node)
 {
@@ -140,6 +141,13 @@ bool job_has_processes(const struct job *job)
     for (int p = 0; p < PROCESSES; p++)
         any |= job_has_process(job, (enum process)p);
     return any;
+}
+
+unsigned job_walls(const struct job *job)
+{
+    const struct job_sides *s = &job->domain.sides;
+    return (s->x_min == SIDE_X_MIN_WALL ? WALL_X_MIN : 0) | (s->x_max == SIDE_X_MAX_WALL ? WALL_X_MAX : 0) |
+           (s->y_min == SIDE_Y_MIN_WALL ? WALL_Y_MIN : 0) | (s->y_max == SIDE_Y_MAX_WALL ? WALL_Y_MAX : 0);
 }
 
 const struct job_piles *job_piles(const struct job *job)

@@ -164,6 +164,9 @@ MUST_USE status job_resolved(const struct job *job, struct text *out);
 /* The job as it is in a frame: with what the edits up to it set. Lives as long as `job`. */
 const struct job *job_at(const struct job *job, int frame);
 
+/* Which of the domain's sides are walls: WALL_* of shared/params.h. */
+unsigned job_walls(const struct job *job);
+
 /* What differs between models beside what they compute: a row of JOB_MODELS in keys.def. */
 struct job_model {
     const char *name;

@@ -12,10 +12,22 @@ enum { NODE_DEPTH = 24, MAX_KEYS = 64 };
 /* Strata, paints, cameras: some checks compare each with each. */
 enum { LIST_ITEMS = 4096 };
 
-static status unknown_key(const struct yaml *at, const char *const *names, size_t n)
+/* Keys that there were, and what says it now. */
+static const struct {
+    enum job_section_id section;
+    const char *name, *now;
+} replaced[] = {
+    {SECTION_arches, "edges", "domain.sides, each of which is open or a wall (closed: four walls)"},
+};
+
+static status unknown_key(enum job_section_id section, const struct yaml *at, const char *const *names,
+                          size_t n)
 {
     char list[600];
     size_t used = 0;
+    for (size_t i = 0; i < sizeof replaced / sizeof *replaced; i++)
+        if (section == replaced[i].section && strcmp(at->key, replaced[i].name) == 0)
+            return yaml_fail_key(at, "replaced by %s", replaced[i].now);
     const char *near = nearest_word(at->key, names, n);
     if (near)
         return yaml_fail_key(at, "unknown key; did you mean %s?", near);
@@ -101,7 +113,7 @@ status read_section(enum job_section_id section, const struct yaml *map, const c
         if (key && name && key->type == KEY_NAME)
             return yaml_fail_key(v, "it already has a name: %.64s", name);
         if (!key)
-            return unknown_key(v, names, n);
+            return unknown_key(section, v, names, n);
     }
     for (size_t i = 0; i < s->n; i++) {
         const struct job_key *key = &s->key[i];
@@ -142,7 +154,7 @@ static status unknown_node_key(const struct yaml *at)
         names[n++] = job_sections[i].name;
     for (size_t i = 0; i < group->n; i++)
         names[n++] = group->key[i].name;
-    return unknown_key(at, names, n);
+    return unknown_key(SECTION_group, at, names, n);
 }
 
 /* The one operator or shape of a node's mapping. */

@@ -69,7 +69,7 @@ static status settle(struct arches *t, const int lo[2], const int hi[2])
 {
     struct stabilise options = {.table = t->table,
                                 .n_materials = t->n_materials,
-                                .open_edges = t->m.job->arches.edges == EDGES_OPEN,
+                                .walls = job_walls(t->m.job),
                                 .sweeps = t->m.job->arches.sweeps};
     struct stabilised done;
     uint64_t left = 0;
@@ -169,6 +169,7 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
     gpu_stage(m->gpu, "surface");
     TRY(terrain_look(&v));
     TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, m->voxels, m->h, &p));
+    p.walls = job_walls(m->job);
     rock_free(&v.rock);
     gpu_stage(m->gpu, "field");
     const struct field_share known = {v.bricks.count, v.bricks.number, v.bricks.slot, v.share};

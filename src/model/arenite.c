@@ -148,7 +148,8 @@ static status solve(struct arenite *a, bool solved)
                                              .mu = e->options.mu,
                                              .density = e->options.density,
                                              .gravity = e->options.gravity,
-                                             .cfl = a->m.job->collapse.cfl};
+                                             .cfl = a->m.job->collapse.cfl,
+                                             .walls = a->particles.walls};
         if (!a->mpm.n_max)
             TRY(mpm_create(a->m.gpu, a->particles.voxels, a->particles.h, a->particles.n_max, &material,
                            &a->mpm));

@@ -39,6 +39,7 @@ status arenite_create_particles(struct arenite *a, const struct rock *rock)
 {
     status st = OK;
     TRY(particles_create(a->m.gpu, a->m.work, rock, STATE, a->m.voxels, a->m.h, &a->particles));
+    a->particles.walls = job_walls(a->m.job);
     TRY(arenite_create_parts(a, LASTS_ROCK));
     a->blocks.rubble |= a->collapse.falls;
     for (size_t i = 0; i < rock->n && !a->blocks.rubble; i++)
@@ -58,12 +59,12 @@ void arenite_destroy_particles(struct arenite *a)
 /* ---- checkpoints */
 
 /* What the displacement depends on beside the rock's shape. */
-enum { ELASTICITY = 4 };
+enum { ELASTICITY = 5 };
 
 static void elasticity(const struct arenite *a, double out[ELASTICITY])
 {
     const struct elastic_options *e = &a->elastic.options;
-    const double numbers[ELASTICITY] = {e->lambda, e->mu, e->density, e->gravity};
+    const double numbers[ELASTICITY] = {e->lambda, e->mu, e->density, e->gravity, e->walls};
     memcpy(out, numbers, sizeof numbers);
 }
 

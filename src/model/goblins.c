@@ -178,6 +178,7 @@ static status output(struct model *m, struct frame *out)
         goto done;
     TRY(rock_of(g, share, factor, &rock));
     TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels, m->h, &p));
+    p.walls = job_walls(m->job);
     TRY(gpu_upload(m->gpu, p.field[ROCK_erodibility], 0, rock.erodibility, rock.n));
     TRY(show(g, wants, &p, out));
 done:

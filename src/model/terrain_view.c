@@ -39,13 +39,15 @@ static struct sample sample_of(const struct terrain_view *v, size_t brick, int s
                             (int)(number / nx / ny) * BRICK_SIDE + s / BRICK_SIDE / BRICK_SIDE}};
 }
 
-/* Outside the domain is air, and beyond the lattice nothing. */
+/* Outside the domain is air, but behind walls the ground goes on; and beyond the lattice there is nothing. */
 static void cut_sides(const struct terrain_view *v, size_t brick)
 {
+    const unsigned walls = job_walls(v->job);
     for (int s = 0; s < BRICK_SAMPLES; s++) {
         const struct sample p = sample_of(v, brick, s);
         for (int a = 0; a < 3; a++)
-            if (p.x[a] < FIELD_MARGIN || p.x[a] >= v->n[a] - FIELD_MARGIN)
+            if ((p.x[a] < FIELD_MARGIN && !(walls >> (2 * a) & 1)) ||
+                (p.x[a] >= v->n[a] - FIELD_MARGIN && !(walls >> (2 * a + 1) & 1)))
                 v->share[p.at] = 0;
     }
 }

@@ -133,6 +133,7 @@ struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt)
         .lift = (float)o->lift,
         .rebound = (float)o->rebound,
         .full = (float)(o->density * pow(m->dx, 3)),
+        .walls = o->walls,
     };
 }
 

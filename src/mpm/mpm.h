@@ -43,6 +43,7 @@ struct mpm_options {
     double joint;      /* at joints, as a share of strength */
     uint32_t seed;     /* of the joints */
     double lift;       /* cells: 0 for equilibrium, whose ground is held; 0.75 for motion, see params.h */
+    unsigned walls;    /* of the domain, WALL_* of shared/params.h: smooth, and nothing leaves there */
 };
 
 /* Elastic moduli lowered so that waves run at `speed` m/s; their ratio stays. Never raised. */

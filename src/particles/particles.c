@@ -16,7 +16,8 @@ struct voxel_params particles_params(const struct particles *p, size_t n)
                                  .nx = (uint)p->voxels[0],
                                  .ny = (uint)p->voxels[1],
                                  .nz = (uint)p->voxels[2],
-                                 .h = (float)p->h};
+                                 .h = (float)p->h,
+                                 .walls = p->walls};
 }
 
 /* Of what there is a word for each held voxel. */

@@ -16,7 +16,8 @@ struct particles {
     size_t n, n_max;
     size_t n_deep; /* voxels of rock that have no particle yet (deep.h); 0 unless somebody says otherwise */
     int voxels[3];
-    double h;                              /* m: spacing, and a voxel's size */
+    double h;       /* m: spacing, and a voxel's size */
+    unsigned walls; /* the domain's: WALL_* of shared/params.h. 0 until the caller sets it */
     struct gpu_buffer *field[ROCK_FIELDS]; /* n_max items each; v is NULL while nothing can move */
     struct held_voxels held;               /* voxels with particles; with `around`, those around them too */
     bool around;                           /* particles_hold_around() */

@@ -26,6 +26,7 @@ static struct plants_params params(const struct job *job, const struct particles
         .steepest = (float)cos(job->vegetation.steepest_deg * 3.14159265358979323846 / 180),
         .binding = (float)job->vegetation.binding,
         .shelter = (float)job->vegetation.shelter,
+        .walls = p->walls,
     };
 }
 

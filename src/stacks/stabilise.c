@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "shared/params.h"
 
 /* A space, by where it is. */
 struct place {
@@ -77,6 +78,15 @@ static int targets_in(const struct slide *s, const struct space *from, double h,
     return n;
 }
 
+/* Does what slides to stack (i, j), which is beyond the grid, leave it across a side that is no wall? */
+static bool leaves(const struct slide *s, int i, int j)
+{
+    const int *n = s->spaces.stacks->n;
+    const unsigned across = (i < 0 ? WALL_X_MIN : 0) | (i >= n[0] ? WALL_X_MAX : 0) |
+                            (j < 0 ? WALL_Y_MIN : 0) | (j >= n[1] ? WALL_Y_MAX : 0);
+    return (across & ~s->options->walls) != 0;
+}
+
 static status targets_of(struct slide *s, const struct place *p, const struct space *from, double h,
                          struct target out[TARGETS], int *n)
 {
@@ -93,7 +103,7 @@ static status targets_of(struct slide *s, const struct place *p, const struct sp
             if (i >= 0 && j >= 0 && i < g->n[0] && j < g->n[1]) {
                 TRY(spaces_tile(&s->spaces, i, j, &tile));
                 *n = targets_in(s, from, h, i, j, rise, out, *n);
-            } else if (s->options->open_edges && *n < TARGETS && h - from->floor - rise > s->spare) {
+            } else if (leaves(s, i, j) && *n < TARGETS && h - from->floor - rise > s->spare) {
                 out[(*n)++] = (struct target){NULL, from->floor + rise, HUGE_VAL, i, j, 0};
             }
         }
@@ -230,7 +240,7 @@ static bool may_move(const struct slide *s, int i, int j, int k)
         if (d == 4)
             continue;
         if (a < 0 || b < 0 || a >= g->n[0] || b >= g->n[1]) {
-            if (s->options->open_edges)
+            if (leaves(s, a, b))
                 return true;
             continue;
         }

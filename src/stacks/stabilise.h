@@ -15,8 +15,8 @@
 struct stabilise {
     const struct material *table;
     int n_materials;
-    bool open_edges; /* what reaches the grid's sides leaves; else they are walls */
-    int64_t sweeps;  /* at most so many over what moves of each material; 0: until it rests */
+    unsigned walls; /* WALL_* of shared/params.h: what reaches another side of the grid leaves */
+    int64_t sweeps; /* at most so many over what moves of each material; 0: until it rests */
 };
 
 struct stabilised {

@@ -18,6 +18,7 @@ struct elastic_options elastic_options(const struct job *job)
         .gravity = job->rock.gravity_m_s2,
         .tolerance = job->stress.tolerance,
         .max_iterations = (int)job->stress.max_iterations,
+        .walls = job_walls(job),
         .multigrid = job->stress.solver == STRESS_MULTIGRID,
     };
 }

@@ -2,7 +2,8 @@
  * a cycle of multigrid (multigrid.h) or, for comparison, Jacobi's diagonal as preconditioner.
  *
  * Cells are 2 h wide and trilinear; one element matrix serves all, scaled by how much of the cell is rock, as
- * is its weight. Nodes on the ground (z = 0) are held, all other faces are free. The solver starts from the
+ * is its weight. Nodes on the ground (z = 0) are held, those at the domain's walls slide along them, all other faces are
+ * free. The solver starts from the
  * last frame's displacement.
  *
  * Sums are fixed trees, so that equal input gives equal bits. It stops on the error of the stress, not on the
@@ -29,6 +30,7 @@ struct elastic_options {
     double gravity;    /* m/s2 */
     double tolerance;  /* of T: its error's 95th percentile by its own */
     int max_iterations;
+    unsigned walls; /* of the domain, WALL_* of shared/params.h: nodes at them slide along them */
     bool multigrid; /* preconditioned by a cycle of multigrid, else by Jacobi's diagonal */
 };
 

@@ -48,6 +48,7 @@ status elastic_create(struct gpu *gpu, const int voxels[3], double h, const stru
     cells_of(voxels, cells);
     *e = (struct elastic){.dx = 2 * h, .options = *options};
     TRY(lattice_create(gpu, cells, &e->lattice));
+    e->lattice.walls = options->walls;
     TRY(gpu_buffer_create(gpu, "marks of runs", e->lattice.n_table + 1, 4, &e->marks));
     TRY(gpu_buffer_create(gpu, "solver scalars", CG_ENERGY + CG_CHECK, 4, &e->scalars));
     TRY(make_room(gpu, e));

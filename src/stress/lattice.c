@@ -112,8 +112,11 @@ void lattice_table(struct gpu *gpu, struct stress_lattice *l)
 
 struct stress_params lattice_params(const struct stress_lattice *l, size_t n)
 {
-    return (struct stress_params){
-        .n = (uint)n, .cx = (uint)l->cells[0], .cy = (uint)l->cells[1], .cz = (uint)l->cells[2]};
+    return (struct stress_params){.n = (uint)n,
+                                  .cx = (uint)l->cells[0],
+                                  .cy = (uint)l->cells[1],
+                                  .cz = (uint)l->cells[2],
+                                  .walls = l->walls};
 }
 
 status lattice_activate(struct gpu *gpu, struct gpu_work *work, struct stress_lattice *l)

@@ -14,6 +14,7 @@
 
 struct stress_lattice {
     int cells[3];             /* with the margin: two more than the domain's */
+    unsigned walls;           /* of the domain, WALL_*: set by the caller */
     size_t n_table;           /* runs of the whole grid */
     size_t n, room;           /* runs kept, and those there is room for */
     size_t n_active;          /* nodes that move */

@@ -61,7 +61,7 @@ static struct coarse_params between(const struct stress_level *l, size_t n)
 {
     const int *cells = l->lattice.cells, *above = l[1].lattice.cells;
     return (struct coarse_params){(uint)n,        (uint)cells[0], (uint)cells[1], (uint)cells[2],
-                                  (uint)above[0], (uint)above[1], (uint)above[2]};
+                                  (uint)above[0], (uint)above[1], (uint)above[2], l->params.walls};
 }
 
 /* What of a level is kept: the cells with filled children. */
@@ -146,6 +146,7 @@ static struct smooth_params weights(const struct stress_level *l, int steps, int
         .lambda = p->lambda,
         .mu = p->mu,
         .dx = p->dx,
+        .walls = p->walls,
         .keep = k ? (float)((2.0 * k - 1) / (2.0 * k + 3)) : 0,
         .gain = (float)((steps == 1 ? 1.6 : (8.0 * k + 4) / (2.0 * k + 3)) / most),
     };

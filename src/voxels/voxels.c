@@ -222,6 +222,14 @@ done:
     return st;
 }
 
+/* What bubbles see behind walls. */
+static void mirror(struct gpu *gpu, struct voxels *v)
+{
+    const struct voxels_params k = voxels_params(v, domain_words(&v->grid));
+    if (k.walls)
+        GPU_RUN(gpu, voxels_mirror, k.n, k, v->bits);
+}
+
 static status refresh(struct gpu *gpu, struct gpu_work *work, struct voxels *v);
 
 status voxels_create(struct gpu *gpu, struct gpu_work *work, const struct job *job, const int n[3],
@@ -230,6 +238,7 @@ status voxels_create(struct gpu *gpu, struct gpu_work *work, const struct job *j
     status st = OK;
     *v = (struct voxels){.n = {n[0], n[1], n[2]}, .h = job->domain.spacing_m, .skin = skin_of(job)};
     v->grid = geometry(n, margin_of(job));
+    v->grid.walls = job_walls(job);
     size_t words = v->grid.words;
     if (words > UINT32_MAX / 32)
         return fail(E_USAGE,
@@ -245,6 +254,7 @@ status voxels_create(struct gpu *gpu, struct gpu_work *work, const struct job *j
     TRY(gpu_buffer_create(gpu, "voxels", 32 * words, 4, &v->left));
     TRY(gpu_buffer_create(gpu, "voxels' air", 32 * words, 4, &v->state));
     TRY(upload_rock(gpu, v, job->goblins.floats, share, factor));
+    mirror(gpu, v);
     gpu_fill(gpu, v->touched, 1);
     TRY(refresh(gpu, work, v));
 done:
@@ -313,6 +323,7 @@ status voxels_remove(struct gpu *gpu, struct gpu_work *work, struct voxels *v, u
     struct voxels_params k = voxels_params(v, words);
     gpu_fill(gpu, v->gone_bricks, 0);
     gpu_fill(gpu, counts, 0);
+    mirror(gpu, v);
     GPU_RUN(gpu, voxels_apply, words, k, v->bits, v->gone_bricks, counts);
     TRY(gpu_download(gpu, counts, VOXELS_GONE, n_gone, 1));
     if (*n_gone == 0)

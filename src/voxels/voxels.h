@@ -10,7 +10,7 @@
  *
  * Layout    a voxel's number is its bit's in the sets: words of 32 along x, one word of air between rows,
  *           `margin` rows and slabs around the domain for bubbles to reach into. Slabs below the domain are
- *           rock, unless the rock floats.
+ *           rock, unless the rock floats; behind walls lies the mirror image of the domain.
  * Same bits integers are counted, every voxel sums for itself.
  */
 #ifndef HOODOO_VOXELS_H

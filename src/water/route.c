@@ -32,7 +32,8 @@ struct water_params water_params(const struct water *w, size_t n)
                                  .leak = w->leak,
                                  .random = w->random,
                                  .per_row = 1.0f / (float)w->cells[0],
-                                 .per_slab = 1.0f / (float)w->columns};
+                                 .per_slab = 1.0f / (float)w->columns,
+                                 .walls = w->walls};
 }
 
 /* The spans of every column. */

@@ -93,7 +93,8 @@ status water_create(struct gpu *gpu, const struct job *job, const int voxels[3],
     status st = OK;
     uint32_t *source = NULL;
     struct most m = most_of(voxels);
-    *w = (struct water){.n_sources = job->n_sources, .voxels = {voxels[0], voxels[1], voxels[2]}};
+    *w = (struct water){
+        .n_sources = job->n_sources, .voxels = {voxels[0], voxels[1], voxels[2]}, .walls = job_walls(job)};
     TRY(gpu_buffer_create(gpu, "rows of cells", m.row_words, 4, &w->rows));
     TRY(gpu_buffer_create(gpu, "occupied cells", m.columns * m.words + 1, 4, &w->occupied));
     TRY(gpu_buffer_create(gpu, "floors", m.columns * m.words + 1, 4, &w->floors));
@@ -155,8 +156,7 @@ static status let_it_rain(struct gpu *gpu, struct gpu_work *work, struct water *
     uint32_t changed = 1;
     GPU_RUN(gpu, water_rain, k.n, k, w->occupied, w->floors, w->first, sum[0]);
     k.n = (uint)w->n_nodes + 1;
-    GPU_RUN(gpu, water_downstream, k.n, k, node[WATER_FINAL], node[WATER_BASIN], node[WATER_COMPONENT],
-            pointer[0]);
+    GPU_RUN(gpu, water_downstream, k.n, k, node[WATER_FINAL], pointer[0]);
     for (int round = 0; changed; round++) {
         if (round == 32) /* 2^64 hops */
             return fail(E_NUMERIC, "water: %zu receivers have a cycle: the device computes wrongly",
@@ -245,7 +245,8 @@ static struct water_surface_params surface_params(const struct water *w, const s
                                          .words = (uint)w->words,
                                          .cell = (float)(2 * p->h),
                                          .rain_unit = (float)w->rain_unit,
-                                         .spring_unit = (float)w->spring_unit};
+                                         .spring_unit = (float)w->spring_unit,
+                                         .walls = w->walls};
 }
 
 void water_show(struct gpu *gpu, struct water *w, struct particles *p)

@@ -66,6 +66,7 @@ struct water {
     /* The rest is for water's own files and kernels: columns as bits, spans of empty cells with the SURF cell
      * or ground below them (nodes), basins. Node n_nodes and basin n_basins stand for outside. */
     int voxels[3];
+    unsigned walls; /* of the domain, WALL_* of shared/params.h: no water passes there */
     size_t columns, words, n_nodes, n_basins, nodes_max;
     uint32_t random, leak;
     struct gpu_buffer *rows;                      /* uint: a bit a cell, in words along x */

@@ -47,6 +47,7 @@ struct flow_params flow_params_of(const struct flow *f, const struct particles *
         .spacing = (float)f->spacing,
     };
     if (p) {
+        k.walls = p->walls;
         k.nx = (uint)p->voxels[0];
         k.ny = (uint)p->voxels[1];
         k.nz = (uint)p->voxels[2];

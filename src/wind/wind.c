@@ -139,6 +139,7 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
         .wind_y = (float)wind.direction[1],
         .wind_z = (float)wind.direction[2],
         .shelter = (float)job->wind.shelter_m,
+        .walls = p->walls,
     };
     struct wind_lattice air;
     if (!wind_lattice(w, job, frame, &air)) {

@@ -119,6 +119,8 @@ static const struct wrong wrong[] = {
     {"{sphere: {center_m: [1, 2, 3], radius_m: 2}}",
      "{mesh: {file: \"\"}}",
      {"mesh.file: a file name is wanted"}},
+    {"domain: {", "arches: {edges: open}\ndomain: {", {"arches.edges: replaced by domain.sides"}},
+    {"domain: {", "domain: {sides: {x_min: periodic}, ", {"domain.sides.x_min: 'periodic'"}},
     /* values that must fit each other */
     {"max_m: [56, 20, 46]",
      "max_m: [56, 4, 46]",

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "effort.h"
+#include "shared/params.h"
 #include "stacks/stabilise.h"
 #include "stacks/surface.h"
 
@@ -431,10 +432,12 @@ static double steepest(const struct stacks *s, bool rock)
     return worst;
 }
 
+enum { ALL_WALLS = WALL_X_MIN | WALL_X_MAX | WALL_Y_MIN | WALL_Y_MAX };
+
 static struct stabilised rest(struct stacks *s, bool open_edges)
 {
     struct stabilised out;
-    struct stabilise options = {.table = table, .n_materials = N_TABLE, .open_edges = open_edges};
+    struct stabilise options = {.table = table, .n_materials = N_TABLE, .walls = open_edges ? 0 : ALL_WALLS};
     assert_ok(stabilise(s, &options, (const int[]){0, 0}, s->n, &out));
     assert_true(out.resting);
     return out;

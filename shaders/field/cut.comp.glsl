@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Where the rock goes on behind a wall, files and pictures end all the same: the domain's side cuts it, plane and sharp,
+// and leaves what lies before it as it is.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+WRITE_F(1, distance_field)
+WRITE_F(2, share)
+PARAMS(field_params)
+#include "field/lattice.glsl"
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    ivec3 c = brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES);
+    vec3 x = vec3(c - int(k.margin)) + 0.5;
+    float beyond = -1e9; // voxels
+    if ((k.walls & WALL_X_MIN) != 0u)
+        beyond = max(beyond, -x.x);
+    if ((k.walls & WALL_X_MAX) != 0u)
+        beyond = max(beyond, x.x - float(k.nx));
+    if ((k.walls & WALL_Y_MIN) != 0u)
+        beyond = max(beyond, -x.y);
+    if ((k.walls & WALL_Y_MAX) != 0u)
+        beyond = max(beyond, x.y - float(k.ny));
+    AT(distance_field, i) = clamp(max(AT(distance_field, i), beyond * k.h), -3.0 * k.h, 3.0 * k.h);
+    if (beyond > 0.0)
+        AT(share, i) = 0.0;
+}
