@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // What the rock around a sample carries: means of stress, von Mises stress and viability, and the share of deposits, over the
 // particles of the sample's voxel and its neighbours, weighted as in the rock's share; 0 where there are none. Farther than
-// NEAR_REACH voxels from an empty one there need not be any: no stress is shown there, and of the rest the voxel's own.
+// NEAR_REACH voxels from an empty one there need not be any: stress is 0 here (model/inside.h), and of the rest the voxel's own.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -443,6 +443,7 @@ SHARED_SIZE(field_params, 40)
 
 /* Words of field/extent. */
 #define EXTENT_ANY 0x80000000u
+#define EXTENT_ALL (EXTENT_ANY | 0x3fe00u)
 
 struct march_params {
     uint n;

@@ -155,7 +155,10 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
     struct field_params k = params_of(f, p);
     if (k.n == 0)
         return;
-    particles_near(gpu, p, NEAR_REACH);
+    if (f->whole)
+        gpu_fill(gpu, p->near, ~0U);
+    else
+        particles_near(gpu, p, NEAR_REACH);
     GPU_RUN(gpu, field_means, k.n, k, p->held.words, p->start, p->field[ROCK_stress],
             p->field[ROCK_von_mises], p->field[ROCK_viability], p->field[ROCK_phase], f->list, f->share,
             p->near, f->means);
@@ -175,6 +178,8 @@ status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, stru
     particles_fill(gpu, p);
     const struct field_params rock = extent_params(f, p->voxels, FIELD_MARGIN);
     GPU_RUN(gpu, field_reach, rock.n, rock, p->held.words, p->fill, f->place, f->list);
+    if (f->whole)
+        gpu_fill(gpu, f->list, EXTENT_ALL);
     TRY(choose(gpu, work, f));
     const struct field_params k = params_of(f, p);
     if (k.n)

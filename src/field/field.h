@@ -19,6 +19,7 @@ struct field {
     /* Samples are kept in the bricks (particles/grids.h) that rock is in or near; elsewhere the share and the means are 0, and
      * the distance is that of the band's end. Where the slot is BRICK_INSIDE the share is 1, and the distance the other end's. */
     size_t n_bricks, room; /* bricks kept, and those there is room for */
+    bool whole;            /* all rock has particles, and is kept and shown as they have it */
     struct gpu_buffer
         *slot; /* uint [bricks of the lattice]: place in the list and one more, 0, or BRICK_INSIDE */
     struct gpu_buffer *list;         /* uint [bricks of the lattice]: numbers, ascending */

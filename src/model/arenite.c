@@ -23,6 +23,7 @@
 #include "model/air.h"
 #include "model/arenite_deep.h"
 #include "model/edits.h"
+#include "model/inside.h"
 #include "plants/plants.h"
 
 /* Spacings that a step may take where water is fast, before it is cut shorter: those the carry can still take
@@ -411,6 +412,7 @@ static status output(struct model *m, struct frame *out)
     if (wants.points || wants.volumes || wants.pictures)
         TRY(show_water(a));
     gpu_stage(m->gpu, "field");
+    m->field.whole = !arenite_rests(m->job);
     if (wants.volumes || wants.pictures)
         TRY(field_build(m->gpu, m->work, &m->field, &a->particles));
     if (wants.points || (wants.volumes && a->tile.n)) {
@@ -424,6 +426,8 @@ static status output(struct model *m, struct frame *out)
     if (wants.volumes) {
         TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
         TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
+        if (!m->field.whole)
+            TRY(inside_stress(m->gpu, &a->elastic, &out->grids));
     }
     if (wants.volumes || wants.pictures)
         TRY(air_add(m->gpu, &a->wind, m->job, m->frame, &out->grids));

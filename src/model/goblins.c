@@ -17,6 +17,7 @@
 #include "base/memory.h"
 #include "blocks/blocks.h"
 #include "frame/host.h"
+#include "model/inside.h"
 #include "model/sections.h"
 #include "model/type.h"
 #include "particles/particles.h"
@@ -150,8 +151,11 @@ static status show(struct goblins *g, struct frame_wants wants, struct particles
         TRY(field_build(g->m.gpu, g->m.work, &g->m.field, p));
     if (wants.points)
         TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
-    if (wants.volumes)
+    if (wants.volumes) {
         TRY(field_download(g->m.gpu, &g->m.field, p, HAS_ALWAYS, &out->grids));
+        if (job->goblins.stress)
+            TRY(inside_stress(g->m.gpu, &g->elastic, &out->grids));
+    }
     if (wants.pictures) {
         gpu_stage(g->m.gpu, "pictures");
         TRY(aov_render_all(g->m.gpu, &g->m.aov, job, &g->m.field, p, NULL, out));

@@ -49,7 +49,7 @@ struct level_set {
     {
         return cut(value[at], v);
     }
-    bool deep(float &v) const
+    bool deep(const Coord &, float &v) const
     {
         return cut(-background, v);
     }
@@ -57,18 +57,19 @@ struct level_set {
 struct scalar {
     using grid = openvdb::FloatGrid;
     const float *value, *density;
-    float background, inside;
-    bool hollow;
+    float background;
+    const frame_grids *grids;
+    const frame_grid *self;
     bool get(ptrdiff_t at, const Coord &, float &v) const
     {
-        const bool active = density[at] != 0 && !(hollow && value[at] == 0);
+        const bool active = density[at] != 0;
         v = active ? value[at] : 0;
         return active;
     }
-    bool deep(float &v) const
+    bool deep(const Coord &s, float &v) const
     {
-        v = inside;
-        return !hollow;
+        v = grid_inside(grids, self, grid_brick(grids, s[0], s[1], s[2]));
+        return true;
     }
 };
 struct vector {
@@ -81,7 +82,7 @@ struct vector {
         v = vdb::file_from_sim(Vec3f(value[3 * at], value[3 * at + 1], value[3 * at + 2]), y_up);
         return v[0] != 0 || v[1] != 0 || v[2] != 0;
     }
-    bool deep(Vec3f &v) const
+    bool deep(const Coord &, Vec3f &v) const
     {
         v = Vec3f(0);
         return false;
@@ -173,7 +174,8 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
                         any = true;
                         for (int x = b[0]; x <= e[0]; x++, s[0]++) {
                             const openvdb::Index at = openvdb::Index(x << 6 | y << 3 | z);
-                            if (row == ROW_INSIDE ? f.deep(block[at]) : f.get(row + x - b[0], s, block[at]))
+                            if (row == ROW_INSIDE ? f.deep(s, block[at])
+                                                  : f.get(row + x - b[0], s, block[at]))
                                 mask.setOn(at);
                         }
                     }
@@ -206,14 +208,15 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
 constexpr int PAD = 4;
 
 template <class place>
-openvdb::GridBase::Ptr make_grid(const frame_grid &g, const lattice &l, const place &p, const float *density)
+openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, const lattice &l,
+                                 const place &p, const float *density)
 {
     if (g.components == 3) {
         auto grid = sparse_grid(l, p, vector{g.value, l.y_up, Vec3f(0)});
         grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
         return grid;
     }
-    auto grid = sparse_grid(l, p, scalar{g.value, density ? density : g.value, 0, g.inside, g.hollow});
+    auto grid = sparse_grid(l, p, scalar{g.value, density ? density : g.value, 0, &grids, &g});
     grid->setGridClass(g.kind == GRID_FOG ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_UNKNOWN);
     return grid;
 }
@@ -284,9 +287,9 @@ try {
     const auto make = [&](size_t i) {
         const frame_grid &g = grids->grid[i];
         const bool own = g.own.n[0] != 0;
-        auto grid = own ? make_grid(g, lattice(g.own.n, y_up), of_lattice{g.own.n}, nullptr)
+        auto grid = own ? make_grid(*grids, g, lattice(g.own.n, y_up), of_lattice{g.own.n}, nullptr)
                     : g.kind == GRID_LEVEL_SET ? make_level_set(*grids, g, y_up)
-                                               : make_grid(g, common, of_bricks{grids}, density);
+                                               : make_grid(*grids, g, common, of_bricks{grids}, density);
         grid->setName(g.name);
         if (own)
             grid->insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(g.own.n)));

@@ -56,8 +56,7 @@ status frame_grids_add(struct frame_grids *grids, enum value_id value, struct fr
                                 .components = v->kind == KIND_VECTOR ? 3 : 1,
                                 /* Deep inside, terrain is bedrock, and nothing has been taken off. */
                                 .inside = v->from == FROM_SHARE || value == VALUE_bedrock ||
-                                          value == VALUE_viability,
-                                .hollow = value == VALUE_stress || value == VALUE_von_mises};
+                                          value == VALUE_viability};
     return OK;
 }
 
@@ -71,8 +70,10 @@ const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const
 
 void frame_grids_free(struct frame_grids *grids)
 {
-    for (size_t g = 0; g < grids->n_grids; g++)
+    for (size_t g = 0; g < grids->n_grids; g++) {
         free(grids->grid[g].value);
+        free(grids->grid[g].deep);
+    }
     free(grids->bricks.number);
     free(grids->bricks.slot);
     *grids = (struct frame_grids){0};

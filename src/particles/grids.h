@@ -6,7 +6,7 @@
  *           an array, x, y and z being from 0 to 7; those beyond the lattice hold the background.
  * Background  what samples outside all bricks are: 3 voxels in level sets, 0 otherwise.
  * Inside    bricks that are all inside need not be kept either (BRICK_INSIDE): level sets are -3 voxels there, and every other
- *           grid one value, which is 0 for most (grid_inside()). Hollow grids have no values there.
+ *           grid one value, which is 0 for most, or one for each of them (grid_inside()).
  * Calling sequence   frame_grids_begin(), frame_grids_choose(); then frame_grids_add() and an array for each.
  */
 #ifndef HOODOO_GRIDS_H
@@ -46,7 +46,7 @@ struct frame_grid {
     enum grid_class kind;
     int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
     float inside;   /* level sets: unused. What samples inside that are not kept hold */
-    bool hollow;    /* samples of 0 have no value, nor have those inside that are not kept */
+    float *deep;    /* [bricks of the lattice] that for each, or NULL; owned by the frame */
     float *value;   /* owned by the frame: grid_items() of them */
     /* Where it is sampled otherwise than the frame's other grids, densely, numbered (k ny + j) nx + i; n[0] is 0 where it
      * is not. */
@@ -91,10 +91,20 @@ static inline float grid_background(const struct frame_grids *grids, const struc
     return grid->kind == GRID_LEVEL_SET ? (float)(GRID_BAND * grids->lattice.voxel) : 0;
 }
 
-/* What those of bricks that are all inside do. */
-static inline float grid_inside(const struct frame_grids *grids, const struct frame_grid *grid)
+/* The brick of a sample. */
+static inline size_t grid_brick(const struct frame_grids *grids, int i, int j, int k)
 {
-    return grid->kind == GRID_LEVEL_SET ? -grid_background(grids, grid) : grid->inside;
+    const int *n = grids->bricks.n;
+    return ((size_t)(k / BRICK_SIDE) * (size_t)n[1] + (size_t)(j / BRICK_SIDE)) * (size_t)n[0] +
+           (size_t)(i / BRICK_SIDE);
+}
+
+/* What those of this brick do, which is all inside. */
+static inline float grid_inside(const struct frame_grids *grids, const struct frame_grid *grid, size_t brick)
+{
+    return grid->kind == GRID_LEVEL_SET ? -grid_background(grids, grid)
+           : grid->deep                 ? grid->deep[brick]
+                                        : grid->inside;
 }
 
 enum { ROW_OUTSIDE = -1, ROW_INSIDE = -2 };
@@ -104,9 +114,7 @@ enum { ROW_OUTSIDE = -1, ROW_INSIDE = -2 };
 static inline ptrdiff_t grid_row(const struct frame_grids *grids, int i, int j, int k)
 {
     const struct grid_bricks *b = &grids->bricks;
-    const size_t at =
-        ((size_t)(k / BRICK_SIDE) * (size_t)b->n[1] + (size_t)(j / BRICK_SIDE)) * (size_t)b->n[0] +
-        (size_t)(i / BRICK_SIDE);
+    const size_t at = grid_brick(grids, i, j, k);
     if (b->slot[at] == 0 || b->slot[at] == BRICK_INSIDE)
         return b->slot[at] == 0 ? ROW_OUTSIDE : ROW_INSIDE;
     return (ptrdiff_t)(b->slot[at] - 1) * BRICK_SAMPLES +
@@ -120,7 +128,7 @@ static inline float grid_at(const struct frame_grids *grids, const struct frame_
     const ptrdiff_t at = grid_row(grids, i, j, k);
     return at >= 0             ? grid->value[at]
            : at == ROW_OUTSIDE ? grid_background(grids, grid)
-                               : grid_inside(grids, grid);
+                               : grid_inside(grids, grid, grid_brick(grids, i, j, k));
 }
 
 #endif

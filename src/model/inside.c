@@ -1,0 +1,155 @@
+#include "model/inside.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "job/values.h"
+
+/* Places that are asked for together, and where their values go. */
+enum { TOGETHER = 1 << 18 };
+struct asking {
+    struct gpu *gpu;
+    struct elastic *e;
+    struct particles at;
+    bool recovered;
+    size_t n;
+    float *P, *value;
+    float **stress, **von_mises; /* [TOGETHER] */
+};
+
+static status answer(struct asking *a)
+{
+    status st = OK;
+    if (a->n == 0)
+        return OK;
+    a->at.n = a->n;
+    TRY(gpu_upload(a->gpu, a->at.field[ROCK_P], 0, a->P, a->n));
+    if (a->recovered)
+        elastic_sample(a->gpu, a->e, &a->at);
+    else
+        elastic_recover(a->gpu, a->e, &a->at);
+    a->recovered = true;
+    TRY(gpu_download(a->gpu, a->at.field[ROCK_stress], 0, a->value, a->n));
+    for (size_t i = 0; i < a->n; i++)
+        *a->stress[i] = a->value[i];
+    TRY(gpu_download(a->gpu, a->at.field[ROCK_von_mises], 0, a->value, a->n));
+    for (size_t i = 0; i < a->n; i++)
+        *a->von_mises[i] = a->value[i];
+    a->n = 0;
+done:
+    return st;
+}
+
+/* The values at a sample of the lattice, which may lie between its points. */
+static status ask(struct asking *a, const struct grid_lattice *l, const double sample[3], float *stress,
+                  float *von_mises)
+{
+    float *P = a->P + 4 * a->n;
+    for (int i = 0; i < 3; i++)
+        P[i] = (float)(l->origin[i] + sample[i] * l->voxel);
+    P[3] = 0;
+    a->stress[a->n] = stress;
+    a->von_mises[a->n] = von_mises;
+    return ++a->n == TOGETHER ? answer(a) : OK;
+}
+
+static status asking_begin(struct gpu *gpu, struct elastic *e, struct asking *a)
+{
+    static const enum rock_field fields[] = {ROCK_P, ROCK_stress, ROCK_von_mises};
+    status st = OK;
+    *a = (struct asking){.gpu = gpu, .e = e, .at = {.n_max = TOGETHER}};
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        TRY(gpu_buffer_create(gpu, rock_field_table[fields[i]].name, TOGETHER, rock_field_size(fields[i]),
+                              &a->at.field[fields[i]]));
+    TRY(memory_alloc(4 * TOGETHER, sizeof *a->P, "places inside", &a->P));
+    TRY(memory_alloc(TOGETHER, sizeof *a->value, "stress inside", &a->value));
+    TRY(memory_alloc(TOGETHER, sizeof *a->stress, "stress inside", &a->stress));
+    TRY(memory_alloc(TOGETHER, sizeof *a->von_mises, "stress inside", &a->von_mises));
+done:
+    return st;
+}
+
+static void asking_end(struct asking *a)
+{
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        gpu_buffer_destroy(a->gpu, &a->at.field[f]);
+    free(a->P);
+    free(a->value);
+    free(a->stress);
+    free(a->von_mises);
+}
+
+static void first_of(const struct frame_grids *grids, size_t brick, double first[3])
+{
+    const size_t nx = (size_t)grids->bricks.n[0], ny = (size_t)grids->bricks.n[1];
+    const size_t at[3] = {brick % nx, brick / nx % ny, brick / nx / ny};
+    for (int a = 0; a < 3; a++)
+        first[a] = (double)(BRICK_SIDE * at[a]);
+}
+
+/* The samples of the bricks that are kept, where there is rock and nothing is shown. */
+static status ask_samples(struct asking *a, const struct frame_grids *grids, const float *density,
+                          float *stress, float *von_mises)
+{
+    status st = OK;
+    for (size_t b = 0; b < grids->bricks.count; b++) {
+        double first[3];
+        first_of(grids, grids->bricks.number[b], first);
+        for (size_t s = 0; s < BRICK_SAMPLES; s++) {
+            const size_t i = b * BRICK_SAMPLES + s;
+            const double at[3] = {first[0] + (double)(s % 8), first[1] + (double)(s / 8 % 8),
+                                  first[2] + (double)(s / 64)};
+            if (density[i] > 0 && stress[i] == 0 && von_mises[i] == 0)
+                TRY(ask(a, &grids->lattice, at, &stress[i], &von_mises[i]));
+        }
+    }
+done:
+    return st;
+}
+
+/* The middles of those that are not, being inside. */
+static status ask_bricks(struct asking *a, const struct frame_grids *grids, size_t n, float *stress,
+                         float *von_mises)
+{
+    status st = OK;
+    for (size_t b = 0; b < n; b++) {
+        double middle[3];
+        if (grids->bricks.slot[b] != BRICK_INSIDE)
+            continue;
+        first_of(grids, b, middle);
+        for (int i = 0; i < 3; i++)
+            middle[i] += (BRICK_SIDE - 1) / 2.0;
+        TRY(ask(a, &grids->lattice, middle, &stress[b], &von_mises[b]));
+    }
+done:
+    return st;
+}
+
+static struct frame_grid *named(struct frame_grids *grids, enum value_id value)
+{
+    for (size_t g = 0; g < grids->n_grids; g++)
+        if (strcmp(grids->grid[g].name, value_table[value].name) == 0)
+            return &grids->grid[g];
+    return NULL;
+}
+
+status inside_stress(struct gpu *gpu, struct elastic *e, struct frame_grids *grids)
+{
+    status st = OK;
+    struct asking a = {.gpu = gpu};
+    struct frame_grid *stress = named(grids, VALUE_stress), *mises = named(grids, VALUE_von_mises);
+    const struct frame_grid *density = named(grids, VALUE_density);
+    const size_t n = (size_t)grids->bricks.n[0] * (size_t)grids->bricks.n[1] * (size_t)grids->bricks.n[2];
+    if (!stress || !mises || !density || e->lattice.n_active == 0)
+        return OK;
+    TRY(memory_alloc(n, sizeof *stress->deep, "stress inside", &stress->deep));
+    TRY(memory_alloc(n, sizeof *mises->deep, "stress inside", &mises->deep));
+    TRY(asking_begin(gpu, e, &a));
+    TRY(ask_samples(&a, grids, density->value, stress->value, mises->value));
+    TRY(ask_bricks(&a, grids, n, stress->deep, mises->deep));
+    TRY(answer(&a));
+done:
+    asking_end(&a);
+    return st;
+}
