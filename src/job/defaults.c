@@ -108,6 +108,22 @@ void read_default_clock(const struct yaml *root, struct job *job)
         job->clock.years_per_frame = 0;
 }
 
+void read_default_sides(const struct yaml *root, struct job *job)
+{
+    const struct yaml *sides = yaml_get(yaml_get(root, "domain"), "sides");
+    struct job_sides *s = &job->domain.sides;
+    if (!job_model(job)->terrain)
+        return;
+    if (!sides || !yaml_get(sides, "x_min"))
+        s->x_min = SIDE_X_MIN_WALL;
+    if (!sides || !yaml_get(sides, "x_max"))
+        s->x_max = SIDE_X_MAX_WALL;
+    if (!sides || !yaml_get(sides, "y_min"))
+        s->y_min = SIDE_Y_MIN_WALL;
+    if (!sides || !yaml_get(sides, "y_max"))
+        s->y_max = SIDE_Y_MAX_WALL;
+}
+
 status read_default_layer(const struct yaml *root, struct job *job)
 {
     if (job->n_strata)

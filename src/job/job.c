@@ -230,6 +230,7 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     TRY(read_section(SECTION_job, root, NULL, folder, job));
     TRY(read_default_layer(root, job));
     read_default_clock(root, job);
+    read_default_sides(root, job);
     TRY(check_job(root, job));
     TRY(read_edited_jobs(&tree, root, folder, job));
     TRY(read_wedge_csv(folder, job));

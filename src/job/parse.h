@@ -44,6 +44,9 @@ MUST_USE status read_default(const struct job_key *key, const struct yaml *map, 
 /* Where a frame is seconds, no years pass unless the job says so. */
 void read_default_clock(const struct yaml *root, struct job *job);
 
+/* The sides of a terrain's domain are walls unless the job says otherwise. */
+void read_default_sides(const struct yaml *root, struct job *job);
+
 /* Rock has at least one stratum: a job without any gets one of defaults. */
 MUST_USE status read_default_layer(const struct yaml *root, struct job *job);
 
