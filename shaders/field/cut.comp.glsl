@@ -8,6 +8,7 @@
 READ_U(0, list)
 WRITE_F(1, distance_field)
 WRITE_F(2, share)
+WRITE_V(3, means)
 PARAMS(field_params)
 #include "field/lattice.glsl"
 
@@ -28,6 +29,8 @@ void main()
     if ((k.walls & WALL_Y_MAX) != 0u)
         beyond = max(beyond, x.y - float(k.ny));
     AT(distance_field, i) = clamp(max(AT(distance_field, i), beyond * k.h), -3.0 * k.h, 3.0 * k.h);
-    if (beyond > 0.0)
+    if (beyond > 0.0) {
         AT(share, i) = 0.0;
+        AT(means, i) = vec4(0.0);
+    }
 }

@@ -40,7 +40,7 @@ void main()
                     rock_low = min(rock_low, c);
                     rock_high = max(rock_high, c);
                 }
-                if (share < 1.0) {
+                if (share < 1.0 || !voxel_inside(first + c)) { // walls cut it off at the domain's sides
                     bare_low = min(bare_low, c);
                     bare_high = max(bare_high, c);
                 }

@@ -156,12 +156,12 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
     if (k.n == 0)
         return;
     if (f->whole)
-        gpu_fill(gpu, p->near, ~0U);
+        gpu_fill(gpu, p->place, ~0U);
     else
         particles_near(gpu, p, NEAR_REACH);
     GPU_RUN(gpu, field_means, k.n, k, p->held.words, p->start, p->field[ROCK_stress],
             p->field[ROCK_von_mises], p->field[ROCK_viability], p->field[ROCK_phase], f->list, f->share,
-            p->near, f->means);
+            p->place, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->list, f->slot, f->share, f->distance);
     /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
@@ -169,7 +169,7 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
         GPU_RUN(gpu, field_distance, k.n, k, f->list, f->slot, f->other, f->distance);
     }
     if (k.walls)
-        GPU_RUN(gpu, field_cut, k.n, k, f->list, f->distance, f->share);
+        GPU_RUN(gpu, field_cut, k.n, k, f->list, f->distance, f->share, f->means);
 }
 
 status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p)

@@ -427,7 +427,7 @@ static status output(struct model *m, struct frame *out)
         TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
         TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
         if (!m->field.whole)
-            TRY(inside_stress(m->gpu, &a->elastic, &out->grids));
+            TRY(inside_values(m->gpu, &a->elastic, &out->grids));
     }
     if (wants.volumes || wants.pictures)
         TRY(air_add(m->gpu, &a->wind, m->job, m->frame, &out->grids));

@@ -45,7 +45,7 @@ done:
     return st;
 }
 
-/* The particles of p->born, whose bits are these. */
+/* The particles of p->flags, whose bits are these. */
 static status bear(struct arenite *a, const uint32_t *bits)
 {
     status st = OK;

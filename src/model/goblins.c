@@ -153,8 +153,7 @@ static status show(struct goblins *g, struct frame_wants wants, struct particles
         TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
     if (wants.volumes) {
         TRY(field_download(g->m.gpu, &g->m.field, p, HAS_ALWAYS, &out->grids));
-        if (job->goblins.stress)
-            TRY(inside_stress(g->m.gpu, &g->elastic, &out->grids));
+        TRY(inside_values(g->m.gpu, &g->elastic, &out->grids));
     }
     if (wants.pictures) {
         gpu_stage(g->m.gpu, "pictures");

@@ -134,13 +134,16 @@ static struct frame_grid *named(struct frame_grids *grids, enum value_id value)
     return NULL;
 }
 
-status inside_stress(struct gpu *gpu, struct elastic *e, struct frame_grids *grids)
+status inside_values(struct gpu *gpu, struct elastic *e, struct frame_grids *grids)
 {
     status st = OK;
     struct asking a = {.gpu = gpu};
-    struct frame_grid *stress = named(grids, VALUE_stress), *mises = named(grids, VALUE_von_mises);
+    struct frame_grid *stress = named(grids, VALUE_stress), *mises = named(grids, VALUE_von_mises),
+                      *viability = named(grids, VALUE_viability);
     const struct frame_grid *density = named(grids, VALUE_density);
     const size_t n = (size_t)grids->bricks.n[0] * (size_t)grids->bricks.n[1] * (size_t)grids->bricks.n[2];
+    if (viability) /* nothing has been taken off there */
+        viability->inside = 1;
     if (!stress || !mises || !density || e->lattice.n_active == 0)
         return OK;
     TRY(memory_alloc(n, sizeof *stress->deep, "stress inside", &stress->deep));

@@ -54,9 +54,8 @@ status frame_grids_add(struct frame_grids *grids, enum value_id value, struct fr
                                         : v->from == FROM_SHARE  ? GRID_FOG
                                                                  : GRID_PLAIN,
                                 .components = v->kind == KIND_VECTOR ? 3 : 1,
-                                /* Deep inside, terrain is bedrock, and nothing has been taken off. */
-                                .inside = v->from == FROM_SHARE || value == VALUE_bedrock ||
-                                          value == VALUE_viability};
+                                /* Deep inside, terrain is bedrock. */
+                                .inside = v->from == FROM_SHARE || value == VALUE_bedrock ? 1 : 0};
     return OK;
 }
 
