@@ -39,7 +39,7 @@ void main()
         return;
     uint bits = 0u, inside = 0u;
     if (i + 1u < k.n) {
-        inside = LOAD_U(deep, i);
+        inside = k.deep != 0u ? LOAD_U(deep, i) : 0u;
         bits = (k.around != 0u ? around(voxel_at(32u * i)) : LOAD_U(occupied, i)) & ~inside;
     }
     AT(words, HELD_STRIDE * i) = bits;

@@ -130,7 +130,7 @@ status blocks_find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
     if (p->n_deep == 0)
         return OK;
     gpu_fill(gpu, counts, 0);
-    GPU_RUN(gpu, blocks_cut_runs, runs.n, runs, p->held.deep, b->first, p->held.words, b->pointer, p->born,
+    GPU_RUN(gpu, blocks_cut_runs, runs.n, runs, p->held.deep, b->first, p->held.words, b->pointer, p->flags,
             counts);
     TRY(gpu_download(gpu, counts, COUNT_BORN, &cut, 1));
     gpu_fill(gpu, counts, 0);

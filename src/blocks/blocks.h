@@ -33,7 +33,7 @@ MUST_USE status blocks_join(struct gpu *gpu, struct gpu_work *work, struct block
                             const struct held_voxels *held);
 
 /* What stands on the ground, of the rock as it is. If *n_cut is not 0 there are deep voxels that do not: their particles are due,
- * their bits are in p->born, and once they have come it is to be asked again. Waits. */
+ * their bits are in p->flags, and once they have come it is to be asked again. Waits. */
 MUST_USE status blocks_find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
                             size_t *n_cut);
 

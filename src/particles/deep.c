@@ -9,6 +9,8 @@ status particles_set_deep(struct gpu *gpu, struct gpu_work *work, struct particl
                           size_t n)
 {
     status st = OK;
+    if (!p->held.deep)
+        TRY(gpu_buffer_create(gpu, "deep voxels", held_words(p->voxels), 4, &p->held.deep));
     TRY(gpu_upload(gpu, p->held.deep, 0, bits, held_words(p->voxels)));
     p->n_deep = n;
     TRY(particles_index(gpu, work, p));
@@ -23,14 +25,14 @@ void particles_near(struct gpu *gpu, struct particles *p, uint32_t reach)
                             .ny = (uint)p->voxels[1],
                             .nz = (uint)p->voxels[2],
                             .reach = reach};
-    GPU_RUN(gpu, particles_near, k.n, k, p->held.occupied, p->near);
+    GPU_RUN(gpu, particles_near, k.n, k, p->held.occupied, p->place);
     k.axis = 1;
-    GPU_RUN(gpu, particles_near, k.n, k, p->near, p->born);
+    GPU_RUN(gpu, particles_near, k.n, k, p->place, p->flags);
     k.axis = 2;
-    GPU_RUN(gpu, particles_near, k.n, k, p->born, p->near);
+    GPU_RUN(gpu, particles_near, k.n, k, p->flags, p->place);
 }
 
-/* Into p->born. Waits. */
+/* Into p->flags. Waits. */
 static status find_due(struct gpu *gpu, struct gpu_work *work, struct particles *p, uint32_t reach, size_t *n)
 {
     status st = OK;
@@ -39,7 +41,7 @@ static status find_due(struct gpu *gpu, struct gpu_work *work, struct particles 
     uint32_t found;
     gpu_fill(gpu, counts, 0);
     particles_near(gpu, p, reach);
-    GPU_RUN(gpu, particles_born, k.n, k, p->near, p->held.deep, p->born, counts);
+    GPU_RUN(gpu, particles_born, k.n, k, p->place, p->held.deep, p->flags, counts);
     TRY(gpu_download(gpu, counts, COUNT_BORN, &found, 1));
     *n = found;
 done:
@@ -63,13 +65,15 @@ done:
 
 status particles_due_all(struct gpu *gpu, struct particles *p, uint32_t *bits)
 {
-    gpu_copy(gpu, p->born, p->held.deep, words_of(p).n);
+    gpu_copy(gpu, p->flags, p->held.deep, words_of(p).n);
     return particles_due_chosen(gpu, p, bits);
 }
 
 status particles_due_chosen(struct gpu *gpu, struct particles *p, uint32_t *bits)
 {
-    return gpu_download(gpu, p->born, 0, bits, words_of(p).n);
+    const struct count_params k = words_of(p);
+    GPU_RUN(gpu, particles_undeep, k.n, k, p->flags, p->held.deep);
+    return gpu_download(gpu, p->flags, 0, bits, k.n);
 }
 
 /* A buffer of n_max items becomes one of n; of its contents the first `keep` items stay. */
@@ -100,8 +104,9 @@ status particles_reserve(struct gpu *gpu, struct particles *p, size_t n)
             TRY(grow(gpu, rock_field_table[f].name, n, rock_field_size((enum rock_field)f),
                      rock_field_table[f].keep == STATE ? p->n : 0, &p->field[f]));
     TRY(grow(gpu, "surface list", n, 4, 0, &p->surface));
-    TRY(grow(gpu, "particle flags", n, 4, 0, &p->flags));
-    TRY(grow(gpu, "particle places", n, 4, 0, &p->place));
+    const size_t scratch = particles_scratch(p->voxels, n);
+    TRY(grow(gpu, "particle flags", scratch, 4, 0, &p->flags));
+    TRY(grow(gpu, "particle places", scratch, 4, 0, &p->place));
     p->n_max = n;
     p->n_surface = 0;
 done:
@@ -111,11 +116,9 @@ done:
 status particles_add(struct gpu *gpu, struct gpu_work *work, struct particles *p, const struct rock *rock)
 {
     status st = OK;
-    const struct count_params k = words_of(p);
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (rock_field_table[f].keep == STATE && rock->field[f])
             TRY(gpu_upload(gpu, p->field[f], p->n, rock->field[f], rock->n));
-    GPU_RUN(gpu, particles_undeep, k.n, k, p->born, p->held.deep);
     p->n += rock->n;
     p->n_deep -= rock->n;
     TRY(particles_index_all(gpu, work, p));

@@ -17,22 +17,22 @@
 MUST_USE status particles_set_deep(struct gpu *gpu, struct gpu_work *work, struct particles *p,
                                    const uint32_t *bits, size_t n);
 
-/* Records p->near: the voxels within `reach` of an empty one on every axis. */
+/* Records p->place: the voxels within `reach` of an empty one on every axis. */
 void particles_near(struct gpu *gpu, struct particles *p, uint32_t reach);
 
 /* The deep voxels whose particles are due, since the surface has come near: *n of them, and unless that is 0 their bits go to
- * p->born and to `bits` (host, held_words()). Waits. */
+ * `bits` (host, held_words()), and they are not deep any more. Waits. */
 MUST_USE status particles_due(struct gpu *gpu, struct gpu_work *work, struct particles *p, uint32_t *bits,
                               size_t *n);
 
-/* The same, where all of them are due; or those whose bits the caller has put into p->born. */
+/* The same, where all of them are due; or those whose bits the caller has put into p->flags. */
 MUST_USE status particles_due_all(struct gpu *gpu, struct particles *p, uint32_t *bits);
 MUST_USE status particles_due_chosen(struct gpu *gpu, struct particles *p, uint32_t *bits);
 
 /* Room for n particles in all. What is DERIVED is lost where it has to grow. Waits. */
 MUST_USE status particles_reserve(struct gpu *gpu, struct particles *p, size_t n);
 
-/* Adds the particles of the voxels in p->born (STATE), for which there is room, and orders all anew, those of which nothing is left
+/* Adds the particles of the voxels that were due last (STATE), for which there is room, and orders all anew, those of which nothing is left
  * as well. Waits. */
 MUST_USE status particles_add(struct gpu *gpu, struct gpu_work *work, struct particles *p,
                               const struct rock *rock);

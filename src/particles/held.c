@@ -13,7 +13,7 @@ static size_t room_for(const int voxels[3], size_t n)
 
 uint64_t held_bytes(const int voxels[3], size_t n)
 {
-    return (uint64_t)held_words(voxels) * (2 + HELD_STRIDE) * 4 + (uint64_t)room_for(voxels, n) * 4;
+    return (uint64_t)held_words(voxels) * (1 + HELD_STRIDE) * 4 + (uint64_t)room_for(voxels, n) * 4;
 }
 
 /* All that is in the list is lost. */
@@ -34,7 +34,6 @@ status held_create(struct gpu *gpu, const int voxels[3], size_t n, struct held_v
     const size_t words = held_words(voxels);
     *h = (struct held_voxels){.voxels = {voxels[0], voxels[1], voxels[2]}};
     TRY(gpu_buffer_create(gpu, "occupied voxels", words, 4, &h->occupied));
-    TRY(gpu_buffer_create(gpu, "deep voxels", words, 4, &h->deep));
     TRY(gpu_buffer_create(gpu, "voxels' slots", HELD_STRIDE * (words + 1), 4, &h->words));
     TRY(make_room(gpu, h, n));
 done:
@@ -60,10 +59,11 @@ status held_find(struct gpu *gpu, struct gpu_work *work, struct held_voxels *h, 
                                   .nx = (uint)h->voxels[0],
                                   .ny = (uint)h->voxels[1],
                                   .nz = (uint)h->voxels[2],
-                                  .around = around};
+                                  .around = around,
+                                  .deep = h->deep != NULL};
     const struct count_params all = {(uint)words + 1};
     uint32_t n;
-    GPU_RUN(gpu, particles_hold, k.n, k, h->occupied, h->deep, h->words, h->list);
+    GPU_RUN(gpu, particles_hold, k.n, k, h->occupied, h->deep ? h->deep : h->occupied, h->words, h->list);
     gpu_scan(gpu, work, h->list, words + 1);
     GPU_RUN(gpu, particles_rank, all.n, all, h->list, h->words);
     TRY(gpu_download(gpu, h->list, words, &n, 1));

@@ -14,7 +14,8 @@ struct held_voxels {
     int voxels[3];
     size_t n, room;              /* held voxels; numbers there is room for in the list */
     struct gpu_buffer *occupied; /* uint [words]: a bit for each voxel, set by the caller */
-    struct gpu_buffer *deep; /* uint [words]: those of the occupied voxels that are not to be held (deep.h) */
+    struct gpu_buffer
+        *deep; /* uint [words]: those of the occupied voxels that are not to be held (deep.h); NULL: none */
     /* uint [HELD_STRIDE (words + 1)]: bits of held voxels, how many are held before them, and bits of deep ones */
     struct gpu_buffer *words;
     struct gpu_buffer *list; /* uint [room]: 32 times its word and its bit, of each held voxel */

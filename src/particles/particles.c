@@ -4,10 +4,10 @@
 
 uint64_t particles_bytes(size_t n, const int voxels[3])
 {
-    uint64_t item = 3 * 4 + 3 * 4; /* surface, flags, place; start, fill, taken: a voxel each */
+    uint64_t item = 4 + 3 * 4; /* surface; start, fill, taken: a voxel each */
     for (int f = 0; f < ROCK_FIELDS; f++)
         item += f == ROCK_v ? 0 : rock_field_size((enum rock_field)f);
-    return (uint64_t)n * item + held_bytes(voxels, n) + (uint64_t)held_words(voxels) * 8;
+    return (uint64_t)n * item + 2 * 4 * (uint64_t)particles_scratch(voxels, n) + held_bytes(voxels, n);
 }
 
 struct voxel_params particles_params(const struct particles *p, size_t n)
@@ -62,7 +62,10 @@ static status index_fields(struct gpu *gpu, struct gpu_work *work, struct partic
         memcpy(&bits, &one, sizeof bits);
         gpu_fill(gpu, left, bits);
     }
-    gpu_copy(gpu, p->held.occupied, p->held.deep, held_words(p->voxels));
+    if (p->held.deep)
+        gpu_copy(gpu, p->held.occupied, p->held.deep, held_words(p->voxels));
+    else
+        gpu_fill(gpu, p->held.occupied, 0);
     GPU_RUN(gpu, particles_occupy, p->n, k, p->field[ROCK_P], left, p->held.occupied);
     TRY(held_find(gpu, work, &p->held, p->around));
     TRY(keep_voxels(gpu, p));
@@ -134,10 +137,9 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     }
     TRY(held_create(gpu, voxels, p->n_max, &p->held));
     TRY(gpu_buffer_create(gpu, "surface list", p->n_max, 4, &p->surface));
-    TRY(gpu_buffer_create(gpu, "particle flags", p->n_max, 4, &p->flags));
-    TRY(gpu_buffer_create(gpu, "particle places", p->n_max, 4, &p->place));
-    TRY(gpu_buffer_create(gpu, "voxels near the surface", held_words(voxels), 4, &p->near));
-    TRY(gpu_buffer_create(gpu, "voxels whose particles are due", held_words(voxels), 4, &p->born));
+    const size_t scratch = particles_scratch(voxels, p->n_max);
+    TRY(gpu_buffer_create(gpu, "particle flags", scratch, 4, &p->flags));
+    TRY(gpu_buffer_create(gpu, "particle places", scratch, 4, &p->place));
     TRY(keep == STATE ? index_state(gpu, work, p, false) : index_derived(gpu, work, p));
 done:
     if (st != OK)
@@ -156,8 +158,6 @@ void particles_destroy(struct gpu *gpu, struct particles *p)
     gpu_buffer_destroy(gpu, &p->surface);
     gpu_buffer_destroy(gpu, &p->flags);
     gpu_buffer_destroy(gpu, &p->place);
-    gpu_buffer_destroy(gpu, &p->near);
-    gpu_buffer_destroy(gpu, &p->born);
     *p = (struct particles){0};
 }
 

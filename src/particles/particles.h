@@ -25,10 +25,9 @@ struct particles {
     struct gpu_buffer *fill;    /* float [held]: how much of each is rock, as of particles_fill() */
     struct gpu_buffer *surface; /* uint [n_surface]: the particles with a bare face, ascending */
     size_t n_surface;
-    /* Scratch, uint [n_max]: what a process leaves in it is lost to the next. `taken` may have more, a word for each held
+    /* Scratch, uint [n_max], or held_words() where that is more: what a process leaves in it is lost to the next. `taken` may have more, a word for each held
      * voxel. */
     struct gpu_buffer *flags, *place, *taken;
-    struct gpu_buffer *near, *born; /* uint [held_words()]: scratch of deep.h and particles_fill() */
     bool moving; /* particles are not in their voxels' middles: particles_fill() spreads them */
 };
 
@@ -36,6 +35,12 @@ struct particles {
 static inline size_t particles_room_for(size_t n)
 {
     return n + n / 8;
+}
+
+/* Items of `flags` and `place`. */
+static inline size_t particles_scratch(const int voxels[3], size_t n_max)
+{
+    return n_max > held_words(voxels) ? n_max : held_words(voxels);
 }
 
 /* Bytes on the device with room for n particles in a domain of so many voxels. */

@@ -30,8 +30,8 @@ struct elastic_options {
     double gravity;    /* m/s2 */
     double tolerance;  /* of T: its error's 95th percentile by its own */
     int max_iterations;
-    unsigned walls; /* of the domain, WALL_* of shared/params.h: nodes at them slide along them */
     bool multigrid; /* preconditioned by a cycle of multigrid, else by Jacobi's diagonal */
+    unsigned walls; /* of the domain, WALL_* of shared/params.h: nodes at them slide along them */
 };
 
 struct elastic {

@@ -130,10 +130,10 @@ static void all_may_be_held(void **state)
     bed_free(&b);
 }
 
-/* A box of twenty times the volume: a bit more. */
+/* Rock that fills a twentieth of its box: a bit more. */
 static void memory_follows_the_rock(void **state)
 {
-    static const int tight[3] = {100, 100, 100}, wide[3] = {200, 250, 400};
+    static const int tight[3] = {100, 100, 100}, wide[3] = {200, 224, 400};
     const double ratio = (double)particles_bytes(900000, wide) / (double)particles_bytes(900000, tight);
     (void)state;
     print_message("# the particles of a twentieth of the box take %.3f of what they take alone\n", ratio);
