@@ -16,11 +16,15 @@ struct sim {
     struct model *model;
 };
 
-/* The job of a file, with `sets` as --set gives them. */
+/* The job of a file, with `sets` as --set gives them. All of its rock has particles, so that frames have them by id. */
 static inline struct sim sim_open(const char *path, const char *const *sets, size_t n_sets)
 {
     struct sim s = {0};
-    assert_ok(job_load(path, sets, n_sets, &s.job));
+    const char *all[16] = {"domain.particles=all"};
+    assert_true(n_sets < 16);
+    for (size_t i = 0; i < n_sets; i++)
+        all[i + 1] = sets[i];
+    assert_ok(job_load(path, all, n_sets + 1, &s.job));
     assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
     assert_ok(model_create(s.gpu, s.job, NULL, &s.model));
     return s;

@@ -22,7 +22,13 @@ static void rests_as_elastic_does(const char *name, const struct box *box, size_
     o.lift = 0;
     struct body b = body_of(box, n_boxes, cells, 1, &o);
     struct elastic e;
-    struct elastic_options options = {12e9, 15e9, 2300, 9.81, 1e-4, 20000, true};
+    struct elastic_options options = {.lambda = 12e9,
+                                      .mu = 15e9,
+                                      .density = 2300,
+                                      .gravity = 9.81,
+                                      .tolerance = 1e-4,
+                                      .max_iterations = 20000,
+                                      .multigrid = true};
     int voxels[3] = {2 * cells[0], 2 * cells[1], 2 * cells[2]}, steps;
     double error, worst;
     size_t n = b.p.n, n_inside = 0;

@@ -29,7 +29,13 @@ struct solver {
 static struct solver solver_of(const int cells[3], double tolerance)
 {
     struct solver s = {.voxels = {2 * cells[0], 2 * cells[1], 2 * cells[2]}};
-    const struct elastic_options options = {12e9, 15e9, 2300, 9.81, tolerance, 100, true};
+    const struct elastic_options options = {.lambda = 12e9,
+                                            .mu = 15e9,
+                                            .density = 2300,
+                                            .gravity = 9.81,
+                                            .tolerance = tolerance,
+                                            .max_iterations = 100,
+                                            .multigrid = true};
     assert_ok(gpu_create(&(struct gpu_options){.device = "auto"}, &s.gpu));
     assert_ok(gpu_work_create(s.gpu, voxel_count(s.voxels) + 2, &s.work));
     assert_ok(elastic_create(s.gpu, s.voxels, 0.5, &options, &s.e));
