@@ -4,10 +4,11 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, deep)
+READ_U(0, words)
 WRITE_U(1, first)
 PARAMS(runs_params)
 #include "particles/bits.glsl"
+#include "particles/held.glsl"
 #define NO_NODES
 #include "blocks/runs.glsl"
 

@@ -4,12 +4,11 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, deep)
+READ_U(0, words)
 READ_U(1, first)
-READ_U(2, words)
-READ_U(3, root)
-WRITE_U(4, born)
-WRITE_U(5, counts)
+READ_U(2, root)
+WRITE_U(3, born)
+WRITE_U(4, counts)
 PARAMS(runs_params)
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
@@ -20,7 +19,7 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint ground = voxel_rank(ivec3(0, 0, 1)), own = LOAD_U(deep, i), loose = 0u;
+    uint ground = voxel_rank(ivec3(0, 0, 1)), own = deep_word(i), loose = 0u;
     for (uint bits = own; bits != 0u; bits &= bits - 1u) {
         uint bit = bits & (~bits + 1u);
         if (LOAD_U(root, run_node(i, bit)) >= ground)

@@ -5,13 +5,12 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, deep)
+READ_U(0, words)
 READ_U(1, first)
-READ_U(2, words)
-READ_U(3, solid)
-READ_U(4, root)
-WRITE_U(5, pointer)
-WRITE_U(6, counts)
+READ_U(2, solid)
+READ_U(3, root)
+WRITE_U(4, pointer)
+WRITE_U(5, counts)
 PARAMS(runs_params)
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
@@ -38,7 +37,7 @@ void join_held(uint i, uint bit, uint w, uint at)
 // What lies across the faces towards word w, which is of another row.
 void join_row(uint i, uint own, uint w)
 {
-    uint both = own & LOAD_U(deep, w);
+    uint both = own & deep_word(w);
     for (uint bits = run_starts(both, last_before(i) & last_before(w)); bits != 0u; bits &= bits - 1u) {
         uint bit = bits & (~bits + 1u);
         join(run_node(i, bit), run_node(w, bit));
@@ -54,7 +53,7 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint own = LOAD_U(deep, i), across = (k.nx + 31u) >> 5, slab = across * k.ny;
+    uint own = deep_word(i), across = (k.nx + 31u) >> 5, slab = across * k.ny;
     if (own == 0u)
         return;
     // The held voxels before and behind each run of its row.

@@ -15,7 +15,7 @@ READ_V(1, position)
 READ_V(2, normal)
 READ_F(3, intensity) // by place in the list
 READ_F(4, erodibility)
-READ_U(5, occupied)
+READ_U(5, words)
 WRITE_F(6, viability)
 WRITE_F(7, unspent)
 WRITE_U(8, counts)

@@ -1,21 +1,25 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which deep voxels get their particles: those near the surface. Counts them.
+// Which deep voxels get their particles: those near the surface, or with k.all of them. Counts them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, near)
-READ_U(1, deep)
+READ_U(1, words)
 WRITE_U(2, born)
 WRITE_U(3, counts)
-PARAMS(count_params)
+PARAMS(born_params)
+#define HELD_NX 0u
+#define HELD_NY 0u
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint bits = LOAD_U(near, i) & LOAD_U(deep, i);
+    uint bits = deep_word(i) & (k.all != 0u ? 0xffffffffu : LOAD_U(near, i));
     AT(born, i) = bits;
     if (bits != 0u)
         atomicAdd(AT(counts, COUNT_BORN), uint(bitCount(bits)));

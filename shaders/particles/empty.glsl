@@ -1,5 +1,5 @@
 // Is there no particle in a voxel? Beyond an open side of the domain there is none; below the ground is more rock. Needs
-// READ_U(occupied), a bit for each voxel, k.walls, particles/voxel.glsl and particles/bits.glsl.
+// READ_U(words) (particles/held.glsl), k.walls, particles/voxel.glsl and particles/bits.glsl.
 #include "particles/sides.glsl"
 
 bool voxel_empty(ivec3 v)
@@ -7,5 +7,5 @@ bool voxel_empty(ivec3 v)
     if (v.z < 0)
         return false;
     v = side_voxel(v);
-    return !voxel_inside(v) || (LOAD_U(occupied, voxel_word(v)) & voxel_bit(v)) == 0u;
+    return !voxel_inside(v) || (LOAD_U(words, HELD_STRIDE * voxel_word(v) + 2u) & voxel_bit(v)) == 0u;
 }

@@ -6,7 +6,7 @@
 #include "shared/params.h"
 
 READ_V(0, position)
-READ_U(1, occupied)
+READ_U(1, words)
 WRITE_U(2, exposed)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"

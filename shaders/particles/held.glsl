@@ -1,6 +1,6 @@
 // What there is of a voxel is kept only for some of them: those are held. `words` has HELD_STRIDE words for each word of bits: the
-// bits of held voxels, how many are held before them, and the bits of deep ones, which are whole rock without a particle; and as
-// many more at the end. A held voxel's place among them, its slot, is its place in buffers of voxels; so slots ascend as voxels
+// bits of held voxels, how many are held before them, and the bits of occupied ones; and as many more at the end. Voxels that are
+// occupied and not held are deep: they are whole rock without a particle. A held voxel's place among them, its slot, is its place in buffers of voxels; so slots ascend as voxels
 // do. Needs READ_U(words) and particles/bits.glsl.
 
 const uint NOT_HELD = 0xffffffffu;
@@ -18,8 +18,14 @@ uint voxel_slot(ivec3 v)
     return (bits & own) == 0u ? NOT_HELD : LOAD_U(words, w + 1u) + uint(bitCount(bits & (own - 1u)));
 }
 
+// The deep voxels of a word.
+uint deep_word(uint word)
+{
+    return LOAD_U(words, HELD_STRIDE * word + 2u) & ~LOAD_U(words, HELD_STRIDE * word);
+}
+
 // Is it rock that no weather has come near, which has no particle yet? Of a voxel of the domain.
 bool voxel_deep(ivec3 v)
 {
-    return (LOAD_U(words, HELD_STRIDE * voxel_word(v) + 2u) & voxel_bit(v)) != 0u;
+    return (deep_word(voxel_word(v)) & voxel_bit(v)) != 0u;
 }

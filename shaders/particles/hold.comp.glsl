@@ -1,24 +1,27 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which voxels are held: those that have particles, and with k.around those around occupied ones too; never deep ones, which
-// are occupied by rock that has no particles. Their bits, and the number of them; of the word after the last there are none.
+// Which voxels are held: those that have particles, and with k.around those around occupied ones too; never deep ones, whose bits
+// are here in place of the held ones' before. Their bits, and the number of them; of the word after the last there are none.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, occupied)
-READ_U(1, deep)
-WRITE_U(2, words)
-WRITE_U(3, count)
+WRITE_U(0, words)
+WRITE_U(1, count)
 PARAMS(hold_params)
 #include "particles/bits.glsl"
+
+uint occupied(uint word)
+{
+    return AT(words, HELD_STRIDE * word + 2u);
+}
 
 // 32 voxels of a row, and those before and behind them.
 uint along(int x, uint y, uint z)
 {
     int across = int((k.nx + 31u) >> 5);
-    uint at = (z * k.ny + y) * uint(across) + uint(x), own = LOAD_U(occupied, at);
-    uint before = x > 0 ? LOAD_U(occupied, at - 1u) >> 31 : 0u;
-    uint behind = x + 1 < across ? LOAD_U(occupied, at + 1u) << 31 : 0u;
+    uint at = (z * k.ny + y) * uint(across) + uint(x), own = occupied(at);
+    uint before = x > 0 ? occupied(at - 1u) >> 31 : 0u;
+    uint behind = x + 1 < across ? occupied(at + 1u) << 31 : 0u;
     return own | own << 1 | own >> 1 | before | behind;
 }
 
@@ -37,12 +40,9 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint bits = 0u, inside = 0u;
-    if (i + 1u < k.n) {
-        inside = k.deep != 0u ? LOAD_U(deep, i) : 0u;
-        bits = (k.around != 0u ? around(voxel_at(32u * i)) : LOAD_U(occupied, i)) & ~inside;
-    }
+    uint bits = 0u;
+    if (i + 1u < k.n)
+        bits = (k.around != 0u ? around(voxel_at(32u * i)) : occupied(i)) & ~AT(words, HELD_STRIDE * i);
     AT(words, HELD_STRIDE * i) = bits;
-    AT(words, HELD_STRIDE * i + 2u) = inside;
     AT(count, i) = uint(bitCount(bits));
 }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Which voxels are within k.reach of an empty one, on every axis; outside the domain all are empty. One axis after the other: x
-// reads which are occupied, y and z what the axis before has found.
+// reads which are occupied (particles/held.glsl), y and z what the axis before has found.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -15,7 +15,7 @@ uint empty_of(int x, int across, uint row)
     if (x < 0 || x >= across)
         return 0xffffffffu;
     uint left = k.nx - 32u * uint(x), beyond = left < 32u ? ~((1u << left) - 1u) : 0u;
-    return ~LOAD_U(before, row + uint(x)) | beyond;
+    return ~LOAD_U(before, HELD_STRIDE * (row + uint(x)) + 2u) | beyond;
 }
 
 uint along_x(uint i, int across)

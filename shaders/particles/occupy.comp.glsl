@@ -6,7 +6,7 @@
 
 READ_V(0, position)
 READ_F(1, viability)
-WRITE_U(2, occupied)
+WRITE_U(2, words)
 PARAMS(voxel_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
@@ -17,5 +17,5 @@ void main()
     if (i >= k.n || LOAD_F(viability, i) <= 0.0)
         return;
     ivec3 v = voxel_of(LOAD_V(position, i).xyz);
-    atomicOr(AT(occupied, voxel_word(v)), voxel_bit(v));
+    atomicOr(AT(words, HELD_STRIDE * voxel_word(v) + 2u), voxel_bit(v));
 }

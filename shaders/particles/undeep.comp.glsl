@@ -1,16 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Voxels that get their particles are not deep any more.
+// Voxels that get their particles are not deep any more: they are not occupied until they have them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, born)
-WRITE_U(1, deep)
+WRITE_U(1, words)
 PARAMS(count_params)
 
 void main()
 {
     uint i = THREAD;
     if (i < k.n)
-        AT(deep, i) &= ~LOAD_U(born, i);
+        AT(words, HELD_STRIDE * i + 2u) &= ~LOAD_U(born, i);
 }

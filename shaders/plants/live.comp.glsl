@@ -8,7 +8,7 @@
 READ_V(0, position)
 READ_V(1, normal)
 READ_U(2, phase)
-READ_U(3, occupied)
+READ_U(3, words)
 WRITE_F(4, vegetation)
 PARAMS(plants_params)
 #include "particles/voxel.glsl"

@@ -14,7 +14,6 @@ READ_F(5, before)
 READ_U(6, id)
 WRITE_F(7, vegetation)
 READ_U(8, words)
-READ_U(9, occupied)
 PARAMS(plants_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"

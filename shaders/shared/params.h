@@ -81,9 +81,15 @@ struct hold_params {
     uint n; /* words of bits, and one */
     uint nx, ny, nz;
     uint around; /* 1: the voxels around occupied ones are held too */
-    uint deep;   /* 1: some are deep */
 };
-SHARED_SIZE(hold_params, 24)
+SHARED_SIZE(hold_params, 20)
+
+/* Deep voxels whose particles are due. */
+struct born_params {
+    uint n;   /* words of bits */
+    uint all; /* 1: all of them */
+};
+SHARED_SIZE(born_params, 8)
 
 /* Rock within NEAR_REACH voxels of an empty one, on every axis, always has particles, and so have its neighbours: nothing that
  * happens at the surface or is shown of it looks at others. Where a voxel without comes that near, NEAR_AHEAD more layers get

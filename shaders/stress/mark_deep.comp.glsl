@@ -4,10 +4,11 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, deep)
+READ_U(0, words)
 WRITE_U(1, mark)
 PARAMS(voxel_params)
 #include "particles/bits.glsl"
+#include "particles/held.glsl"
 #include "stress/grid.glsl"
 #include "stress/mark.glsl"
 
@@ -18,7 +19,7 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint bits = LOAD_U(deep, i);
+    uint bits = deep_word(i);
     ivec3 v = voxel_at(32u * i);
     uvec2 before = uvec2(0xffffffffu);
     for (; bits != 0u; bits &= bits - 1u) {

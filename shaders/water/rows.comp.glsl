@@ -4,7 +4,7 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, occupied)
+READ_U(0, words)
 WRITE_U(1, rows)
 PARAMS(water_params)
 #include "water/voxels.glsl"
@@ -12,7 +12,7 @@ PARAMS(water_params)
 // Word `w` of the voxels' row that begins at word `row`; 0 beyond its ends.
 uint word_of(uint row, int w, int across)
 {
-    return w >= 0 && w < across ? LOAD_U(occupied, row + uint(w)) : 0u;
+    return w >= 0 && w < across ? LOAD_U(words, HELD_STRIDE * (row + uint(w)) + 2u) : 0u;
 }
 
 // Bits 0, 2, 4, ... of a word, together.
@@ -30,7 +30,7 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint words = (k.cx + 31u) / 32u, x = i % words * 32u, row = i / words;
+    uint wide = (k.cx + 31u) / 32u, x = i % wide * 32u, row = i / wide;
     int across = int((k.vx + 31u) >> 5), first = int(2u * x >> 5);
     uvec3 low, high;
     cell_voxels(uvec3(x, row % k.cy, row / k.cy), low, high);

@@ -9,7 +9,7 @@ READ_U(0, list)
 READ_V(1, position)
 READ_V(2, normal)
 READ_F(3, stress)
-READ_U(4, occupied)
+READ_U(4, words)
 WRITE_F(5, intensity)
 WRITE_U(6, parts) // deflation's and water's share in it
 PARAMS(wind_params)

@@ -7,7 +7,7 @@
 
 READ_V(0, position)
 WRITE_V(1, velocity)
-READ_U(2, occupied)
+READ_U(2, words)
 WRITE_U(3, key)
 PARAMS(flow_params)
 #include "wind/flow.glsl"

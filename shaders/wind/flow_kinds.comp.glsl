@@ -5,7 +5,7 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, occupied)
+READ_U(0, words)
 WRITE_U(1, kinds)
 PARAMS(flow_params)
 #include "wind/flow.glsl"

@@ -7,7 +7,7 @@
 
 READ_U(0, start)
 READ_V(1, crowd)
-READ_U(2, occupied)
+READ_U(2, words)
 WRITE_V(3, position)
 WRITE_V(4, velocity)
 WRITE_U(5, key)

@@ -14,7 +14,7 @@ READ_U(0, list)
 READ_V(1, position)
 READ_V(2, normal)
 READ_F(3, stress)
-READ_U(4, occupied)
+READ_U(4, words)
 READ_V(5, air)
 WRITE_F(6, intensity)
 WRITE_U(7, parts) // deflation's and water's share in it

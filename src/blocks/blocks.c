@@ -63,8 +63,8 @@ static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, con
         gpu_copy(gpu, b->other, b->pointer, n);
         GPU_RUN(gpu, blocks_join, h->n, k, h->words, h->list, b->solid, b->other, b->pointer, counts);
         if (runs)
-            GPU_RUN(gpu, blocks_join_runs, runs->n, *runs, h->deep, b->first, h->words, b->solid, b->other,
-                    b->pointer, counts);
+            GPU_RUN(gpu, blocks_join_runs, runs->n, *runs, h->words, b->first, b->solid, b->other, b->pointer,
+                    counts);
         TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
     }
 done:
@@ -90,7 +90,7 @@ static status count_runs(struct gpu *gpu, struct gpu_work *work, struct blocks *
                               .slots = (uint)p->held.n};
     if (!b->first)
         TRY(gpu_buffer_create(gpu, "runs of deep voxels", words + 1, 4, &b->first));
-    GPU_RUN(gpu, blocks_count_runs, k->n, *k, p->held.deep, b->first);
+    GPU_RUN(gpu, blocks_count_runs, k->n, *k, p->held.words, b->first);
     gpu_scan(gpu, work, b->first, words + 1);
     TRY(gpu_download(gpu, b->first, words, &found, 1));
     k->n = (uint)words;
@@ -130,8 +130,7 @@ status blocks_find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
     if (p->n_deep == 0)
         return OK;
     gpu_fill(gpu, counts, 0);
-    GPU_RUN(gpu, blocks_cut_runs, runs.n, runs, p->held.deep, b->first, p->held.words, b->pointer, p->flags,
-            counts);
+    GPU_RUN(gpu, blocks_cut_runs, runs.n, runs, p->held.words, b->first, b->pointer, p->flags, counts);
     TRY(gpu_download(gpu, counts, COUNT_BORN, &cut, 1));
     gpu_fill(gpu, counts, 0);
     *n_cut = cut;

@@ -108,7 +108,7 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
     gpu_fill(gpu, counts, 0);
     gpu_fill(gpu, unspent, 0);
     GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            e->intensity, p->field[ROCK_erodibility], p->held.occupied, p->field[ROCK_viability], unspent,
+            e->intensity, p->field[ROCK_erodibility], p->held.words, p->field[ROCK_viability], unspent,
             counts, e->parts, spent, shares);
     budget_split(gpu, budget, spent, e->parts, p->n_surface);
     GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->field[ROCK_N], p->start,

@@ -91,7 +91,7 @@ static status find_blocks(struct arenite *a)
     size_t n_cut;
     TRY(blocks_find(a->m.gpu, a->m.work, &a->blocks, &a->particles, &n_cut));
     if (n_cut) {
-        TRY(arenite_bear_cut(a));
+        TRY(arenite_bear(a, DUE_CHOSEN, n_cut));
         TRY(blocks_find(a->m.gpu, a->m.work, &a->blocks, &a->particles, &n_cut));
     }
 done:
@@ -172,7 +172,7 @@ status arenite_settle(struct arenite *a, bool solved)
 {
     status st = OK;
     gpu_stage(a->m.gpu, "surface");
-    TRY(arenite_bear_near(a));
+    TRY(arenite_bear(a, DUE_NEAR, 0));
     TRY(particles_surface(a->m.gpu, a->m.work, &a->particles));
     gpu_stage(a->m.gpu, "stress");
     if (!arenite_rests(a->m.job))
@@ -248,7 +248,10 @@ static status edit(struct arenite *a)
             TRY(particles_hold_around(a->m.gpu, a->m.work, &a->particles));
     }
     if (kind == EDITS_ROCK) {
-        TRY(arenite_bear_all(a));
+        if (a->particles.n_deep)
+            log_info("frame %d: an edit of the rock makes all of its %zu particles", a->m.frame,
+                     a->particles.n + a->particles.n_deep);
+        TRY(arenite_bear(a, DUE_ALL, 0));
         weigh(a, PROCESS_EDITS, false);
         TRY(particles_download(a->m.gpu, &a->particles, STATE, &rock));
         TRY(edits_apply(a->m.whole, a->m.frame, &rock, &a->m.ledger, &a->m.start_volume));

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/log.h"
 #include "base/memory.h"
 #include "model/edits.h"
 #include "model/sections.h"
@@ -45,60 +44,24 @@ done:
     return st;
 }
 
-/* The particles of p->flags, whose bits are these. */
-static status bear(struct arenite *a, const uint32_t *bits)
+status arenite_bear(struct arenite *a, enum particles_due what, size_t n)
 {
     status st = OK;
+    struct particles *p = &a->particles;
     struct rock rock = {0};
+    uint32_t *bits = NULL;
+    if (p->n_deep == 0)
+        return OK;
+    TRY(alloc_bits(a, &bits));
+    TRY(particles_due(a->m.gpu, a->m.work, p, what, bits, &n));
+    if (n == 0)
+        goto done;
     TRY(scene_source_make(a->source, bits, NULL, &rock));
     TRY(make_room(a, rock.n));
-    TRY(particles_add(a->m.gpu, a->m.work, &a->particles, &rock));
+    TRY(particles_add(a->m.gpu, a->m.work, p, &rock));
 done:
+    free(bits);
     rock_free(&rock);
-    return st;
-}
-
-status arenite_bear_near(struct arenite *a)
-{
-    status st = OK;
-    size_t n;
-    uint32_t *bits = NULL;
-    if (a->particles.n_deep == 0)
-        return OK;
-    TRY(alloc_bits(a, &bits));
-    TRY(particles_due(a->m.gpu, a->m.work, &a->particles, bits, &n));
-    if (n)
-        TRY(bear(a, bits));
-done:
-    free(bits);
-    return st;
-}
-
-status arenite_bear_cut(struct arenite *a)
-{
-    status st = OK;
-    uint32_t *bits = NULL;
-    TRY(alloc_bits(a, &bits));
-    TRY(particles_due_chosen(a->m.gpu, &a->particles, bits));
-    TRY(bear(a, bits));
-done:
-    free(bits);
-    return st;
-}
-
-status arenite_bear_all(struct arenite *a)
-{
-    status st = OK;
-    uint32_t *bits = NULL;
-    if (a->particles.n_deep == 0)
-        return OK;
-    log_info("frame %d: an edit of the rock makes all of its %zu particles", a->m.frame,
-             a->particles.n + a->particles.n_deep);
-    TRY(alloc_bits(a, &bits));
-    TRY(particles_due_all(a->m.gpu, &a->particles, bits));
-    TRY(bear(a, bits));
-done:
-    free(bits);
     return st;
 }
 
@@ -206,7 +169,7 @@ status arenite_show_deep(struct arenite *a, struct frame_deep *out)
     if (out->n == 0)
         return OK;
     TRY(alloc_bits(a, &out->bits));
-    TRY(gpu_download(a->m.gpu, a->particles.held.deep, 0, out->bits, held_words(a->m.voxels)));
+    TRY(particles_deep_bits(a->m.gpu, a->m.work, &a->particles, out->bits));
     for (size_t v = 0; v < DEEP_VALUES; v++)
         TRY(memory_alloc(out->n, sizeof *out->value[v], "values deep inside", &out->value[v]));
     TRY(derive_all(a, out));
@@ -236,7 +199,7 @@ status arenite_save_deep(struct arenite *a, struct checkpoint *out)
     if (a->particles.n_deep == 0)
         return OK;
     TRY(section_add(out, deep_bits, 4, words, &data));
-    TRY(gpu_download(a->m.gpu, a->particles.held.deep, 0, data, words));
+    TRY(particles_deep_bits(a->m.gpu, a->m.work, &a->particles, data));
     const uint64_t hash = scene_source_hash(a->source);
     TRY(section_add(out, deep_voxels, 8, 1, &data));
     memcpy(data, &hash, sizeof hash);
@@ -342,7 +305,7 @@ status arenite_restore_deep(struct arenite *a, const struct checkpoint *c, struc
     TRY(check_bits(a, c, bits, n, ids));
     TRY(particles_set_deep(a->m.gpu, a->m.work, &a->particles, bits, n));
     if (!arenite_may_be_deep(a->m.whole))
-        TRY(arenite_bear_all(a));
+        TRY(arenite_bear(a, DUE_ALL, 0));
 done:
     return st;
 }

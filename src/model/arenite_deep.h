@@ -11,11 +11,9 @@ bool arenite_may_be_deep(const struct job *job);
  * caller frees both. */
 MUST_USE status arenite_first_rock(struct arenite *a, struct rock *rock, uint32_t **deep, size_t *n_deep);
 
-/* Particles come to be: where the surface has come near; of what blocks_find() has found cut off; of all rock. The DERIVED fields are
- * stale where any have come. Waits. */
-MUST_USE status arenite_bear_near(struct arenite *a);
-MUST_USE status arenite_bear_cut(struct arenite *a);
-MUST_USE status arenite_bear_all(struct arenite *a);
+/* Particles come to be where they are due; `n` is the number of the chosen ones, such as blocks_find() has found to be cut off. The
+ * DERIVED fields are stale where any have come. Waits. */
+MUST_USE status arenite_bear(struct arenite *a, enum particles_due what, size_t n);
 
 /* What a frame shows of the rock that has no particles; the frame's to free, finished or not. The stress must be current. Waits. */
 MUST_USE status arenite_show_deep(struct arenite *a, struct frame_deep *out);

@@ -265,7 +265,7 @@ status arenite_begin(struct model *m)
     TRY(arenite_create_particles(a, &rock));
     if (n_deep)
         TRY(particles_set_deep(m->gpu, m->work, &a->particles, deep, n_deep));
-    TRY(arenite_bear_near(a));
+    TRY(arenite_bear(a, DUE_NEAR, 0));
     TRY(arenite_count(a));
     if (a->collapse.shot)
         TRY(collapse_load(m->gpu, &a->collapse, &a->particles));

@@ -9,9 +9,9 @@ status particles_set_deep(struct gpu *gpu, struct gpu_work *work, struct particl
                           size_t n)
 {
     status st = OK;
-    if (!p->held.deep)
-        TRY(gpu_buffer_create(gpu, "deep voxels", held_words(p->voxels), 4, &p->held.deep));
-    TRY(gpu_upload(gpu, p->held.deep, 0, bits, held_words(p->voxels)));
+    const struct count_params k = words_of(p);
+    TRY(gpu_upload(gpu, p->flags, 0, bits, k.n));
+    GPU_RUN(gpu, particles_deepen, k.n, k, p->flags, p->held.words);
     p->n_deep = n;
     TRY(particles_index(gpu, work, p));
 done:
@@ -25,55 +25,66 @@ void particles_near(struct gpu *gpu, struct particles *p, uint32_t reach)
                             .ny = (uint)p->voxels[1],
                             .nz = (uint)p->voxels[2],
                             .reach = reach};
-    GPU_RUN(gpu, particles_near, k.n, k, p->held.occupied, p->place);
+    GPU_RUN(gpu, particles_near, k.n, k, p->held.words, p->place);
     k.axis = 1;
     GPU_RUN(gpu, particles_near, k.n, k, p->place, p->flags);
     k.axis = 2;
     GPU_RUN(gpu, particles_near, k.n, k, p->flags, p->place);
 }
 
-/* Into p->flags. Waits. */
-static status find_due(struct gpu *gpu, struct gpu_work *work, struct particles *p, uint32_t reach, size_t *n)
+/* Bits of deep voxels into p->flags: of those in p->place, or `all`. Waits. */
+static status find_due(struct gpu *gpu, struct gpu_work *work, struct particles *p, bool all, size_t *n)
 {
     status st = OK;
-    const struct count_params k = words_of(p);
+    const struct born_params k = {words_of(p).n, all};
     struct gpu_buffer *counts = gpu_work_words(work);
     uint32_t found;
     gpu_fill(gpu, counts, 0);
-    particles_near(gpu, p, reach);
-    GPU_RUN(gpu, particles_born, k.n, k, p->place, p->held.deep, p->flags, counts);
+    GPU_RUN(gpu, particles_born, k.n, k, p->place, p->held.words, p->flags, counts);
     TRY(gpu_download(gpu, counts, COUNT_BORN, &found, 1));
     *n = found;
 done:
     return st;
 }
 
-status particles_due(struct gpu *gpu, struct gpu_work *work, struct particles *p, uint32_t *bits, size_t *n)
+static status find_near(struct gpu *gpu, struct gpu_work *work, struct particles *p, size_t *n)
 {
     status st = OK;
-    *n = 0;
-    if (p->n_deep == 0)
-        return OK;
-    TRY(find_due(gpu, work, p, NEAR_REACH + 1, n));
+    particles_near(gpu, p, NEAR_REACH + 1);
+    TRY(find_due(gpu, work, p, false, n));
     if (*n == 0)
         return OK;
-    TRY(find_due(gpu, work, p, NEAR_REACH + 1 + NEAR_AHEAD, n));
-    TRY(particles_due_chosen(gpu, p, bits));
+    particles_near(gpu, p, NEAR_REACH + 1 + NEAR_AHEAD);
+    TRY(find_due(gpu, work, p, false, n));
 done:
     return st;
 }
 
-status particles_due_all(struct gpu *gpu, struct particles *p, uint32_t *bits)
+status particles_due(struct gpu *gpu, struct gpu_work *work, struct particles *p, enum particles_due what,
+                     uint32_t *bits, size_t *n)
 {
-    gpu_copy(gpu, p->flags, p->held.deep, words_of(p).n);
-    return particles_due_chosen(gpu, p, bits);
+    status st = OK;
+    const struct count_params k = words_of(p);
+    if (what == DUE_NEAR)
+        TRY(find_near(gpu, work, p, n));
+    else if (what == DUE_ALL)
+        TRY(find_due(gpu, work, p, true, n));
+    if (*n == 0)
+        return OK;
+    GPU_RUN(gpu, particles_undeep, k.n, k, p->flags, p->held.words);
+    TRY(gpu_download(gpu, p->flags, 0, bits, k.n));
+done:
+    return st;
 }
 
-status particles_due_chosen(struct gpu *gpu, struct particles *p, uint32_t *bits)
+status particles_deep_bits(struct gpu *gpu, struct gpu_work *work, struct particles *p, uint32_t *bits)
 {
-    const struct count_params k = words_of(p);
-    GPU_RUN(gpu, particles_undeep, k.n, k, p->flags, p->held.deep);
-    return gpu_download(gpu, p->flags, 0, bits, k.n);
+    status st = OK;
+    size_t n;
+    TRY(find_due(gpu, work, p, true, &n));
+    TRY(gpu_download(gpu, p->flags, 0, bits, words_of(p).n));
+done:
+    return st;
 }
 
 /* A buffer of n_max items becomes one of n; of its contents the first `keep` items stay. */

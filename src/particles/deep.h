@@ -4,8 +4,8 @@
  * Deep voxels   are occupied, and whole: their fill is 1. Every voxel within NEAR_REACH + 1 of an empty one, or of the domain's
  *               sides, has its particles before anything looks at it (params.h); so everything that is done at the surface
  *               finds what it would find if all rock had particles, and has the same bits.
- * Calling sequence   for each shape: particles_due(), or particles_due_all(); if there are any, the rock that the caller makes of
- *               the bits goes to particles_add().
+ * Calling sequence   for each shape: particles_due(); if there are any, the rock that the caller makes of the bits goes to
+ *               particles_add().
  */
 #ifndef HOODOO_DEEP_H
 #define HOODOO_DEEP_H
@@ -20,14 +20,16 @@ MUST_USE status particles_set_deep(struct gpu *gpu, struct gpu_work *work, struc
 /* Records p->place: the voxels within `reach` of an empty one on every axis. */
 void particles_near(struct gpu *gpu, struct particles *p, uint32_t reach);
 
-/* The deep voxels whose particles are due, since the surface has come near: *n of them, and unless that is 0 their bits go to
- * `bits` (host, held_words()), and they are not deep any more. Waits. */
-MUST_USE status particles_due(struct gpu *gpu, struct gpu_work *work, struct particles *p, uint32_t *bits,
-                              size_t *n);
+/* The deep voxels whose particles are due, *n of them: those that the surface has come near to; those of which the caller has put the
+ * bits into p->flags, and the number into *n; or all. Unless there are none their bits go to `bits` (host, held_words()), and they
+ * are not deep any more. Waits. */
+enum particles_due { DUE_NEAR, DUE_CHOSEN, DUE_ALL };
+MUST_USE status particles_due(struct gpu *gpu, struct gpu_work *work, struct particles *p,
+                              enum particles_due what, uint32_t *bits, size_t *n);
 
-/* The same, where all of them are due; or those whose bits the caller has put into p->flags. */
-MUST_USE status particles_due_all(struct gpu *gpu, struct particles *p, uint32_t *bits);
-MUST_USE status particles_due_chosen(struct gpu *gpu, struct particles *p, uint32_t *bits);
+/* Those of all deep voxels, which stay deep. Waits. */
+MUST_USE status particles_deep_bits(struct gpu *gpu, struct gpu_work *work, struct particles *p,
+                                    uint32_t *bits);
 
 /* Room for n particles in all. What is DERIVED is lost where it has to grow. Waits. */
 MUST_USE status particles_reserve(struct gpu *gpu, struct particles *p, size_t n);

@@ -12,11 +12,8 @@
 
 struct held_voxels {
     int voxels[3];
-    size_t n, room;              /* held voxels; numbers there is room for in the list */
-    struct gpu_buffer *occupied; /* uint [words]: a bit for each voxel, set by the caller */
-    struct gpu_buffer
-        *deep; /* uint [words]: those of the occupied voxels that are not to be held (deep.h); NULL: none */
-    /* uint [HELD_STRIDE (words + 1)]: bits of held voxels, how many are held before them, and bits of deep ones */
+    size_t n, room; /* held voxels; numbers there is room for in the list */
+    /* uint [HELD_STRIDE (words + 1)]: bits of held voxels, how many are held before them, and bits of occupied ones */
     struct gpu_buffer *words;
     struct gpu_buffer *list; /* uint [room]: 32 times its word and its bit, of each held voxel */
 };
@@ -35,12 +32,18 @@ static inline size_t held_words(const int voxels[3])
 /* Bytes on the device where n voxels are held. */
 uint64_t held_bytes(const int voxels[3], size_t n);
 
-/* No voxel is occupied, held or deep; there is room for n. */
+/* No voxel is occupied or held; there is room for n. */
 MUST_USE status held_create(struct gpu *gpu, const int voxels[3], size_t n, struct held_voxels *out);
 void held_destroy(struct gpu *gpu, struct held_voxels *h);
 
-/* Finds what is held: the occupied voxels; if `around`, also those that touch one by a face, an edge or a corner; but no deep one.
- * Waits. */
+/* Only deep voxels are still occupied, and none is held: then the caller occupies what else is. Records only. */
+void held_vacate(struct gpu *gpu, struct held_voxels *h);
+
+/* These voxels are occupied, and no others; none is held or deep. `bits` are the host's. Waits. */
+MUST_USE status held_occupy(struct gpu *gpu, struct held_voxels *h, const uint32_t *bits);
+
+/* After either of them: finds what is held, which is the occupied voxels; if `around`, also those that touch one by a face, an edge
+ * or a corner; but no deep one. Waits. */
 MUST_USE status held_find(struct gpu *gpu, struct gpu_work *work, struct held_voxels *h, bool around);
 
 /* All voxels are occupied and held, for users that have a place for each. Waits. */

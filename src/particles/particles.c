@@ -62,11 +62,8 @@ static status index_fields(struct gpu *gpu, struct gpu_work *work, struct partic
         memcpy(&bits, &one, sizeof bits);
         gpu_fill(gpu, left, bits);
     }
-    if (p->held.deep)
-        gpu_copy(gpu, p->held.occupied, p->held.deep, held_words(p->voxels));
-    else
-        gpu_fill(gpu, p->held.occupied, 0);
-    GPU_RUN(gpu, particles_occupy, p->n, k, p->field[ROCK_P], left, p->held.occupied);
+    held_vacate(gpu, &p->held);
+    GPU_RUN(gpu, particles_occupy, p->n, k, p->field[ROCK_P], left, p->held.words);
     TRY(held_find(gpu, work, &p->held, p->around));
     TRY(keep_voxels(gpu, p));
     const struct gpu_sort sort = {.keys = p->flags,
@@ -201,7 +198,7 @@ status particles_surface(struct gpu *gpu, struct gpu_work *work, struct particle
 {
     status st = OK;
     struct voxel_params k = particles_params(p, p->n);
-    GPU_RUN(gpu, particles_exposed, p->n, k, p->field[ROCK_P], p->held.occupied, p->flags);
+    GPU_RUN(gpu, particles_exposed, p->n, k, p->field[ROCK_P], p->held.words, p->flags);
     TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, &p->n_surface));
     gpu_fill(gpu, p->field[ROCK_N], 0);
     k.n = (uint)p->n_surface;

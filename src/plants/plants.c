@@ -60,7 +60,7 @@ void plants_grow(struct gpu *gpu, const struct job *job, int frame, struct parti
     k.growth = (float)exp(fmin(growth * kyr, 50));
     k.death = (float)exp(-job->vegetation.death_per_kyr * kyr);
     GPU_RUN(gpu, plants_live, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->field[ROCK_phase],
-            p->held.occupied, p->field[ROCK_vegetation]);
+            p->held.words, p->field[ROCK_vegetation]);
     if (growth <= 0)
         return;
     k.n = (uint)p->n_surface;
@@ -69,6 +69,6 @@ void plants_grow(struct gpu *gpu, const struct job *job, int frame, struct parti
         gpu_copy(gpu, p->place, p->field[ROCK_vegetation], p->n);
         GPU_RUN(gpu, plants_spread, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
                 p->field[ROCK_phase], p->start, p->place, p->field[ROCK_id], p->field[ROCK_vegetation],
-                p->held.words, p->held.occupied);
+                p->held.words);
     }
 }

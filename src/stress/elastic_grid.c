@@ -100,7 +100,7 @@ status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct elastic *
     GPU_RUN(gpu, stress_mark, v.n, v, p->field[ROCK_P], e->marks);
     if (p->n_deep) {
         const struct voxel_params words = particles_params(p, held_words(p->voxels));
-        GPU_RUN(gpu, stress_mark_deep, words.n, words, p->held.deep, e->marks);
+        GPU_RUN(gpu, stress_mark_deep, words.n, words, p->held.words, e->marks);
     }
     TRY(lattice_choose(gpu, work, l, e->marks));
     TRY(make_room(gpu, e));

@@ -45,7 +45,7 @@ static status find_nodes(struct gpu *gpu, struct gpu_work *work, struct water *w
     uint32_t n_nodes;
     gpu_fill(gpu, w->first, 0);
     k.n = (uint)(((size_t)w->cells[0] + 31) / 32 * (size_t)w->cells[1] * (size_t)w->cells[2]);
-    GPU_RUN(gpu, water_rows, k.n, k, p->held.occupied, w->rows);
+    GPU_RUN(gpu, water_rows, k.n, k, p->held.words, w->rows);
     k.n = (uint)n_words;
     GPU_RUN(gpu, water_columns, n_words, k, w->rows, w->occupied, w->floors, w->first);
     gpu_scan(gpu, work, w->first, n_words + 1);

@@ -150,7 +150,7 @@ static void step(struct gpu *gpu, struct flow *f, struct flow_params k, struct p
             f->density_pressure[0]);
     solve(gpu, f, k, f->density_pressure[0], f->density_iterations);
     k.gain = DRIFT;
-    GPU_RUN(gpu, wind_flow_move, f->slots, k, f->start, f->crowd, p->held.occupied, f->position[0],
+    GPU_RUN(gpu, wind_flow_move, f->slots, k, f->start, f->crowd, p->held.words, f->position[0],
             f->velocity[0], f->key);
     emit(gpu, f, k);
     arrange(gpu, f, k);
@@ -191,7 +191,7 @@ static status begin(struct gpu *gpu, struct flow *f, struct flow_params k, struc
     if (f->state.steps == 0)
         flow_fill(gpu, f, p);
     k.first = f->state.n;
-    GPU_RUN(gpu, wind_flow_begin, k.n, k, f->position[0], f->velocity[0], p->held.occupied, f->key);
+    GPU_RUN(gpu, wind_flow_begin, k.n, k, f->position[0], f->velocity[0], p->held.words, f->key);
     gpu_copy(gpu, f->surface, f->flags, box_count(f));
     TRY(gpu_compact(gpu, f->work, f->flags, f->place, f->surface_list, box_count(f), &n_rock));
     k.n = (uint)(ground_count(f) + n_rock);

@@ -29,7 +29,7 @@ void flow_fill(struct gpu *gpu, struct flow *f, struct particles *p)
                       *potential = f->divergence_pressure[1];
     struct flow_params k = flow_params_of(f, p);
     k.n = (uint)box_count(f);
-    GPU_RUN(gpu, wind_flow_kinds, k.n, k, p->held.occupied, kinds);
+    GPU_RUN(gpu, wind_flow_kinds, k.n, k, p->held.words, kinds);
     GPU_RUN(gpu, wind_flow_sources, k.n, k, kinds, source, faces);
     relax(gpu, f, k, source, faces, potential);
     GPU_RUN(gpu, wind_flow_fill, k.n, k, kinds, potential, f->position[0], f->velocity[0], f->id[0]);

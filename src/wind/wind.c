@@ -144,7 +144,7 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
     struct wind_lattice air;
     if (!wind_lattice(w, job, frame, &air)) {
         GPU_RUN(gpu, wind_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-                p->field[ROCK_stress], p->held.occupied, intensity, parts);
+                p->field[ROCK_stress], p->held.words, intensity, parts);
         return;
     }
     k.shelter = (float)job->wind.flow.reach_m;
@@ -155,5 +155,5 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
     k.origin_x = (float)air.origin[0];
     k.origin_y = (float)air.origin[1];
     GPU_RUN(gpu, wind_strike, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            p->field[ROCK_stress], p->held.occupied, air.velocity, intensity, parts);
+            p->field[ROCK_stress], p->held.words, air.velocity, intensity, parts);
 }

@@ -63,7 +63,6 @@ static struct bed bed_create(const int n[3], uint32_t one_in)
             for (int x = 0; x < n[0]; x++)
                 if (noise(&random) % one_in == 0)
                     b.occupied[word_of(n, (const int[]){x, y, z})] |= 1U << (x % 32);
-    assert_ok(gpu_upload(b.gpu, b.held.occupied, 0, b.occupied, held_words(n)));
     return b;
 }
 
@@ -82,6 +81,7 @@ static void check_held(struct bed *b, bool around)
     const size_t words = held_words(n);
     uint32_t *word = calloc(HELD_STRIDE * (words + 1), 4), *list;
     size_t slot = 0;
+    assert_ok(held_occupy(b->gpu, &b->held, b->occupied));
     assert_ok(held_find(b->gpu, b->work, &b->held, around));
     assert_true(b->held.n <= b->held.room);
     list = calloc(b->held.n + 1, 4);
@@ -130,10 +130,10 @@ static void all_may_be_held(void **state)
     bed_free(&b);
 }
 
-/* Rock that fills a twentieth of its box: a bit more. */
+/* Rock that fills less than a twentieth of its box: a bit more. */
 static void memory_follows_the_rock(void **state)
 {
-    static const int tight[3] = {100, 100, 100}, wide[3] = {200, 224, 400};
+    static const int tight[3] = {100, 100, 100}, wide[3] = {200, 250, 400};
     const double ratio = (double)particles_bytes(900000, wide) / (double)particles_bytes(900000, tight);
     (void)state;
     print_message("# the particles of a twentieth of the box take %.3f of what they take alone\n", ratio);

@@ -357,7 +357,7 @@ static void deep_rock_holds_as_particles_do(void **state)
         assert_ok(blocks_create(gpu, p.held.n, &blocks));
         assert_ok(blocks_find(gpu, work, &blocks, &p, &n_cut));
         if (n_cut)
-            assert_ok(particles_due_chosen(gpu, &p, cut));
+            assert_ok(particles_due(gpu, work, &p, DUE_CHOSEN, cut, &n_cut));
         for (size_t i = 0; i < all.n; i++) {
             const bool is = bit_at(deep, n, h, &all.P[4 * i]);
             expected += is && falls[i];

@@ -1,0 +1,18 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Only deep voxels are still occupied, and none is held: their bits stand where those of held voxels did.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+WRITE_U(0, words)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    uint deep = AT(words, HELD_STRIDE * i + 2u) & ~AT(words, HELD_STRIDE * i);
+    AT(words, HELD_STRIDE * i) = deep;
+    AT(words, HELD_STRIDE * i + 2u) = deep;
+}
