@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "model/edits.h"
 #include "model/sections.h"
+#include "stress/places.h"
 
 bool arenite_may_be_deep(const struct job *job)
 {
@@ -90,11 +91,10 @@ done:
 
 /* ---- frames that show all rock */
 
-/* What the derived values of some particles follow from, and these. */
-static const enum rock_field given[] = {ROCK_P, ROCK_layer, ROCK_phase, ROCK_rate_factor,
-                                        ROCK_interlock_factor},
+/* What erodibility follows from beside the stress; and the derived values. */
+static const enum rock_field given[] = {ROCK_layer, ROCK_phase, ROCK_rate_factor, ROCK_interlock_factor},
                              derived[DEEP_VALUES] = {ROCK_stress, ROCK_von_mises, ROCK_erodibility};
-enum { GIVEN = sizeof given / sizeof *given, TOGETHER = 1 << 18 };
+enum { GIVEN = sizeof given / sizeof *given };
 
 static status make_deep(const void *source, const uint32_t *bits, struct rock *out)
 {
@@ -102,17 +102,14 @@ static status make_deep(const void *source, const uint32_t *bits, struct rock *o
 }
 
 /* The derived values of some particles go to those of deep voxels, from number `first` on. */
-static status derive(struct arenite *a, struct particles *some, const struct rock *from, size_t first,
+static status derive(struct arenite *a, struct stress_places *places, const struct rock *from, size_t first,
                      struct frame_deep *deep)
 {
     status st = OK;
-    some->n = from->n;
+    struct particles *some = &places->at;
+    TRY(stress_places_find(a->m.gpu, places, from->P, from->n));
     for (size_t i = 0; i < GIVEN; i++)
         TRY(gpu_upload(a->m.gpu, some->field[given[i]], 0, from->field[given[i]], from->n));
-    if (first == 0) /* a checkpoint may have been made since */
-        elastic_recover(a->m.gpu, &a->elastic, some);
-    else
-        elastic_sample(a->m.gpu, &a->elastic, some);
     TRY(erosion_interlock(a->m.gpu, &a->erosion, a->m.job, a->m.frame, some));
     for (size_t v = 0; v < DEEP_VALUES; v++)
         TRY(gpu_download(a->m.gpu, some->field[derived[v]], 0, deep->value[v] + first, from->n));
@@ -120,44 +117,60 @@ done:
     return st;
 }
 
-/* Into `some`, of all bits the next words with TOGETHER voxels at most, or a word; *word is the first, and becomes the next. */
+/* Into `some`, of all bits the next words with PLACES_MOST voxels at most, or a word; *word is the first, and becomes the next. */
 static void take_words(const uint32_t *bits, size_t words, size_t *word, uint32_t *some)
 {
     size_t n = 0;
     memset(some, 0, words * sizeof *some);
-    for (; *word < words && n + 32 <= TOGETHER; ++*word) {
+    for (; *word < words && n + 32 <= PLACES_MOST; ++*word) {
         some[*word] = bits[*word];
         n += (size_t)__builtin_popcount(bits[*word]);
     }
+}
+
+/* Room for what `given` has, and for what follows from it. */
+static status add_fields(struct gpu *gpu, struct particles *some)
+{
+    status st = OK;
+    for (size_t i = 0; i <= GIVEN; i++) {
+        const enum rock_field f = i < GIVEN ? given[i] : ROCK_erodibility;
+        TRY(gpu_buffer_create(gpu, rock_field_table[f].name, PLACES_MOST, rock_field_size(f),
+                              &some->field[f]));
+    }
+done:
+    return st;
+}
+
+static void remove_fields(struct gpu *gpu, struct particles *some)
+{
+    for (size_t i = 0; i <= GIVEN; i++)
+        gpu_buffer_destroy(gpu, &some->field[i < GIVEN ? given[i] : ROCK_erodibility]);
 }
 
 static status derive_all(struct arenite *a, struct frame_deep *deep)
 {
     status st = OK;
     const size_t words = held_words(a->m.voxels);
-    struct particles some = {.n_max = TOGETHER};
+    struct stress_places places = {0};
     struct rock made = {0};
     uint32_t *next = NULL;
     size_t first = 0;
     TRY(alloc_bits(a, &next));
-    for (size_t i = 0; i < GIVEN + DEEP_VALUES; i++) {
-        const enum rock_field f = i < GIVEN ? given[i] : derived[i - GIVEN];
-        TRY(gpu_buffer_create(a->m.gpu, rock_field_table[f].name, TOGETHER, rock_field_size(f),
-                              &some.field[f]));
-    }
+    TRY(stress_places_begin(a->m.gpu, &a->elastic, &places));
+    TRY(add_fields(a->m.gpu, &places.at));
     for (size_t word = 0; word < words;) {
         take_words(deep->bits, words, &word, next);
         rock_free(&made);
         TRY(scene_source_make(a->source, next, NULL, &made));
         if (made.n)
-            TRY(derive(a, &some, &made, first, deep));
+            TRY(derive(a, &places, &made, first, deep));
         first += made.n;
     }
 done:
     free(next);
     rock_free(&made);
-    for (int f = 0; f < ROCK_FIELDS; f++)
-        gpu_buffer_destroy(a->m.gpu, &some.field[f]);
+    remove_fields(a->m.gpu, &places.at);
+    stress_places_end(a->m.gpu, &places);
     return st;
 }
 

@@ -7,35 +7,33 @@
 #include "job/values.h"
 
 /* Places that are asked for together, and where their values go. */
-enum { TOGETHER = 1 << 18 };
 struct asking {
     struct gpu *gpu;
-    struct elastic *e;
-    struct particles at;
-    bool recovered;
+    struct stress_places places;
     size_t n;
     float *P, *value;
-    float **stress, **von_mises; /* [TOGETHER] */
+    float **stress, **von_mises; /* [PLACES_MOST] */
 };
+
+/* One of the two values of all places, to where they belong. */
+static status hand_out(struct asking *a, enum rock_field value, float **to)
+{
+    status st = OK;
+    TRY(gpu_download(a->gpu, a->places.at.field[value], 0, a->value, a->n));
+    for (size_t i = 0; i < a->n; i++)
+        *to[i] = a->value[i];
+done:
+    return st;
+}
 
 static status answer(struct asking *a)
 {
     status st = OK;
     if (a->n == 0)
         return OK;
-    a->at.n = a->n;
-    TRY(gpu_upload(a->gpu, a->at.field[ROCK_P], 0, a->P, a->n));
-    if (a->recovered)
-        elastic_sample(a->gpu, a->e, &a->at);
-    else
-        elastic_recover(a->gpu, a->e, &a->at);
-    a->recovered = true;
-    TRY(gpu_download(a->gpu, a->at.field[ROCK_stress], 0, a->value, a->n));
-    for (size_t i = 0; i < a->n; i++)
-        *a->stress[i] = a->value[i];
-    TRY(gpu_download(a->gpu, a->at.field[ROCK_von_mises], 0, a->value, a->n));
-    for (size_t i = 0; i < a->n; i++)
-        *a->von_mises[i] = a->value[i];
+    TRY(stress_places_find(a->gpu, &a->places, a->P, a->n));
+    TRY(hand_out(a, ROCK_stress, a->stress));
+    TRY(hand_out(a, ROCK_von_mises, a->von_mises));
     a->n = 0;
 done:
     return st;
@@ -51,29 +49,25 @@ static status ask(struct asking *a, const struct grid_lattice *l, const double s
     P[3] = 0;
     a->stress[a->n] = stress;
     a->von_mises[a->n] = von_mises;
-    return ++a->n == TOGETHER ? answer(a) : OK;
+    return ++a->n == PLACES_MOST ? answer(a) : OK;
 }
 
 static status asking_begin(struct gpu *gpu, struct elastic *e, struct asking *a)
 {
-    static const enum rock_field fields[] = {ROCK_P, ROCK_stress, ROCK_von_mises};
     status st = OK;
-    *a = (struct asking){.gpu = gpu, .e = e, .at = {.n_max = TOGETHER}};
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
-        TRY(gpu_buffer_create(gpu, rock_field_table[fields[i]].name, TOGETHER, rock_field_size(fields[i]),
-                              &a->at.field[fields[i]]));
-    TRY(memory_alloc(4 * TOGETHER, sizeof *a->P, "places inside", &a->P));
-    TRY(memory_alloc(TOGETHER, sizeof *a->value, "stress inside", &a->value));
-    TRY(memory_alloc(TOGETHER, sizeof *a->stress, "stress inside", &a->stress));
-    TRY(memory_alloc(TOGETHER, sizeof *a->von_mises, "stress inside", &a->von_mises));
+    *a = (struct asking){.gpu = gpu};
+    TRY(stress_places_begin(gpu, e, &a->places));
+    TRY(memory_alloc(4 * PLACES_MOST, sizeof *a->P, "places inside", &a->P));
+    TRY(memory_alloc(PLACES_MOST, sizeof *a->value, "stress inside", &a->value));
+    TRY(memory_alloc(PLACES_MOST, sizeof *a->stress, "stress inside", &a->stress));
+    TRY(memory_alloc(PLACES_MOST, sizeof *a->von_mises, "stress inside", &a->von_mises));
 done:
     return st;
 }
 
 static void asking_end(struct asking *a)
 {
-    for (int f = 0; f < ROCK_FIELDS; f++)
-        gpu_buffer_destroy(a->gpu, &a->at.field[f]);
+    stress_places_end(a->gpu, &a->places);
     free(a->P);
     free(a->value);
     free(a->stress);

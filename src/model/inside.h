@@ -4,7 +4,7 @@
 #define HOODOO_INSIDE_H
 
 #include "particles/grids.h"
-#include "stress/elastic.h"
+#include "stress/places.h"
 
 /* The stress must be current. Harmless where the grids are not there, or no stress was found. Waits. */
 MUST_USE status inside_values(struct gpu *gpu, struct elastic *e, struct frame_grids *grids);
