@@ -19,7 +19,7 @@ BUILD = build
 SHARE = $(BUILD)
 CC = gcc
 CXX = g++
-OPT = -O2 -g
+OPT = -O2 -g1
 WARN = -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 SANITIZE =
 COMMIT = $(shell git rev-parse --short=12 HEAD 2>/dev/null || echo unknown)

@@ -2,7 +2,6 @@
 #include "output/vdb_shim.hpp"
 
 #include <openvdb/points/AttributeArray.h>
-#include <openvdb/points/PointDataGrid.h>
 
 #include <cmath>
 #include <stdexcept>

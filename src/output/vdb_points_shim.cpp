@@ -8,7 +8,6 @@
 #include "output/vdb_shim.hpp"
 
 #include <openvdb/points/AttributeArray.h>
-#include <openvdb/points/PointDataGrid.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 

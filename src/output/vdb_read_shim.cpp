@@ -4,7 +4,6 @@
 
 #include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
-#include <openvdb/points/PointDataGrid.h>
 
 #include <cstdlib>
 #include <istream>

@@ -3,6 +3,7 @@
 #define HOODOO_VDB_SHIM_HPP
 
 #include <openvdb/openvdb.h>
+#include <openvdb/points/PointDataGrid.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -18,6 +19,25 @@ extern "C" {
 #include "base/version.h"
 #include "output/vdb_encode.h"
 }
+
+/* OpenVDB's library holds these classes whole, for it registers their grids. Without being told so, each file that names one
+ * compiles all of it again, which took most of the time that hoodoo took to build. What the library has not kept of them are
+ * small members that gcc compiles into whoever calls them; clang, and gcc without optimisation, would miss some. */
+#if defined(__OPTIMIZE__) && !defined(__clang__)
+namespace openvdb
+{
+OPENVDB_USE_VERSION_NAMESPACE
+namespace OPENVDB_VERSION_NAME
+{
+extern template class Grid<FloatTree>;
+extern template class Grid<Vec3STree>;
+extern template class Grid<points::PointDataTree>;
+extern template class tree::Tree<FloatTree::RootNodeType>;
+extern template class tree::Tree<Vec3STree::RootNodeType>;
+extern template class tree::Tree<points::PointDataTree::RootNodeType>;
+} // namespace OPENVDB_VERSION_NAME
+} // namespace openvdb
+#endif
 
 /* Ends a function-try-block: no exception crosses into C. `wrong` is what a failure other than of memory
  * means. */
