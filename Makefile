@@ -43,6 +43,8 @@ TEST_SRC = $(wildcard tests/*/test_*.c)
 TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
 BENCH_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/*.c)) $(BUILD)/tests/bench/surface
 TEST_HELP = $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/ref/*.c))
+# As intermediate files they would go after each build, and every test be linked again for the want of them.
+.SECONDARY: $(TEST_HELP)
 KEEP = $(if $(SANITIZE),$(BUILD)/tests/sanitized/keep_libraries.o)
 
 ## all: build build/hoodoo (installs what is missing when root)

@@ -62,7 +62,7 @@ status cli_run(int argc, char **argv)
         {"path-map", "FILE", OPTION_TEXT, &path_map,
          "where the job's input files are here: an OpenJD session's rules"},
         {"repair", NULL, OPTION_FLAG, &repair,
-         "read every file there is, and make again what is damaged or missing"}};
+         "make damaged and missing checkpoints again, too, from the start if need be"}};
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;

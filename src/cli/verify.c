@@ -21,7 +21,7 @@ struct search {
     struct frame_range frames;
     bool json, only_frames; /* --frames: checkpoints are not asked for */
     uint64_t job_hash;      /* of the frames' job */
-    size_t n_frames, n_files, n_checkpoints, n_damaged, n_missing;
+    size_t n_frames, n_files, n_checkpoints, n_bad_checkpoints, n_damaged, n_missing;
     struct text answer; /* where json is set: so far up to the list of problems */
 };
 
@@ -174,8 +174,10 @@ static status verify_checkpoint(struct search *s, const char *path, const int *f
     s->n_checkpoints++;
     if (st == E_MEMORY)
         return st;
-    if (st != OK || (frame && c.frame != *frame))
-        found(s, false, path + strlen(s->root) + 1, st != OK ? status_message() : "it is another frame's");
+    if (st == OK && (!frame || c.frame == *frame))
+        return OK;
+    s->n_bad_checkpoints++;
+    found(s, false, path + strlen(s->root) + 1, st != OK ? status_message() : "it is another frame's");
     return OK;
 }
 
@@ -217,9 +219,9 @@ static status report(struct search *s)
     }
     if (s->n_damaged + s->n_missing)
         st = fail(E_INPUT,
-                  "%s: of %zu files %zu are damaged, %zu missing; 'hoodoo run' with --repair makes their "
-                  "frames anew",
-                  s->root, s->n_files, s->n_damaged, s->n_missing);
+                  "%s: of %zu files %zu are damaged, %zu missing; 'hoodoo run%s' makes what is damaged or "
+                  "missing anew",
+                  s->root, s->n_files, s->n_damaged, s->n_missing, s->n_bad_checkpoints ? " --repair" : "");
 done:
     return st;
 }

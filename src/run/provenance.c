@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "base/path.h"
 #include "base/version.h"
+#include "output/folder.h"
 
 enum { RUN_JSON_MAX = 16 << 20 };
 
@@ -236,8 +237,7 @@ done:
     return st;
 }
 
-status provenance_write(const struct provenance *p, const struct gpu *gpu, const struct job *job,
-                        uint64_t job_hash, const char *root)
+static status write_job(const struct job *job, const char *root)
 {
     status st = OK;
     struct path path;
@@ -245,12 +245,25 @@ status provenance_write(const struct provenance *p, const struct gpu *gpu, const
     TRY(job_resolved(job, &t));
     TRY(path_join(&path, root, "job.yaml"));
     TRY(atomic_file_write(path.text, t.data, t.size));
+done:
     text_free(&t);
+    return st;
+}
+
+static status write_run(const struct provenance *p, const struct gpu *gpu, const struct job *job,
+                        uint64_t job_hash, const char *root)
+{
+    status st = OK;
+    struct path path;
+    struct text t = {0};
     json_object(&t, NULL);
     json_text(&t, "name", job->name);
-    put_maker(&t, &p->here);
-    json_text(&t, "device_uuid", gpu_info(gpu)->uuid);
-    json_text(&t, "device_pci", gpu_info(gpu)->pci);
+    if (*p->here.version)
+        put_maker(&t, &p->here);
+    if (gpu) {
+        json_text(&t, "device_uuid", gpu_info(gpu)->uuid);
+        json_text(&t, "device_pci", gpu_info(gpu)->pci);
+    }
     put_continued(&t, p);
     put_job(&t, job, job_hash);
     TRY(put_inputs(&t, job));
@@ -260,5 +273,57 @@ status provenance_write(const struct provenance *p, const struct gpu *gpu, const
     TRY(atomic_file_write(path.text, t.data, t.size));
 done:
     text_free(&t);
+    return st;
+}
+
+status provenance_write(const struct provenance *p, const struct gpu *gpu, const struct job *job,
+                        uint64_t job_hash, const char *root)
+{
+    const status st = write_job(job, root);
+    return st == OK ? write_run(p, gpu, job, job_hash, root) : st;
+}
+
+/* Who made the newest sound checkpoint; none: *out stays. */
+static status maker_of_newest(const char *root, const char *name, struct maker *out)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n;
+    struct path path;
+    struct checkpoint c;
+    TRY(checkpoint_list(root, name, &frames, &n));
+    for (size_t i = 0; i < n; i++) {
+        TRY(folder_path(&path, root, name, FILE_CHECKPOINT, frames[i], NULL));
+        st = checkpoint_read_index(path.text, &c);
+        if (st == OK) {
+            *out = c.maker;
+            break;
+        }
+        if (st == E_MEMORY)
+            goto done;
+        st = OK;
+    }
+done:
+    free(frames);
+    return st;
+}
+
+status provenance_restore(const struct job *job, uint64_t job_hash, const char *root)
+{
+    status st = OK;
+    struct provenance p = {0};
+    uint64_t hash;
+    TRY(write_job(job, root));
+    if (folder_job_hash(root, &hash) == OK && hash == job_hash)
+        return OK;
+    log_warn("%s/run.json is lost, damaged or another job's; it is written anew", root);
+    TRY(read_run(root, &p));
+    if (p.known)
+        p.here = p.maker;
+    else
+        TRY(maker_of_newest(root, job->name, &p.here));
+    TRY(write_run(&p, NULL, job, job_hash, root));
+done:
+    provenance_free(&p);
     return st;
 }

@@ -42,8 +42,12 @@ MUST_USE status provenance_continue(struct provenance *p, const struct maker *ma
  * anew, from `first` on. */
 MUST_USE status provenance_restart(struct provenance *p, int first, const char *root);
 
-/* Writes root/job.yaml, the job with every default, and root/run.json. */
+/* Writes root/job.yaml, the job with every default, and root/run.json. `gpu` may be NULL: which one it was is not known. */
 MUST_USE status provenance_write(const struct provenance *p, const struct gpu *gpu, const struct job *job,
                                  uint64_t job_hash, const char *root);
+
+/* The same for a folder whose frames are done and which has lost or damaged one of the two: job.yaml is the job; run.json stays
+ * unless it is damaged or another job's, and then says what the newest checkpoint says of who made it. E_OUTPUT, E_MEMORY. */
+MUST_USE status provenance_restore(const struct job *job, uint64_t job_hash, const char *root);
 
 #endif

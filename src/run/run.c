@@ -32,6 +32,8 @@ struct run {
     struct path lock_path;
     bool lacks_checkpoint; /* the last frame's, or a later one */
     bool *done;            /* [last - first + 1], by frame number */
+    bool *compared;        /* the same: its files were read, and are as they were written */
+    bool papers;           /* run.json or job.yaml is lost or is not this job's: to be written anew */
     int first_missing;     /* last + 1: none */
     int last_missing;
     size_t n_done;
@@ -42,16 +44,20 @@ struct run {
 
 /* ---- what is there */
 
-static status frame_done(const struct run *r, int frame, bool *done)
+/* A frame is done when `verify` finds nothing wrong with it: its files' content is compared, once. */
+static status frame_done(const struct run *r, int frame, bool *done, bool *compared)
 {
     struct manifest manifest = {0};
     const char *bad = "";
     status st = manifest_read(r->options->root, r->job->name, frame, &manifest);
     if (st == OK)
-        st = manifest_check(r->options->root, &manifest, r->options->repair, &bad);
+        st = manifest_check(r->options->root, &manifest, !*compared, &bad);
     *done = st == OK && *bad == '\0' && manifest.job_hash == r->job_hash;
-    if (st == OK && !*done)
-        log_info("frame %d is there but %s; it will be made again", frame, *bad ? bad : "of another job");
+    *compared = *done;
+    if (st == OK && *bad)
+        log_info("frame %d will be made again: %s", frame, status_message());
+    else if (st == OK && !*done)
+        log_info("frame %d will be made again: it is of another job", frame);
     manifest_free(&manifest);
     return st == E_MEMORY ? st : OK; /* missing or damaged is no error here */
 }
@@ -89,11 +95,21 @@ static status survey(struct run *r)
     r->done = NULL;
     r->n_done = 0;
     TRY(memory_alloc(n, sizeof *r->done, "the frames", &r->done));
+    if (!r->compared)
+        TRY(memory_alloc(n, sizeof *r->compared, "the frames", &r->compared));
     TRY(folder_frames(r->options->root, r->job->name, &there, &n_there));
     r->any_there = n_there > 0;
-    for (size_t i = 0; i < n_there; i++)
-        if (range_holds(r->frames, there[i]))
-            TRY(frame_done(r, there[i], &r->done[there[i] - r->frames.first]));
+    for (size_t i = 0; i < n_there; i++) {
+        if (!range_holds(r->frames, there[i]))
+            continue;
+        if (r->options->stop && r->options->stop()) {
+            st = fail(STOPPED,
+                      "stopped while the frames there are were read; run the same command again to go on");
+            goto done;
+        }
+        const int at = there[i] - r->frames.first;
+        TRY(frame_done(r, there[i], &r->done[at], &r->compared[at]));
+    }
     r->first_missing = r->frames.last + 1;
     for (int f = r->frames.last; f >= r->frames.first; f--)
         if (range_holds(r->frames, f)) {
@@ -116,6 +132,13 @@ done:
     return st;
 }
 
+/* Does run.json say that the folder's frames are this job's? */
+static bool frames_are_ours(const struct run *r)
+{
+    uint64_t hash;
+    return folder_job_hash(r->options->root, &hash) == OK && hash == r->job_hash;
+}
+
 /* Is this folder's job this job? Its job.yaml is the job as it was run. */
 static status check_owner(struct run *r)
 {
@@ -124,7 +147,8 @@ static status check_owner(struct run *r)
     struct job *theirs = NULL;
     uint64_t hash;
     TRY(path_join(&path, r->options->root, "job.yaml"));
-    if (access(path.text, F_OK) != 0)
+    r->papers = access(path.text, F_OK) != 0;
+    if (r->papers)
         return OK;
     st = job_load(path.text, NULL, 0, &theirs);
     if (st == OK)
@@ -138,6 +162,9 @@ static status check_owner(struct run *r)
                   "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
                   "--resume never to start over",
                   path.text, status_message());
+    } else if (strcmp(theirs->name, r->job->name) == 0 && hash != r->job_hash && frames_are_ours(r)) {
+        log_warn("%s is not the job that made the frames; it is written anew", path.text);
+        r->papers = true;
     } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
         st = fail(
             E_CHECKPOINT,
@@ -382,12 +409,18 @@ done:
     return st;
 }
 
-/* Of a folder that is complete: as its files are, whatever the job now says of output. */
-static status write_stage(const struct run *r)
+/* All frames are done: what else the folder needs to be whole. The stage shows the files as they are, whatever the job now says of
+ * output. */
+static status complete(struct run *r)
 {
     status st = OK;
     struct path path;
     struct job *theirs = NULL;
+    if (r->papers || !frames_are_ours(r)) {
+        if (!r->lock)
+            TRY(own_folder(r));
+        TRY(provenance_restore(r->job, r->job_hash, r->options->root));
+    }
     TRY(path_join(&path, r->options->root, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &theirs));
     TRY(stage_write(theirs, r->job_hash, r->options->root, NULL));
@@ -425,7 +458,7 @@ status run_job(struct job *job, const struct run_options *options)
         options->begin(options->user, r.frames, r.n_done);
     if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {
         log_info("all %zu frames are done already", r.n_done);
-        st = write_stage(&r);
+        st = complete(&r);
         goto done;
     }
     TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
@@ -447,5 +480,6 @@ done:
     lock_release(&r.lock);
     provenance_free(&r.provenance);
     free(r.done);
+    free(r.compared);
     return st;
 }

@@ -35,7 +35,7 @@ struct run_options {
     const char *device;        /* gpu_options */
     struct frame_range frames; /* which of the job's to produce; step 0: all */
     enum run_resume resume;
-    bool repair; /* read every file, and make again what is missing or damaged */
+    bool repair; /* make damaged and missing checkpoints again, too, from the start if need be */
 
     /* What the caller shows. Any may be NULL. */
     void (*begin)(void *user, struct frame_range frames, size_t done);

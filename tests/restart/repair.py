@@ -1,7 +1,10 @@
-"""--repair: whatever is flipped, cut or removed, exactly that is made again, and the folder is what it was, byte for byte."""
+"""Whatever is flipped, cut or removed, exactly that is made again by `run`, checkpoints by `run --repair`, and the folder is what it was,
+byte for byte."""
 
+import json
 import os
 import random
+import shutil
 import sys
 
 sys.dont_write_bytecode = True
@@ -43,13 +46,13 @@ def verify():
     return subprocess.run([HOODOO, "verify", "out"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
 
 
-def repaired(name, damage, frames):
-    """`damage` is done; after --repair all is as it was, and files of other frames were not written again."""
+def repaired(name, damage, frames, *options):
+    """`damage` is done; after a run all is as it was, and files of other frames were not written again."""
     before = inodes()
     for what, path in damage:
         what(path)
     found = verify()
-    code, said = run("out", "--repair")
+    code, said = run("out", *options)
     after = inodes()
     # Papers of the whole sequence are written anew by every run, to the same bytes.
     again = {path for path in after if before.get(path) != after[path] and not path.startswith(("job", "run", "checkpoint/"))
@@ -67,12 +70,48 @@ repaired("a bit of a volume", [(flip, "volumes/twelve.1011.vdb")], [1011])
 repaired("bits of points, a picture and a manifest", [(flip, "points/twelve.1003.vdb"), (flip, "aov/twelve.1007.exr"), (flip, "frames/twelve.1009.json")],
          [1003, 1007, 1009])
 repaired("files cut and gone", [(cut, "aov/twelve.1012.exr"), (remove, "points/twelve.1001.vdb"), (remove, "frames/twelve.1005.json")], [1001, 1005, 1012])
-repaired("a bit of the last checkpoint", [(flip, "checkpoint/twelve.1012.ckpt")], [])
+repaired("a bit of the last checkpoint", [(flip, "checkpoint/twelve.1012.ckpt")], [], "--repair")
 repaired("a bit of each checkpoint, and a frame", [(flip, "checkpoint/twelve.1012.ckpt"), (flip, "checkpoint/twelve.1010.ckpt"), (flip, "aov/twelve.1006.exr")],
-         [1006])
+         [1006], "--repair")
 code, said = run("out", "--repair", "--frames", "1005-1006")
 ok(code == 0, "a range of frames alone", code, said)
 flip("volumes/twelve.1005.vdb")
 code, said = run("out", "--repair", "--frames", "1005-1006")
 ok(code == 0 and truth.differences("out") == "", "a block without a checkpoint before it is reached from the start", code, truth.differences("out"), said)
+
+
+def content(path):
+    with open(os.path.join("out", path)) as file:
+        text = file.read()
+    if path != "run.json":
+        return text
+    # No checkpoint says which of the devices it was.
+    return {key: value for key, value in json.loads(text).items() if key not in ("device_uuid", "device_pci")}
+
+
+def papers(name, path, damage):
+    """run.json or job.yaml is damaged; a run writes it anew, from which the folder is known again."""
+    before = content(path)
+    shutil.copy(os.path.join("out", path), "before")
+    damage(os.path.join("out", path))
+    found = verify()
+    code, said = run("out")
+    after, healed = content(path), verify()
+    shutil.copy("before", os.path.join("out", path))
+    ok(found == 3 and code == 0 and after == before and healed == 0 and truth.differences("out") == "", name, found, code, before, after,
+       healed, truth.differences("out"), said)
+
+
+def edit(path):
+    with open(path) as file:
+        text = file.read()
+    assert "\nseed: " in text
+    with open(path, "w") as file:
+        file.write(text.replace("\nseed: ", "\nseed: 1"))
+
+
+papers("job.yaml is lost", "job.yaml", os.remove)
+papers("job.yaml was edited", "job.yaml", edit)
+papers("run.json is lost", "run.json", os.remove)
+papers("run.json is cut", "run.json", lambda path: os.truncate(path, 10))
 finish()
