@@ -22,7 +22,7 @@ uint inside(ivec3 v)
     uvec2 in_voxel = voxel_particles(v);
     uint most = voxel_deep(v) ? 2u : 0u;
     for (uint j = in_voxel.x; j < in_voxel.y; j++)
-        if (LOAD_F(viability, j) > 0.0)
+        if (LOAD_F(viability, j) != 0.0) // what has yet to come to rest counts as if it had not gone yet
             most = max(most, LOAD_U(phase, j) == 1u ? 1u : 2u);
     return most;
 }

@@ -1,9 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Crumbs that cannot stay go on to the next cell where they may land: from the ground to one of the lower cells
-// beside it, as likely as it is lower, and on along the pointers. Those whose way ends where nothing may land
-// have left if it is the domain's edge, else they wait. The key is a crumb's cell, or the number of cells for
-// those that wait no longer.
+// Where each crumb would land now: on from where it broke off, from the ground to one of the lower cells beside it, as likely as
+// it is lower, to the first cell that takes crumbs; and if that is far, along the pointers. Where more come than it takes, the
+// others look again in the next round, over the ground as it has risen: so many that come at once lie as they would if they had
+// come one after another. Those whose way ends where nothing may land have left if it is the domain's edge, else they wait. The
+// key is the cell, or the number of cells for those that wait no longer. In the last round what has eroded waits for the next
+// landing; the rest, and all if there is to be none, lands where its way ends.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -11,11 +13,13 @@ READ_U(0, crumb_id)
 READ_U(1, tag)
 READ_U(2, receiver)
 READ_U(3, pointer)
-READ_U(4, room)
-READ_U(5, bits)
-WRITE_U(6, cell)
-WRITE_U(7, place)
-WRITE_U(8, key)
+READ_U(4, bits)
+READ_U(5, cell)
+WRITE_U(6, place)
+WRITE_U(7, key)
+READ_U(8, particle)
+READ_F(9, viability)
+READ_U(10, room)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
@@ -24,7 +28,7 @@ PARAMS(deposit_params)
 #include "deposit/column.glsl"
 #include "deposit/slope.glsl"
 
-const int NEAR = 64; // cells
+const uint NEAR = 64u; // cells
 
 // The cell of the ground that lies `drop` lower (in four columns) beside the cell with this top: over rock, or
 // where a fall ends.
@@ -63,20 +67,17 @@ uint next(uint c, uint hash)
     return to == 0xffffffffu ? LOAD_U(receiver, c) : to;
 }
 
-// The next cell with room on the way from c on. In the first round all may have far to go: the pointers know.
-// Later only those move whose cell has filled up, and a cell with room is near; what is not, they come to in the
-// round after.
-uint onwards(uint c)
+// Where the way of crumb i ends for now.
+uint way_end(uint i, uint c)
 {
-    if (k.round == 0u)
-        return LOAD_U(pointer, c);
-    for (int s = 0; s < NEAR && LOAD_U(room, c) == 0u; s++) {
-        uint to = LOAD_U(receiver, c);
-        if (to == c)
-            break;
+    uint id = LOAD_U(crumb_id, i);
+    for (uint s = 0u; s < NEAR; s++) {
+        uint to = next(c, random_hash(k.seed, id, k.round, s));
+        if (to == c || LOAD_U(room, to) > 0u || (LOAD_U(tag, to) & WATER_OUT) != 0u)
+            return to;
         c = to;
     }
-    return c;
+    return LOAD_U(pointer, c);
 }
 
 void main()
@@ -84,16 +85,19 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    uint to = k.cx * k.cy * k.cz;
+    uint none = k.cx * k.cy * k.cz, to = none;
     if (AT(place, i) == DEPOSIT_WAITS) {
-        uint c = AT(cell, i);
-        if (k.round == 0u || LOAD_U(room, c) == 0u)
-            c = onwards(next(c, random_hash(k.seed, LOAD_U(crumb_id, i), k.round, 0u)));
-        AT(cell, i) = c;
-        if ((LOAD_U(tag, c) & WATER_OUT) != 0u)
-            AT(place, i) = DEPOSIT_LEFT;
-        else
-            to = c;
+        to = LOAD_U(cell, i);
+        if (k.last == 1u && LOAD_F(viability, LOAD_U(particle, i)) <= 0.0) {
+            AT(place, i) = DEPOSIT_HELD;
+            to = none;
+        } else {
+            to = way_end(i, to);
+            if ((LOAD_U(tag, to) & WATER_OUT) != 0u) {
+                AT(place, i) = DEPOSIT_LEFT;
+                to = none;
+            }
+        }
     }
     AT(key, i) = to;
 }

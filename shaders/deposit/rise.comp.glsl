@@ -17,7 +17,7 @@ void main()
     uint p = LOAD_U(place, i);
     if (p == DEPOSIT_WAITS) {
         atomicAdd(AT(counts, COUNT_WAITING), 1u);
-    } else if (p != DEPOSIT_LEFT) {
+    } else if (p != DEPOSIT_LEFT && p != DEPOSIT_HELD) {
         uint v = p - 1u, column = v % (k.nx * k.ny), z = v / (k.nx * k.ny);
         atomicOr(AT(bits, (z >> 5) * k.nx * k.ny + column), 1u << (z & 31u));
     }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Crumbs waiting in a cell land in it, in the order of their ids, as many as there is room for: each on the
 // column that lies deepest below the mean of those around it, so that the ground gets no rougher than it is and
-// keeps its slope. In the last round all land that find a free voxel; for the others there is no place.
+// keeps its slope. In the last round all that have come land where they find a free voxel; for the others there is no place.
 //
 // One invocation a crumb; the first of each cell places them all.
 #include "shared/buffers.glsl"

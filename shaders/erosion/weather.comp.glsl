@@ -6,7 +6,8 @@
 // A bare face of a voxel stands for |n_i| h^2 of the surface, n being the surface's normal and i the face's
 // axis: over any plane these add up to its area, so that a front loses its rate times its area whatever its
 // direction and however rough the voxels make it. What was left of the step when a particle was gone goes to
-// `unspent`, for its neighbours (erosion/carry).
+// `unspent`, for its neighbours (erosion/carry). Its own viability becomes what that would have taken of it, negative: so much
+// is gone of it already where it comes to rest (deposit/apply).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -50,10 +51,11 @@ void main()
     float step = LOAD_F(intensity, i) * k.dt / k.h;
     float before = AT(viability, self), after = before - rate * step * bare_area(voxel_of(x), n);
     if (after <= 0.0) {
-        AT(unspent, self) = step * (-after / (before - after));
+        float left = max(step * (-after / (before - after)), 1e-30); // its neighbours are to know that it went
+        AT(unspent, self) = left;
         AT(shares, self) = LOAD_U(parts, i);
         atomicAdd(AT(counts, COUNT_ERODED), 1u);
-        after = 0.0;
+        after = -rate * left;
     }
     AT(viability, self) = after;
     AT(spent, i) = quanta(before) - quanta(after);

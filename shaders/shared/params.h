@@ -142,8 +142,9 @@ struct stress_params {
     float dx;         /* m */
     float weight;     /* N: of a full cell */
     uint walls;
+    float loose;      /* deposits' stiffness, as a share of the rock's */
 };
-SHARED_SIZE(stress_params, 36)
+SHARED_SIZE(stress_params, 40)
 
 /* Of the multigrid smoother: the stress parameters of a level, and the weights of its step. */
 struct smooth_params {
@@ -201,12 +202,23 @@ struct erosion_params {
 };
 SHARED_SIZE(erosion_params, 28)
 
-/* Words the erosion counts into; COUNT_FASTEST is a float. */
+/* A round in which what is left of a step goes on by a voxel: 0, 1, ... */
+struct carry_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;
+    uint walls;
+    uint round;
+};
+SHARED_SIZE(carry_params, 28)
+
+/* Words the erosion counts into; the fastest are floats. */
 #define COUNT_ERODED 0u
 #define COUNT_FALLEN 1u
 #define COUNT_CHANGED 2u
-#define COUNT_FASTEST 3u
-#define COUNT_BORN 4u
+#define COUNT_FASTEST_ROCK 3u
+#define COUNT_FASTEST_LOOSE 4u
+#define COUNT_BORN 5u
 
 /* The budget of a frame: a row for each process (enum process in job/job.h), a sum of two words for each of the
  * lanes. */
@@ -334,7 +346,8 @@ SHARED_SIZE(water_surface_params, 68)
 
 #define DEPOSIT_ROOM 4u          /* how many land in a cell in a round, at most */
 #define DEPOSIT_WAITS 0u         /* a crumb's place: nowhere yet, */
-#define DEPOSIT_LEFT 0xffffffffu /* out of the domain, or the voxel it lies in, plus one */
+#define DEPOSIT_LEFT 0xffffffffu /* out of the domain, */
+#define DEPOSIT_HELD 0xfffffffeu /* where it broke off until the next landing, or the voxel it lies in, plus one */
 
 struct deposit_params {
     uint n;
@@ -346,11 +359,12 @@ struct deposit_params {
     float repose;    /* tangent of the angle */
     uint seed;       /* hash of the job's seed, the frame and the step in it */
     uint round;
-    uint last;     /* 1: the round after which nothing waits */
+    uint last;     /* 1: the last round of a landing, 2: after which nothing waits for another either */
     float quicker; /* how many times faster than rock it was deposits erode */
     uint walls;
+    float through; /* the share of a cover that comes through one voxel of deposits */
 };
-SHARED_SIZE(deposit_params, 72)
+SHARED_SIZE(deposit_params, 76)
 
 /* Words the deposition counts into. */
 #define COUNT_LANDED 0u
@@ -368,10 +382,12 @@ struct plants_params {
     float growth, death; /* in this step: e^(rate dt), e^(-rate dt) */
     float binding, shelter;
     uint seed;
-    uint spread; /* which voxel's step of this frame */
+    uint spread;  /* which voxel's step of this frame */
+    float seeds;  /* m: how far they go, on average */
+    float chance; /* that seeds from full cover take root on a particle in this frame */
     uint walls;
 };
-SHARED_SIZE(plants_params, 52)
+SHARED_SIZE(plants_params, 60)
 
 /* ---- mpm: material points on cells of 2 h. Nodes and base cells are numbered alike, on a lattice three longer
  * than the domain's cells on every axis; a particle's base cell is that of the first of its 27 nodes. Node (1, 1, 1) is the origin, or for rock in motion 3/4 of a cell below: what lies on

@@ -35,7 +35,7 @@ void main()
         for (uint y = low.y; y < high.y; y++) {
             uvec2 row = row_particles(int(low.x), int(high.x) - 1, int(y), int(z));
             for (uint j = row.x; j < row.y; j++) {
-                sum += LOAD_F(viability, j);
+                sum += max(LOAD_F(viability, j), 0.0);
                 rock = true;
             }
         }

@@ -105,6 +105,7 @@ static struct deposit_params params(const struct job *job, int frame, int step,
         .seed = random_hash((uint32_t)job->seed, (uint32_t)frame, (uint32_t)step, RANDOM_DEPOSIT),
         .quicker = (float)(viability > 0 ? 1 / viability : 1),
         .walls = p->walls,
+        .through = (float)exp(-p->h / job->vegetation.burial_m),
     };
 }
 
@@ -128,8 +129,8 @@ done:
 
 /* A round: how much room there is, where the ways lead to, and who lands. */
 static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
-                      const struct deposit_routing *routing, struct deposit_params k, size_t n_crumbs,
-                      uint32_t *n_waiting)
+                      const struct deposit_routing *routing, struct deposit_params k, struct particles *p,
+                      size_t n_crumbs, uint32_t *n_waiting)
 {
     status st = OK;
     struct count_params cells = {(uint)d->n_cells};
@@ -150,8 +151,11 @@ static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
         TRY(gpu_double_pointers(gpu, work, d->pointer, d->other, d->n_cells));
     }
     k.n = (uint)n_crumbs;
-    GPU_RUN(gpu, deposit_move, k.n, k, d->id, routing->tag, routing->receiver, d->pointer, d->room, d->bits,
-            d->cell, d->place, d->key);
+    if (k.last)
+        GPU_RUN(gpu, deposit_stay, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_viability], d->place,
+                d->bits);
+    GPU_RUN(gpu, deposit_move, k.n, k, d->id, routing->tag, routing->receiver, d->pointer, d->bits, d->cell,
+            d->place, d->key, p->surface, p->field[ROCK_viability], d->room);
     gpu_sort(gpu, work, &sort);
     GPU_RUN(gpu, deposit_settle, k.n, k, d->order, d->start, d->key, d->id, routing->tag, d->room, d->bits,
             d->place);
@@ -164,7 +168,7 @@ done:
 
 status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, const struct job *job,
                     int frame, int step, const struct deposit_routing *routing, struct particles *p,
-                    struct deposit_counts *out)
+                    bool last, struct deposit_counts *out)
 {
     status st = OK;
     struct deposit_params k = params(job, frame, step, routing, p);
@@ -189,18 +193,19 @@ status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, c
     GPU_RUN(gpu, deposit_begin, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_id], routing->tag,
             p->start, p->flags, d->id, d->cell, d->place, d->bits, p->held.words);
     for (k.round = 0; k.round < ROUNDS && waiting > 0; k.round++) {
-        k.last = k.round + 1 == ROUNDS;
-        TRY(advance(gpu, work, d, routing, k, n_crumbs, &waiting));
+        k.last = k.round + 1 < ROUNDS ? 0 : last ? 2 : 1;
+        TRY(advance(gpu, work, d, routing, k, p, n_crumbs, &waiting));
     }
     out->rounds = k.round;
     gpu_fill(gpu, counts, 0);
     k.n = (uint)n_crumbs;
     GPU_RUN(gpu, deposit_apply, k.n, k, p->surface, d->id, d->place, p->field[ROCK_P],
             p->field[ROCK_viability], p->field[ROCK_phase], p->field[ROCK_rate_factor],
-            p->field[ROCK_vegetation], counts);
+            p->field[ROCK_vegetation], p->field[ROCK_stress], p->start, p->held.words, p->flags, counts);
     TRY(gpu_download(gpu, counts, 0, gone, COUNT_WAITING + 1));
     out->landed = gone[COUNT_LANDED];
     out->left = gone[COUNT_GONE];
+    out->waiting = gone[COUNT_WAITING];
 done:
     return st;
 }

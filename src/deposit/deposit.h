@@ -1,20 +1,23 @@
 /* Where eroded rock comes to rest (Arenite section 7).
  *
  * Crumbs     are particles of which erosion left nothing; deposits with nothing below them; and deposits on ground
- *            that has become too steep: those slide on, one of a routing cell in a step.
- * Way        From the ground to one of the lower cells beside it, by a hash of the crumb's id and as likely as
- *            it is lower now, then along the routing's receivers to the next cell where there is room (pointer
- *            doubling). Out of the domain: the crumb has left.
+ *            that has become too steep: those slide on, one of a routing cell in a landing. The model lands them again, on a new
+ *            routing, until none slides.
+ * Way        From where it broke off from cell to cell, to one of the lower cells beside it, by a hash of the crumb's id and as
+ *            likely as it is lower now, to the first where there is room; if that is far, along the routing's receivers
+ *            (pointer doubling). Out of the domain: the crumb has left.
  * Room       A cell takes crumbs while its ground is not steeper than deposition.repose_deg, by the gradient of
  *            the heights of the columns around it, and no spike (deposit/slope.glsl). So cones come out round
  *            and at that angle.
- * Rounds     Crumbs that find no room in one round go on in the next, over the ground as it has risen. After
- *            the last round what still waits lands where it waits if there is a free voxel, and slides on in
- *            later steps, or else leaves.
+ * Rounds     Where more crumbs come to a cell than it takes, the others set out again in the next round, over the ground as it
+ *            has risen: a heap does not depend on how many come at once, and so not on the step. After the last round what slid
+ *            stays where it was, and the rest waits for the next landing.
  * Landing    In a free voxel on top of a column, one particle a voxel, jittered in it. A deposit has phase 1,
- *            keeps its id and layer, and is whole (viability 1), for viability is how much of a voxel it fills.
+ *            keeps its id and layer, and is whole (viability 1) but for what the rest of the step takes of it, as its negative
+ *            viability says (erosion.h): viability is how much of a voxel it fills.
  *            deposition.viability, the paper's lower initial b, says how long it lasts: its rate_factor is
- *            divided by that when it first lands. Deposits never interlock (erosion/interlock).
+ *            divided by that when it first lands. Deposits never interlock (erosion/interlock). Of plants that it buries,
+ *            a share comes through, by its thickness.
  * Same bits  Crumbs of a cell are ordered by id; all else is gathers and integer sums.
  */
 #ifndef HOODOO_DEPOSIT_H
@@ -47,7 +50,7 @@ struct deposit {
 
 /* What happened to the crumbs of a step: those of rock and of deposits that eroded or slid together. */
 struct deposit_counts {
-    uint32_t crumbs, slid, landed, left, rounds;
+    uint32_t crumbs, slid, landed, left, waiting, rounds;
 };
 
 /* Does the job ever deposit anything? If not, deposit_create() need not be called. */
@@ -58,11 +61,12 @@ MUST_USE status deposit_create(struct gpu *gpu, const int voxels[3], struct depo
 void deposit_destroy(struct gpu *gpu, struct deposit *d);
 
 /* After erosion took viability and before the particles are indexed: moves crumbs to where they come to rest.
- * What leaves keeps a viability of 0. `p` is as it was indexed before the step, and the routing is of the same
- * shape; particles_index() must follow if there were any crumbs. `step`: of the frame. Waits. E_MEMORY. */
+ * What leaves keeps a viability of 0, what waits a negative one. `p` is as it was indexed before the step, and the routing is
+ * of the same shape; if there were any crumbs, particles_index() must follow, or particles_index_waiting() while any wait.
+ * `last`: none is to wait, and all come to rest where they can or leave. `step`: of the frame. Waits. E_MEMORY. */
 MUST_USE status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, const struct job *job,
                              int frame, int step, const struct deposit_routing *routing, struct particles *p,
-                             struct deposit_counts *out);
+                             bool last, struct deposit_counts *out);
 
 /* How many of the particles are deposits. Waits. */
 MUST_USE status deposit_count(struct gpu *gpu, struct gpu_work *work, const struct particles *p,

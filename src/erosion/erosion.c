@@ -30,8 +30,8 @@ void erosion_destroy(struct gpu *gpu, struct erosion *e)
     gpu_buffer_destroy(gpu, &e->parts);
 }
 
-/* By the plane face of unstressed rock of the weakest layer, across the wind. Edges, tension, noise and paint
- * make single spots faster; there max_step is exceeded, and the carry makes up for it. */
+/* By the plane face of unstressed rock of the weakest layer, across the wind. Where edges, tension, noise, paint and deposits
+ * make single spots faster, the model cuts a step into parts. */
 int erosion_steps(const struct job *job, int frame, double intensity)
 {
     double weakest = 0;
@@ -74,22 +74,73 @@ done:
 }
 
 status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
-                    double *m_per_kyr)
+                    struct erosion_pace *out)
 {
     status st = OK;
-    float fastest = 0;
+    float fastest[2] = {0};
     struct count_params k = {(uint)p->n_surface};
     struct gpu_buffer *words = gpu_work_words(work);
-    GPU_RUN(gpu, erosion_pace, k.n, k, p->surface, e->intensity, p->field[ROCK_erodibility], p->flags);
-    gpu_max(gpu, work, p->flags, p->n_surface, words, COUNT_FASTEST);
-    TRY(gpu_download(gpu, words, COUNT_FASTEST, &fastest, 1));
-    *m_per_kyr = (double)fastest;
+    GPU_RUN(gpu, erosion_pace, k.n, k, p->surface, e->intensity, p->field[ROCK_erodibility],
+            p->field[ROCK_phase], p->flags, p->place);
+    gpu_max(gpu, work, p->flags, p->n_surface, words, COUNT_FASTEST_ROCK);
+    gpu_max(gpu, work, p->place, p->n_surface, words, COUNT_FASTEST_LOOSE);
+    TRY(gpu_download(gpu, words, COUNT_FASTEST_ROCK, fastest, 2));
+    *out = (struct erosion_pace){(double)fastest[0], (double)fastest[1]};
+done:
+    return st;
+}
+
+/* What a round would have taken of rock that lies too deep for it, m3. `scratch`: float, by particle. */
+static status add_beyond(struct gpu *gpu, struct gpu_work *work, const struct particles *p,
+                         struct gpu_buffer *unspent, struct gpu_buffer *scratch, double *beyond)
+{
+    status st = OK;
+    const struct voxel_params k = particles_params(p, p->n);
+    struct gpu_buffer *words = gpu_work_words(work);
+    float sum;
+    GPU_RUN(gpu, erosion_beyond, k.n, k, p->field[ROCK_P], unspent, p->field[ROCK_viability],
+            p->field[ROCK_phase], p->start, p->held.words, p->field[ROCK_erodibility], scratch);
+    gpu_sum(gpu, work, scratch, p->n, words, COUNT_FASTEST_ROCK);
+    TRY(gpu_download(gpu, words, COUNT_FASTEST_ROCK, &sum, 1));
+    *beyond += (double)sum * pow(p->h, 3);
+done:
+    return st;
+}
+
+/* What is left of the step where particles are gone, on through those below, round after round. Some are gone. Farther in than
+ * NEAR_REACH rock need not have particles, and none of it is taken. */
+static status carry(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
+                    struct budget *budget, uint32_t *n_eroded, double *beyond)
+{
+    status st = OK;
+    struct carry_params k = {.n = (uint)p->n,
+                             .nx = (uint)p->voxels[0],
+                             .ny = (uint)p->voxels[1],
+                             .nz = (uint)p->voxels[2],
+                             .h = (float)p->h,
+                             .walls = p->walls};
+    struct gpu_buffer *counts = gpu_work_words(work), *shares = p->place, *spent = p->taken,
+                      *unspent = p->flags, *next = e->intensity;
+    for (uint32_t before = 0; *n_eroded > before; k.round++) {
+        before = *n_eroded;
+        if (k.round >= NEAR_REACH)
+            TRY(add_beyond(gpu, work, p, unspent, next, beyond));
+        gpu_fill(gpu, next, 0);
+        GPU_RUN(gpu, erosion_carry, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->start,
+                p->field[ROCK_erodibility], unspent, p->field[ROCK_viability], shares, spent, e->parts,
+                p->held.words, next, counts, p->field[ROCK_vegetation], p->field[ROCK_phase]);
+        budget_split(gpu, budget, spent, e->parts, p->n);
+        TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
+        struct gpu_buffer *swap = unspent;
+        unspent = next;
+        next = swap;
+    }
 done:
     return st;
 }
 
 status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,
-                       struct particles *p, struct budget *budget, uint32_t *n_eroded)
+                       struct particles *p, struct budget *budget, uint32_t *n_eroded, double *beyond)
 {
     status st = OK;
     struct erosion_params k = {
@@ -101,7 +152,6 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
         .dt = (float)kyr,
         .walls = p->walls,
     };
-    struct voxel_params carry = particles_params(p, p->n);
     struct gpu_buffer *counts = gpu_work_words(work);
     /* What is left of the step where a particle is gone, by what it went, and the quanta each process took. */
     struct gpu_buffer *unspent = p->flags, *shares = p->place, *spent = p->taken;
@@ -111,11 +161,9 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
             e->intensity, p->field[ROCK_erodibility], p->held.words, p->field[ROCK_viability], unspent,
             counts, e->parts, spent, shares);
     budget_split(gpu, budget, spent, e->parts, p->n_surface);
-    GPU_RUN(gpu, erosion_carry, p->n, carry, p->field[ROCK_P], p->field[ROCK_N], p->start,
-            p->field[ROCK_erodibility], unspent, p->field[ROCK_viability], shares, spent, e->parts,
-            p->held.words);
-    budget_split(gpu, budget, spent, e->parts, p->n);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
+    if (*n_eroded > 0)
+        TRY(carry(gpu, work, e, p, budget, n_eroded, beyond));
 done:
     return st;
 }

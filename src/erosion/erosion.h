@@ -24,21 +24,28 @@ MUST_USE status erosion_create(struct gpu *gpu, const struct job *job, size_t n_
 void erosion_destroy(struct gpu *gpu, struct erosion *e);
 
 /* Steps a frame is cut into, so that none takes more than erosion.max_step of a particle of the weakest layer
- * under this intensity. Depends on the job and the frame only. */
+ * under this intensity. Depends on the job and the frame only. In each of them stress is solved at least once. */
 int erosion_steps(const struct job *job, int frame, double intensity);
 
 /* Particles' `erodibility` from their stress, with the strata as they are in this frame. Waits. */
 MUST_USE status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame,
                                   struct particles *p);
 
-/* The retreat of the fastest spot of the surface under e->intensity, m/kyr. Waits. */
-MUST_USE status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
-                             double *m_per_kyr);
+/* The retreat of the fastest spots of the surface, m/kyr: of rock, and of deposits. */
+struct erosion_pace {
+    double rock, loose;
+};
 
-/* One step: the surface's viability falls by e->intensity times erodibility; those with none left are
- * counted, not yet removed; *budget has what each process took. Needs surface and erodibility of the current
- * shape. Waits. */
+/* The pace under e->intensity. Waits. */
+MUST_USE status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
+                             struct erosion_pace *out);
+
+/* One step: the surface's viability falls by e->intensity times erodibility, and so does that of what is bared meanwhile, for
+ * the rest of the step, rock down to NEAR_REACH layers below: what it would have taken of rock farther in is added to *beyond,
+ * m3. Those with none left are counted, not yet removed; their viability is 0, less what the step would still have taken of them. *budget has
+ * what each process took. Needs surface and erodibility of the current shape; the intensity is lost. Waits. */
 MUST_USE status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,
-                                struct particles *p, struct budget *budget, uint32_t *n_eroded);
+                                struct particles *p, struct budget *budget, uint32_t *n_eroded,
+                                double *beyond);
 
 #endif

@@ -26,9 +26,16 @@
 #include "model/inside.h"
 #include "plants/plants.h"
 
-/* Spacings that a step may take where water is fast, before it is cut shorter: those the carry can still take
- * off whole. */
-static const double WATER_STEP = 1.5;
+/* Spacings that the fastest rock and the fastest deposits may lose in a step before it is cut into parts. A deposit that goes
+ * comes to rest elsewhere once in each, so that no part may be longer than a deposit's life. */
+static const double ROCK_STEP = 1.5, LOOSE_STEP = 0.7;
+
+/* Spacings that rock may lose before its stress is solved anew, where a step is cut into parts. Deposits may go on. */
+static const double STRESS_STEP = 0.5;
+
+/* Landings in a step at most, for what finds no room at once, or slides and slides again; of so many deposits one may still slide
+ * after it. */
+enum { LANDINGS = 200, FEW_OF = 400 };
 
 /* ---- a frame */
 
@@ -58,24 +65,92 @@ static void weigh(struct arenite *a, enum process process, bool after)
     model_weigh(&a->m, process, after, a->particles.field[ROCK_viability], a->particles.n);
 }
 
+static status find_surface(struct arenite *a)
+{
+    status st = OK;
+    gpu_stage(a->m.gpu, "surface");
+    TRY(arenite_bear(a, DUE_NEAR, 0));
+    TRY(particles_surface(a->m.gpu, a->m.work, &a->particles));
+done:
+    return st;
+}
+
+/* Where water, and what breaks off, runs over the shape as it is. `step`: of the frame, for random numbers. */
+static status route(struct arenite *a, int step)
+{
+    status st = OK;
+    const struct job *job = a->m.job;
+    const bool deposits = depositing(a), flows = water_flows(job, a->m.frame);
+    const struct water_routing how = {.seed = (uint32_t)job->seed,
+                                      .frame = a->m.frame,
+                                      .step = step,
+                                      .leak = job->rain.leak,
+                                      .cells = deposits};
+    gpu_stage(a->m.gpu, "water");
+    if (deposits || flows)
+        TRY(water_route(a->m.gpu, a->m.work, &a->water, &how, &a->particles));
+    if (flows)
+        TRY(water_discharge(a->m.gpu, a->m.work, &a->water, job, a->m.frame, &a->particles));
+    if (flows && deposits)
+        water_sweep(a->m.gpu, &a->water, job, &a->particles);
+done:
+    return st;
+}
+
+/* Crumbs come to rest, or leave; or they wait, unless this is the last landing. */
+static status land(struct arenite *a, int step, bool last, struct deposit_counts *moved)
+{
+    status st = OK;
+    struct deposit_routing routing = {.tag = a->water.tag, .receiver = a->water.receiver};
+    memcpy(routing.cells, a->water.cells, sizeof routing.cells);
+    memcpy(routing.shift, a->water.shift, sizeof routing.shift);
+    gpu_stage(a->m.gpu, "deposition");
+    weigh(a, PROCESS_DEPOSITION, false);
+    TRY(deposit_land(a->m.gpu, a->m.work, &a->deposit, a->m.job, a->m.frame, step, &routing, &a->particles,
+                     last, moved));
+    weigh(a, PROCESS_DEPOSITION, true);
+    a->m.ledger.left += moved->left;
+    gpu_stage(a->m.gpu, "particles");
+    if (moved->waiting)
+        TRY(particles_index_waiting(a->m.gpu, a->m.work, &a->particles));
+    else if (moved->crumbs)
+        TRY(particles_index(a->m.gpu, a->m.work, &a->particles));
+done:
+    return st;
+}
+
+/* The same, and what waits or slides goes on until it is at rest, however long the step; a few that keep each other moving slide
+ * on in later steps. */
+static status land_all(struct arenite *a, int step, bool *changed)
+{
+    status st = OK;
+    struct deposit_counts moved;
+    bool last = false;
+    const uint64_t few = a->m.ledger.deposit / FEW_OF;
+    TRY(land(a, step, last, &moved));
+    *changed = moved.crumbs > 0;
+    for (int n = 1; !last && (moved.slid > few || moved.waiting > 0); n++) {
+        last = n == LANDINGS || moved.landed + moved.left == 0 || moved.slid + moved.waiting <= few;
+        if (water_flows(a->m.job, a->m.frame))
+            TRY(find_surface(a));
+        TRY(route(a, step | n << 16));
+        TRY(land(a, step | n << 16, last, &moved));
+    }
+    if (*changed)
+        TRY(arenite_count(a));
+done:
+    return st;
+}
+
 /* Eroded particles, in a step of the frame, leave, or come to rest elsewhere. Did anything move? */
 static status remove_eroded(struct arenite *a, int step, uint32_t n_eroded, bool *changed)
 {
     status st = OK;
-    struct deposit_counts moved = {.crumbs = n_eroded, .left = n_eroded};
-    if (depositing(a) && (n_eroded > 0 || a->m.ledger.deposit > 0)) {
-        struct deposit_routing routing = {.tag = a->water.tag, .receiver = a->water.receiver};
-        memcpy(routing.cells, a->water.cells, sizeof routing.cells);
-        memcpy(routing.shift, a->water.shift, sizeof routing.shift);
-        gpu_stage(a->m.gpu, "deposition");
-        weigh(a, PROCESS_DEPOSITION, false);
-        TRY(deposit_land(a->m.gpu, a->m.work, &a->deposit, a->m.job, a->m.frame, step, &routing,
-                         &a->particles, &moved));
-        weigh(a, PROCESS_DEPOSITION, true);
-    }
-    a->m.ledger.left += moved.left;
-    *changed = moved.crumbs > 0;
+    if (depositing(a) && (n_eroded > 0 || a->m.ledger.deposit > 0))
+        return land_all(a, step, changed);
     gpu_stage(a->m.gpu, "particles");
+    a->m.ledger.left += n_eroded;
+    *changed = n_eroded > 0;
     if (*changed) {
         TRY(particles_index(a->m.gpu, a->m.work, &a->particles));
         TRY(arenite_count(a));
@@ -167,13 +242,23 @@ done:
     return st;
 }
 
+/* Erodibility, from stress, and less what roots hold. */
+static status find_rates(struct arenite *a)
+{
+    status st = OK;
+    gpu_stage(a->m.gpu, "erodibility");
+    TRY(erosion_interlock(a->m.gpu, &a->erosion, a->m.job, a->m.frame, &a->particles));
+    if (a->plants)
+        plants_bind(a->m.gpu, a->m.job, &a->particles);
+done:
+    return st;
+}
+
 /* What follows from the shape: surface, normals, stress, erodibility. Rock in motion has its stress. */
 status arenite_settle(struct arenite *a, bool solved)
 {
     status st = OK;
-    gpu_stage(a->m.gpu, "surface");
-    TRY(arenite_bear(a, DUE_NEAR, 0));
-    TRY(particles_surface(a->m.gpu, a->m.work, &a->particles));
+    TRY(find_surface(a));
     gpu_stage(a->m.gpu, "stress");
     if (!arenite_rests(a->m.job))
         TRY(elastic_forget(a->m.gpu, &a->elastic));
@@ -183,47 +268,43 @@ status arenite_settle(struct arenite *a, bool solved)
         log_warn("frame %d: stress stopped after %d iterations with an error of %.2g (stress.max_iterations, "
                  "stress.tolerance %.2g)",
                  a->m.frame, a->elastic.iterations, a->elastic.error, a->elastic.options.tolerance);
-    gpu_stage(a->m.gpu, "erodibility");
-    TRY(erosion_interlock(a->m.gpu, &a->erosion, a->m.job, a->m.frame, &a->particles));
-    if (a->plants)
-        plants_bind(a->m.gpu, a->m.job, &a->particles);
+    TRY(find_rates(a));
 done:
     return st;
 }
 
+/* The longest step in which neither rock nor deposits lose more than they may, kyr. */
+static double longest(const struct arenite *a, const struct erosion_pace *pace)
+{
+    return a->m.h * fmin(ROCK_STEP / fmax(pace->rock, 1e-30), LOOSE_STEP / fmax(pace->loose, 1e-30));
+}
+
+/* One of the equal parts of so many kyr that are no longer than `most`; but of no more of them than `least` goes into it. */
+static double part_of(double kyr, double least, double most)
+{
+    return kyr > most ? kyr / ceil(kyr / fmax(least, most) - 1e-6) : kyr;
+}
+
 /* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
  * water is fast; cut into parts of `least` it would not be into fewer. */
-static status run_water(struct arenite *a, int step, double least, double *kyr)
+static status run_water(struct arenite *a, int step, double least, struct erosion_pace *pace, double *kyr)
 {
     status st = OK;
     const struct job *job = a->m.job;
-    bool deposits = depositing(a), flows = water_flows(job, a->m.frame);
-    struct water_routing how = {.seed = (uint32_t)job->seed,
-                                .frame = a->m.frame,
-                                .step = step,
-                                .leak = job->rain.leak,
-                                .cells = deposits};
-    double fastest;
-    gpu_stage(a->m.gpu, "water");
-    if (deposits || flows)
-        TRY(water_route(a->m.gpu, a->m.work, &a->water, &how, &a->particles));
-    if (!flows)
+    TRY(route(a, step));
+    if (!water_flows(job, a->m.frame))
         goto done;
-    TRY(water_discharge(a->m.gpu, a->m.work, &a->water, job, a->m.frame, &a->particles));
-    if (deposits)
-        water_sweep(a->m.gpu, &a->water, job, &a->particles);
     water_erode(a->m.gpu, &a->water, job, a->m.frame, least, &a->particles, a->erosion.intensity,
                 a->erosion.parts);
-    TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, &fastest));
-    if (fastest * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m && !a->told) {
+    TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, pace));
+    if (fmax(pace->rock, pace->loose) * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m &&
+        !a->told) {
         log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
                  "rain.steps (%d), or lower rain.erosion",
                  a->m.frame, (double)WATER_DEPTH, (int)job->rain.steps);
         a->told = true;
     }
-    /* Equal parts: at most as many as `least` goes into *kyr, now and after each. */
-    if (fastest * *kyr > WATER_STEP * job->domain.spacing_m)
-        *kyr /= ceil(*kyr / fmax(least, WATER_STEP * job->domain.spacing_m / fastest) - 1e-6);
+    *kyr = part_of(*kyr, least, longest(a, pace));
 done:
     return st;
 }
@@ -270,26 +351,55 @@ done:
     return st;
 }
 
-/* One step of up to *kyr. */
-static status erode(struct arenite *a, int step, double least, double *kyr)
+/* What is to come of a step, kyr; and how far rock has gone since its stress was solved, spacings. */
+struct step {
+    double whole, left, moved;
+};
+
+/* Wind and water on the surface, and the part of a step in which nothing goes too far under them, kyr. */
+static status press(struct arenite *a, int number, const struct step *s, struct erosion_pace *pace,
+                    double *kyr)
 {
     status st = OK;
+    const struct job *job = a->m.job;
+    gpu_stage(a->m.gpu, "wind");
+    TRY(wind_update(a->m.gpu, &a->wind, job, a->m.frame, &a->particles));
+    wind_erode(a->m.gpu, &a->wind, job, a->m.frame, &a->particles, a->erosion.intensity, a->erosion.parts);
+    TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, pace));
+    *kyr = part_of(s->left, s->whole / (double)job->erosion.parts, longest(a, pace));
+    TRY(run_water(a, number, fmin(s->whole / (double)job->rain.steps, *kyr), pace, kyr));
+    if (a->plants)
+        plants_shield(a->m.gpu, job, &a->particles, a->erosion.intensity);
+done:
+    return st;
+}
+
+/* A part of a step. Stress is solved anew at the step's end, and where rock has gone far or has fallen. */
+static status erode(struct arenite *a, int number, struct step *s)
+{
+    status st = OK;
+    struct erosion_pace pace;
+    double kyr;
     uint32_t n_eroded;
     bool changed;
-    gpu_stage(a->m.gpu, "wind");
-    TRY(wind_update(a->m.gpu, &a->wind, a->m.job, a->m.frame, &a->particles));
-    wind_erode(a->m.gpu, &a->wind, a->m.job, a->m.frame, &a->particles, a->erosion.intensity,
-               a->erosion.parts);
-    TRY(run_water(a, step, least, kyr));
-    if (a->plants)
-        plants_shield(a->m.gpu, a->m.job, &a->particles, a->erosion.intensity);
+    const uint64_t fallen = a->m.ledger.fallen;
+    TRY(press(a, number, s, &pace, &kyr));
     gpu_stage(a->m.gpu, "viability");
-    TRY(erosion_weather(a->m.gpu, a->m.work, &a->erosion, *kyr, &a->particles, &a->m.budget, &n_eroded));
+    TRY(erosion_weather(a->m.gpu, a->m.work, &a->erosion, kyr, &a->particles, &a->m.budget, &n_eroded,
+                        &a->beyond));
     TRY(crumble(a, &n_eroded));
-    TRY(remove_eroded(a, step, n_eroded, &changed));
+    TRY(remove_eroded(a, number, n_eroded, &changed));
     if (changed)
         TRY(arenite_unsupported(a));
-    TRY(arenite_settle(a, false));
+    s->left -= kyr;
+    s->moved += pace.rock * kyr / a->m.h;
+    if (s->left <= 0 || s->moved > STRESS_STEP || a->m.ledger.fallen != fallen) {
+        TRY(arenite_settle(a, false));
+        s->moved = 0;
+    } else {
+        TRY(find_surface(a));
+        TRY(find_rates(a));
+    }
 done:
     return st;
 }
@@ -300,17 +410,22 @@ static status weather(struct arenite *a)
     status st = OK;
     const struct job *job = a->m.job;
     const int steps = erosion_steps(job, a->m.frame, wind_intensity(job, a->m.frame));
-    const double whole = job->clock.years_per_frame / 1000 / steps, least = whole / (double)job->rain.steps;
+    const double whole = job->clock.years_per_frame / 1000 / steps;
     int number = 0;
     if (a->plants) {
         gpu_stage(a->m.gpu, "plants");
         plants_grow(a->m.gpu, job, a->m.frame, &a->particles);
     }
     for (int i = 0; i < steps; i++)
-        for (double left = whole, kyr; left > 0 && a->particles.n > 0; left -= kyr) {
-            kyr = left;
-            TRY(erode(a, number++, fmin(least, left), &kyr));
-        }
+        for (struct step s = {whole, whole, 0}; s.left > 0 && a->particles.n > 0;)
+            TRY(erode(a, number++, &s));
+    if (a->beyond >= pow(a->m.h, 3)) {
+        log_warn("frame %d: %.3g m3 more would have gone of rock that a part of a step may not reach, more "
+                 "than %u spacings "
+                 "inside: lower erosion.max_step (%g), or raise erosion.parts (%d)",
+                 a->m.frame, a->beyond, (unsigned)NEAR_REACH, job->erosion.max_step, (int)job->erosion.parts);
+        a->beyond = 0;
+    }
 done:
     return st;
 }

@@ -45,6 +45,25 @@ done:
     return st;
 }
 
+/* What the rock's particles would have had since stress was solved last: between solves it goes with them. */
+static status know_stress(struct arenite *a, struct rock *rock)
+{
+    status st = OK;
+    struct stress_places places = {0};
+    if (a->elastic.lattice.n_active == 0)
+        return OK;
+    TRY(memory_alloc(rock->n, sizeof *rock->stress, "stress", &rock->stress));
+    TRY(stress_places_begin(a->m.gpu, &a->elastic, &places));
+    for (size_t first = 0, n; first < rock->n; first += n) {
+        n = rock->n - first < PLACES_MOST ? rock->n - first : PLACES_MOST;
+        TRY(stress_places_find(a->m.gpu, &places, rock->P + 4 * first, n));
+        TRY(gpu_download(a->m.gpu, places.at.field[ROCK_stress], 0, rock->stress + first, n));
+    }
+done:
+    stress_places_end(a->m.gpu, &places);
+    return st;
+}
+
 status arenite_bear(struct arenite *a, enum particles_due what, size_t n)
 {
     status st = OK;
@@ -58,6 +77,7 @@ status arenite_bear(struct arenite *a, enum particles_due what, size_t n)
     if (n == 0)
         goto done;
     TRY(scene_source_make(a->source, bits, NULL, &rock));
+    TRY(know_stress(a, &rock));
     TRY(make_room(a, rock.n));
     TRY(particles_add(a->m.gpu, a->m.work, p, &rock));
 done:
@@ -96,9 +116,13 @@ static const enum rock_field given[] = {ROCK_layer, ROCK_phase, ROCK_rate_factor
                              derived[DEEP_VALUES] = {ROCK_stress, ROCK_von_mises, ROCK_erodibility};
 enum { GIVEN = sizeof given / sizeof *given };
 
+/* As they are shown: plants live on the surface. */
 static status make_deep(const void *source, const uint32_t *bits, struct rock *out)
 {
-    return scene_source_make(source, bits, NULL, out);
+    const status st = scene_source_make(source, bits, NULL, out);
+    for (size_t i = 0; st == OK && out->vegetation && i < out->n; i++)
+        out->vegetation[i] = 0;
+    return st;
 }
 
 /* The derived values of some particles go to those of deep voxels, from number `first` on. */

@@ -113,7 +113,7 @@ status particles_reserve(struct gpu *gpu, struct particles *p, size_t n)
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (p->field[f])
             TRY(grow(gpu, rock_field_table[f].name, n, rock_field_size((enum rock_field)f),
-                     rock_field_table[f].keep == STATE ? p->n : 0, &p->field[f]));
+                     rock_field_table[f].keep == STATE || f == ROCK_stress ? p->n : 0, &p->field[f]));
     TRY(grow(gpu, "surface list", n, 4, 0, &p->surface));
     const size_t scratch = particles_scratch(p->voxels, n);
     TRY(grow(gpu, "particle flags", scratch, 4, 0, &p->flags));
@@ -128,7 +128,7 @@ status particles_add(struct gpu *gpu, struct gpu_work *work, struct particles *p
 {
     status st = OK;
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_table[f].keep == STATE && rock->field[f])
+        if ((rock_field_table[f].keep == STATE || f == ROCK_stress) && rock->field[f])
             TRY(gpu_upload(gpu, p->field[f], p->n, rock->field[f], rock->n));
     p->n += rock->n;
     p->n_deep -= rock->n;

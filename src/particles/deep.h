@@ -31,11 +31,11 @@ MUST_USE status particles_due(struct gpu *gpu, struct gpu_work *work, struct par
 MUST_USE status particles_deep_bits(struct gpu *gpu, struct gpu_work *work, struct particles *p,
                                     uint32_t *bits);
 
-/* Room for n particles in all. What is DERIVED is lost where it has to grow. Waits. */
+/* Room for n particles in all. What is DERIVED is lost where it has to grow, but for stress. Waits. */
 MUST_USE status particles_reserve(struct gpu *gpu, struct particles *p, size_t n);
 
-/* Adds the particles of the voxels that were due last (STATE), for which there is room, and orders all anew, those of which nothing is left
- * as well. Waits. */
+/* Adds the particles of the voxels that were due last (STATE, and stress where it is known), for which there is room, and orders all
+ * anew, those of which nothing is left as well. Waits. */
 MUST_USE status particles_add(struct gpu *gpu, struct gpu_work *work, struct particles *p,
                               const struct rock *rock);
 

@@ -47,21 +47,33 @@ static void reorder(struct gpu *gpu, struct particles *p, struct gpu_buffer **fi
     *spare = old;
 }
 
-/* The order of particles_index(), for fields up to `keep`; `all`: none is dropped. The spare buffers, of vectors and of words, are
- * zero after it. */
-static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep, bool all,
-                           struct gpu_buffer **vector, struct gpu_buffer **word)
+enum stay { STAYS_LEFT, STAYS_WAITING, STAYS_ALL };
+
+/* Which particles stay, 1 or viability; 0: they go. May be p->place. */
+static struct gpu_buffer *staying(struct gpu *gpu, struct particles *p, enum stay stay)
+{
+    const struct count_params k = {(uint)p->n};
+    const float one = 1;
+    uint32_t bits;
+    if (stay == STAYS_LEFT)
+        return p->field[ROCK_viability];
+    memcpy(&bits, &one, sizeof bits);
+    if (stay == STAYS_ALL)
+        gpu_fill(gpu, p->place, bits);
+    else
+        GPU_RUN(gpu, particles_remain, k.n, k, p->field[ROCK_viability], p->place);
+    return p->place;
+}
+
+/* The order of particles_index(), for fields up to `keep`, and stress. The spare buffers, of vectors and of words, are zero after
+ * it. */
+static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep,
+                           enum stay stay, struct gpu_buffer **vector, struct gpu_buffer **word)
 {
     status st = OK;
     const struct voxel_params k = particles_params(p, p->n);
     uint32_t alive;
-    struct gpu_buffer *left = all ? p->place : p->field[ROCK_viability];
-    if (all) {
-        const float one = 1;
-        uint32_t bits;
-        memcpy(&bits, &one, sizeof bits);
-        gpu_fill(gpu, left, bits);
-    }
+    struct gpu_buffer *left = staying(gpu, p, stay);
     held_vacate(gpu, &p->held);
     GPU_RUN(gpu, particles_occupy, p->n, k, p->field[ROCK_P], left, p->held.words);
     TRY(held_find(gpu, work, &p->held, p->around));
@@ -79,7 +91,7 @@ static status index_fields(struct gpu *gpu, struct gpu_work *work, struct partic
     gpu_sort(gpu, work, &sort);
     TRY(gpu_download(gpu, p->start, p->held.n, &alive, 1));
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_table[f].keep <= keep && p->field[f])
+        if ((rock_field_table[f].keep <= keep || f == ROCK_stress) && p->field[f])
             reorder(gpu, p, &p->field[f], rock_field_size((enum rock_field)f) == 16 ? vector : word, alive);
     gpu_fill(gpu, *vector, 0);
     gpu_fill(gpu, *word, 0);
@@ -90,9 +102,9 @@ done:
 }
 
 /* The fields of the state: two that are derived, and stale, serve as spare. */
-static status index_state(struct gpu *gpu, struct gpu_work *work, struct particles *p, bool all)
+static status index_state(struct gpu *gpu, struct gpu_work *work, struct particles *p, enum stay stay)
 {
-    return index_fields(gpu, work, p, STATE, all, &p->field[ROCK_N], &p->field[ROCK_stress]);
+    return index_fields(gpu, work, p, STATE, stay, &p->field[ROCK_N], &p->field[ROCK_von_mises]);
 }
 
 /* All fields. */
@@ -102,7 +114,7 @@ static status index_derived(struct gpu *gpu, struct gpu_work *work, struct parti
     struct gpu_buffer *vector = NULL, *word = NULL;
     TRY(gpu_buffer_create(gpu, "spare vectors", p->n_max, 16, &vector));
     TRY(gpu_buffer_create(gpu, "spare words", p->n_max, 4, &word));
-    TRY(index_fields(gpu, work, p, DERIVED, false, &vector, &word));
+    TRY(index_fields(gpu, work, p, DERIVED, STAYS_LEFT, &vector, &word));
     TRY(gpu_wait(gpu));
 done:
     gpu_buffer_destroy(gpu, &vector);
@@ -137,7 +149,7 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     const size_t scratch = particles_scratch(voxels, p->n_max);
     TRY(gpu_buffer_create(gpu, "particle flags", scratch, 4, &p->flags));
     TRY(gpu_buffer_create(gpu, "particle places", scratch, 4, &p->place));
-    TRY(keep == STATE ? index_state(gpu, work, p, false) : index_derived(gpu, work, p));
+    TRY(keep == STATE ? index_state(gpu, work, p, STAYS_LEFT) : index_derived(gpu, work, p));
 done:
     if (st != OK)
         particles_destroy(gpu, p);
@@ -160,12 +172,17 @@ void particles_destroy(struct gpu *gpu, struct particles *p)
 
 status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p)
 {
-    return index_state(gpu, work, p, false);
+    return index_state(gpu, work, p, STAYS_LEFT);
+}
+
+status particles_index_waiting(struct gpu *gpu, struct gpu_work *work, struct particles *p)
+{
+    return index_state(gpu, work, p, STAYS_WAITING);
 }
 
 status particles_index_all(struct gpu *gpu, struct gpu_work *work, struct particles *p)
 {
-    return index_state(gpu, work, p, true);
+    return index_state(gpu, work, p, STAYS_ALL);
 }
 
 status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct particles *p)
@@ -173,7 +190,7 @@ status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct part
     if (p->around)
         return OK;
     p->around = true;
-    return index_state(gpu, work, p, false);
+    return index_state(gpu, work, p, STAYS_LEFT);
 }
 
 status particles_allow_motion(struct gpu *gpu, struct particles *p)

@@ -52,9 +52,12 @@ MUST_USE status particles_create(struct gpu *gpu, struct gpu_work *work, const s
                                  const int voxels[3], double h, struct particles *out);
 void particles_destroy(struct gpu *gpu, struct particles *p);
 
-/* Drops particles of which nothing is left and restores the order. DERIVED fields are stale after it. Waits.
- * */
+/* Drops particles of which nothing is left and restores the order. DERIVED fields are stale after it, but for stress, which
+ * goes with the particles. Waits. */
 MUST_USE status particles_index(struct gpu *gpu, struct gpu_work *work, struct particles *p);
+
+/* The same, but does not drop those that wait to come to rest, of which nothing is left and whose viability is negative. */
+MUST_USE status particles_index_waiting(struct gpu *gpu, struct gpu_work *work, struct particles *p);
 
 /* The same, but drops none. */
 MUST_USE status particles_index_all(struct gpu *gpu, struct gpu_work *work, struct particles *p);

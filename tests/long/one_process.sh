@@ -21,7 +21,7 @@ sed -i '/^    PART(collapse, LASTS_ROCK,/i \    PART(exfoliation, LASTS_ROCK, ar
          arenite_ever(a->m.whole, exfoliation_wanted) \\\
              ? exfoliation_create(a->m.gpu, a->particles.n_max, \&a->exfoliation) : OK) \\' $state
 frame=tree/src/model/arenite.c
-sed -i '/^\/\* One step of up to \*kyr/i \/* What comes off by itself. */\
+sed -i '/^\/\* A part of a step\. Stress/i \/* What comes off by itself. */\
 static void exfoliate(struct arenite *a, double kyr)\
 {\
     if (!exfoliation_wanted(a->m.job))\
@@ -32,7 +32,7 @@ static void exfoliate(struct arenite *a, double kyr)\
     weigh(a, PROCESS_EXFOLIATION, true);\
 }\
 ' $frame
-sed -i '/^    TRY(erosion_weather(/a \    exfoliate(a, *kyr);' $frame
+sed -i '/^    TRY(crumble(a, &n_eroded));/i \    exfoliate(a, kyr);' $frame
 
 : >touched
 for folder in Makefile src shaders render farm jobs; do

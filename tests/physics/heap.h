@@ -124,9 +124,9 @@ static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int 
     assert_ok(gpu_buffer_create(p->gpu, "receiver", cells, 4, &routing.receiver));
     assert_ok(gpu_upload(p->gpu, routing.tag, 0, way.tag, cells));
     assert_ok(gpu_upload(p->gpu, routing.receiver, 0, way.receiver, cells));
-    assert_ok(
-        deposit_land(p->gpu, p->work, &p->deposit, &p->job, p->frame, 0, &routing, &particles, &p->last));
-    assert_int_equal(p->last.crumbs, p->last.landed + p->last.left);
+    assert_ok(deposit_land(p->gpu, p->work, &p->deposit, &p->job, p->frame, 0, &routing, &particles, true,
+                           &p->last));
+    assert_int_equal(p->last.crumbs, p->last.landed + p->last.left + p->last.waiting);
     assert_ok(particles_index(p->gpu, p->work, &particles));
     p->left += p->last.left;
     p->slid += p->last.slid;

@@ -82,7 +82,7 @@ unsigned slope_ref_room(const uint8_t *solid, const int voxels[3], const struct 
                     (own - mean(&w, base[0] - 1, base[1] - 3, 4, 3, top)) / arm, repose, &tip_y);
     while (room < most && hypot(x, y) <= repose &&
            hypot(fmax(tip_x + (room + 0.5) * 0.25 / arm, 0), fmax(tip_y + (room + 0.5) * 0.25 / arm, 0)) <=
-               1.25 * repose)
+               1.15 * repose)
         room++;
     int hollow = own <= mean(&w, base[0] + 2, base[1], 2, 2, top) &&
                  own <= mean(&w, base[0] - 2, base[1], 2, 2, top) &&
