@@ -24,7 +24,7 @@ void main()
         a.z < int(k.cz))
         for (int b = 0; b < 4; b++) {
             uint row = row_at(own, i, -(b & 1), -(b >> 1));
-            moves = moves || LOAD_F(fill, row) > 0.0 || LOAD_F(fill, row - 1u) > 0.0;
+            moves = moves || LOAD_F(fill, row) != 0.0 || LOAD_F(fill, row - 1u) != 0.0;
         }
     AT(active_node, i) = moves ? 1u : 0u;
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A coarse cell's share of the full stiffness: the mean of its eight children's.
+// A coarse cell's share of the full stiffness: the mean of its eight children's, negative where one of them has deposits.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -20,12 +20,15 @@ void main()
     uvec3 above = uvec3(k.px, k.py, k.pz);
     ivec3 c = node_of(own, i, above);
     float sum = 0.0;
+    bool loose = false;
     if (own != STRESS_NO_RUN && all(greaterThanEqual(c, ivec3(1))) && all(lessThan(c, ivec3(above) - 1)))
         for (int b = 0; b < 4; b++) {
             ivec3 child = 2 * c - 1 + ivec3(0, b & 1, b >> 1);
             uint row = LOAD_U(table, run_of(child, uvec3(k.cx, k.cy, k.cz))) + uint(child.x) % STRESS_RUN;
-            sum += stiffness(LOAD_F(fill, row));
-            sum += stiffness(LOAD_F(fill, row + 1u));
+            float low = LOAD_F(fill, row), high = LOAD_F(fill, row + 1u);
+            sum += stiffness(low);
+            sum += stiffness(high);
+            loose = loose || low < 0.0 || high < 0.0;
         }
-    AT(coarse, i) = sum / 8.0;
+    AT(coarse, i) = loose ? -sum / 8.0 : sum / 8.0;
 }

@@ -14,7 +14,7 @@ void main()
 {
     uint i = THREAD;
     // Of those next to each other in a row only the last can be the farthest.
-    if (i >= k.n || LOAD_F(fill, i) == 0.0 || LOAD_F(fill, i + 1u) > 0.0)
+    if (i >= k.n || LOAD_F(fill, i) == 0.0 || LOAD_F(fill, i + 1u) != 0.0)
         return;
     ivec3 c = node_of(LOAD_U(run, i / STRESS_RUN), i, uvec3(k.cx, k.cy, k.cz));
     atomicMax(AT(words, 0), uint(max(c.x, max(c.y, c.z))));

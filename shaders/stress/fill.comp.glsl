@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each kept cell's share of rock: the viability of the particles in its eight voxels, deep ones being whole, over eight.
+// Each kept cell's share of rock, the viability of the particles in its eight voxels over eight, and its weight likewise. Where
+// deposits are in it, `fill` has the share of the stiffness instead, negative, for they are softer; and their weight is not theirs:
+// it presses on the rock below, as a heap's does, and nothing hangs on a wall beside it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -8,7 +10,9 @@ READ_U(0, run)
 READ_U(1, words)
 READ_U(2, start)
 READ_F(3, viability)
-WRITE_F(4, fill)
+READ_U(4, phase)
+WRITE_F(5, fill)
+WRITE_F(6, weight)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
 #define HELD_NX (2u * (k.cx - 2u))
@@ -17,14 +21,41 @@ PARAMS(stress_params)
 #include "particles/held.glsl"
 #include "particles/within.glsl"
 
-float rock_in(ivec3 v)
+const float BEARS = 4.0; // rock in a cell that bears what lies on it
+
+// Rock and deposits in a voxel; deep ones are whole.
+vec2 rock_in(ivec3 v)
 {
     if (voxel_deep(v))
-        return 1.0;
-    float sum = 0.0;
+        return vec2(1.0, 0.0);
+    vec2 sum = vec2(0.0);
     uvec2 in_voxel = voxel_particles(v);
     for (uint j = in_voxel.x; j < in_voxel.y; j++)
-        sum += LOAD_F(viability, j);
+        sum += LOAD_U(phase, j) == 1u ? vec2(0.0, LOAD_F(viability, j)) : vec2(LOAD_F(viability, j), 0.0);
+    return sum;
+}
+
+// The same of a cell, each up to 8.
+vec2 held_in(ivec3 c)
+{
+    vec2 sum = vec2(0.0);
+    for (int b = 0; b < 4; b++) {
+        ivec3 v = 2 * (c - 1) + ivec3(0, b & 1, b >> 1);
+        sum += rock_in(v) + rock_in(v + ivec3(1, 0, 0));
+    }
+    return sum;
+}
+
+// Deposits that lie on this cell, up to the next that is rock enough to bear them.
+float on_top(ivec3 c)
+{
+    float sum = 0.0;
+    for (c.z++; c.z < int(k.cz) - 1; c.z++) {
+        vec2 above = held_in(c);
+        if (above.x >= BEARS || above.y == 0.0)
+            break;
+        sum += above.y;
+    }
     return sum;
 }
 
@@ -35,12 +66,10 @@ void main()
         return;
     uint own = LOAD_U(run, i / STRESS_RUN);
     ivec3 c = node_of(own, i, uvec3(k.cx, k.cy, k.cz)), cells = ivec3(k.cx, k.cy, k.cz);
-    float sum = 0.0;
+    vec2 sum = vec2(0.0);
     if (own != STRESS_NO_RUN && all(greaterThanEqual(c, ivec3(1))) && all(lessThan(c, cells - 1)))
-        for (int b = 0; b < 4; b++) {
-            ivec3 v = 2 * (c - 1) + ivec3(0, b & 1, b >> 1);
-            for (int x = v.x; x <= v.x + 1; x++)
-                sum += rock_in(ivec3(x, v.yz));
-        }
-    AT(fill, i) = min(sum / 8.0, 1.0);
+        sum = held_in(c);
+    float full = min((sum.x + sum.y) / 8.0, 1.0);
+    AT(fill, i) = sum.y > 0.0 ? -stiffness(full) * (sum.x + k.loose * sum.y) / (sum.x + sum.y) : full;
+    AT(weight, i) = min(sum.x / 8.0, 1.0) + (sum.x >= BEARS ? (sum.y + on_top(c)) / 8.0 : 0.0);
 }

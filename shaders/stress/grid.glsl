@@ -37,8 +37,9 @@ vec3 along_walls(vec3 f, ivec3 a, ivec3 cells, uint walls)
     return f;
 }
 
-// How much of the full stiffness a cell has. The floor keeps nearly empty cells from hanging on nothing.
+// How much of the full stiffness a cell has: by its fill, or, where there are deposits in it, as it says itself, negative. The
+// floor keeps nearly empty cells from hanging on nothing.
 float stiffness(float fill)
 {
-    return fill > 0.0 ? max(fill, STRESS_FILL_FLOOR) : 0.0;
+    return fill > 0.0 ? max(fill, STRESS_FILL_FLOOR) : abs(fill);
 }

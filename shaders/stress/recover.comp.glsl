@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Stress at each cell's centre, Pa, tension positive: (xx, yy, zz, T = -trace) and (xy, yz, xz, von Mises).
+// Stress at each cell's centre, Pa, tension positive: (xx, yy, zz, T = -trace) and (xy, yz, xz, von Mises). Where there are deposits
+// and rock it is the rock's.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -20,7 +21,8 @@ void main()
     if (i >= k.n)
         return;
     vec4 normal = vec4(0.0), shear = vec4(0.0);
-    if (LOAD_F(fill, i) > 0.0) {
+    float filled = LOAD_F(fill, i);
+    if (filled != 0.0) {
         uint own = LOAD_U(run, i / STRESS_RUN), row = i;
         vec3 dx = vec3(0.0), dy = vec3(0.0), dz = vec3(0.0);
         for (int b = 0; b < 8; b++) {
@@ -36,9 +38,11 @@ void main()
         dx *= scale;
         dy *= scale;
         dz *= scale;
-        float trace = dx.x + dy.y + dz.z;
+        float trace = dx.x + dy.y + dz.z, soft = filled < 0.0 && -filled <= 1.01 * k.loose ? k.loose : 1.0;
         vec3 s = k.lambda * trace + 2.0 * k.mu * vec3(dx.x, dy.y, dz.z);
         vec3 t = k.mu * vec3(dx.y + dy.x, dy.z + dz.y, dx.z + dz.x);
+        s *= soft;
+        t *= soft;
         vec3 d = s - s.yzx;
         normal = vec4(s, -(s.x + s.y + s.z));
         shear = vec4(t, sqrt(0.5 * dot(d, d) + 3.0 * dot(t, t)));

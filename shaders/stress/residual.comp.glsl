@@ -10,8 +10,9 @@ READ_U(1, run)
 READ_U(2, table)
 READ_V(3, u)
 READ_F(4, fill)
-WRITE_V(5, r)
-WRITE_F(6, product)
+READ_F(5, weight)
+WRITE_V(6, r)
+WRITE_F(7, product)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
 #include "stress/rows.glsl"
@@ -25,13 +26,13 @@ void main()
         return;
     uint node = LOAD_U(list, i), own = LOAD_U(run, node / STRESS_RUN);
     vec4 force = apply_stiffness(node);
-    float fills = 0.0;
+    float weights = 0.0;
     for (int b = 0; b < 4; b++) {
         uint row = row_at(own, node, -(b & 1), -(b >> 1));
-        fills += LOAD_F(fill, row);
-        fills += LOAD_F(fill, row - 1u);
+        weights += LOAD_F(weight, row);
+        weights += LOAD_F(weight, row - 1u);
     }
-    vec3 residual = vec3(0.0, 0.0, -fills * k.weight / 8.0) - force.xyz;
+    vec3 residual = vec3(0.0, 0.0, -weights * k.weight / 8.0) - force.xyz;
     float inverse = 1.0 / (diagonal_unit() * force.w);
     AT(r, i) = vec4(residual, inverse);
     AT(product, i) = dot(residual, residual) * inverse;

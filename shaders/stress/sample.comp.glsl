@@ -40,7 +40,7 @@ void main()
             row = LOAD_U(table, run_of(seen, CELLS)) + uint(seen.x) % STRESS_RUN - uint(corner.x);
         uint c = row + uint(corner.x);
         vec3 near = mix(1.0 - f, f, vec3(corner));
-        float weight = near.x * near.y * near.z * LOAD_F(fill, c);
+        float weight = near.x * near.y * near.z * abs(LOAD_F(fill, c));
         if (weight == 0.0)
             continue;
         vec3 beyond = flip * (at - vec3(low + corner));

@@ -41,7 +41,7 @@ void main()
             uint row = row_at(own, i, clamp(y, before.y, behind.y), z);
             for (int x = -1; x <= 1; x++) {
                 uint at = row + uint(clamp(x, before.x, behind.x));
-                float weight = LOAD_F(fill, at);
+                float weight = abs(LOAD_F(fill, at));
                 vec3 d = vec3(x, y, z);
                 vec2 more = vec2(LOAD_V(normal_stress, at).w, LOAD_V(shear_stress, at).w) - here;
                 weights += weight;

@@ -8,7 +8,7 @@ READ_U(0, list)
 READ_U(1, run)
 READ_U(2, table)
 READ_V(3, u)
-READ_F(4, fill)
+READ_F(4, weight)
 WRITE_F(5, product)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
@@ -20,11 +20,11 @@ void main()
     if (i >= k.n)
         return;
     uint node = LOAD_U(list, i), own = LOAD_U(run, node / STRESS_RUN);
-    float fills = 0.0;
+    float weights = 0.0;
     for (int b = 0; b < 4; b++) {
         uint row = row_at(own, node, -(b & 1), -(b >> 1));
-        fills += LOAD_F(fill, row);
-        fills += LOAD_F(fill, row - 1u);
+        weights += LOAD_F(weight, row);
+        weights += LOAD_F(weight, row - 1u);
     }
-    AT(product, i) = -fills * k.weight / 8.0 * LOAD_V(u, node).z;
+    AT(product, i) = -weights * k.weight / 8.0 * LOAD_V(u, node).z;
 }

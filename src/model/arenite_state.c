@@ -71,6 +71,9 @@ static void elasticity(const struct arenite *a, double out[ELASTICITY])
 /* Of the nodes that move, four numbers each. (0.1.0 wrote the whole grid's as `displacement`, which is not read.) */
 static const char displacements[] = "displacements";
 
+/* Deposits' stiffness, which the displacement depends on, too. (0.1.0 had none; the stress is solved anew.) */
+static const char loose_ground[] = "loose ground";
+
 status arenite_save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
@@ -94,6 +97,8 @@ status arenite_save(struct model *m, struct checkpoint *out)
     memcpy(data, &a->elastic.iterations, 4);
     TRY(section_add(out, "elasticity", 8, ELASTICITY, &data));
     elasticity(a, data);
+    TRY(section_add(out, loose_ground, 8, 1, &data));
+    memcpy(data, &a->elastic.options.loose, sizeof(double));
     TRY(section_add(out, "processes", 8, 2, &data));
     memcpy(data, (const double[]){a->deposits, a->plants}, 2 * sizeof(double));
     if (a->wind.flows)
@@ -212,7 +217,12 @@ static status restore_stress(struct arenite *a, const struct checkpoint *c, bool
     double now[ELASTICITY];
     elasticity(a, now);
     TRY(section_take(c, &constants, &data, NULL));
-    *solved = memcmp(data, now, sizeof now) == 0;
+    *solved = memcmp(data, now, sizeof now) == 0 && checkpoint_find(c, loose_ground, 8) != NULL;
+    if (*solved) {
+        TRY(section_take(c, &(struct section_rule){loose_ground, SECTION_DOUBLE, 1, 1, {{0, 1}}}, &data,
+                         NULL));
+        *solved = memcmp(data, &a->elastic.options.loose, sizeof(double)) == 0;
+    }
     TRY(section_take(c, &number, &data, NULL));
     memcpy(&a->elastic.iterations, data, 4);
     TRY(restore_displacements(a, c, solved));

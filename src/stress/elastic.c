@@ -11,11 +11,14 @@
 
 struct elastic_options elastic_options(const struct job *job)
 {
+    const double lambda = job->rock.lame_GPa, mu = job->rock.shear_GPa,
+                 young = mu * (3 * lambda + 2 * mu) / (lambda + mu); /* GPa */
     return (struct elastic_options){
         .lambda = 1e9 * job->rock.lame_GPa,
         .mu = 1e9 * job->rock.shear_GPa,
         .density = job->rock.density_kg_m3,
         .gravity = job->rock.gravity_m_s2,
+        .loose = fmin(job->deposition.stiffness_MPa / (1e3 * young), 1),
         .tolerance = job->stress.tolerance,
         .max_iterations = (int)job->stress.max_iterations,
         .walls = job_walls(job),
@@ -28,6 +31,7 @@ static struct stress_params params(const struct elastic *e, size_t n)
     struct stress_params k = lattice_params(&e->lattice, n);
     k.lambda = (float)e->options.lambda;
     k.mu = (float)e->options.mu;
+    k.loose = (float)e->options.loose;
     k.dx = (float)e->dx;
     k.weight = (float)(e->options.density * e->options.gravity * e->dx * e->dx * e->dx);
     return k;
@@ -111,7 +115,7 @@ static status judge(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
     float scalars[CG_ENERGY + CG_CHECK];
     const struct stress_lattice *l = &e->lattice;
     const struct stress_params k = params(e, l->n_active);
-    GPU_RUN(gpu, stress_work, k.n, k, l->list, l->run, l->table, e->u, l->fill, product_of(e));
+    GPU_RUN(gpu, stress_work, k.n, k, l->list, l->run, l->table, e->u, e->weight, product_of(e));
     gpu_sum(gpu, work, product_of(e), k.n, e->scalars, CG_WORK);
     TRY(gpu_download(gpu, e->scalars, 0, scalars, CG_ENERGY + CG_CHECK));
     const double whole = (double)scalars[CG_WORK],
@@ -141,7 +145,8 @@ status elastic_solve(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
     }
     gpu_fill(gpu, e->p, 0);
     gpu_fill(gpu, e->scalars, 0);
-    GPU_RUN(gpu, stress_residual, k.n, k, l->list, l->run, l->table, e->u, l->fill, e->r, product_of(e));
+    GPU_RUN(gpu, stress_residual, k.n, k, l->list, l->run, l->table, e->u, l->fill, e->weight, e->r,
+            product_of(e));
     if (!e->options.multigrid)
         weigh(gpu, work, e);
     do {

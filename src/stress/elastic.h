@@ -2,8 +2,9 @@
  * a cycle of multigrid (multigrid.h) or, for comparison, Jacobi's diagonal as preconditioner.
  *
  * Cells are 2 h wide and trilinear; one element matrix serves all, scaled by how much of the cell is rock, as
- * is its weight. Nodes on the ground (z = 0) are held, those at the domain's walls slide along them, all other faces are
- * free. The solver starts from the
+ * is its weight. Deposits are softer than rock, and their weight presses on the rock or the ground below them: a heap does
+ * not hang on the wall beside it. Nodes on the ground (z = 0) are held, those at the domain's walls slide along them, all
+ * other faces are free. The solver starts from the
  * last frame's displacement.
  *
  * Sums are fixed trees, so that equal input gives equal bits. It stops on the error of the stress, not on the
@@ -28,6 +29,7 @@ struct elastic_options {
     double lambda, mu; /* Pa */
     double density;    /* kg/m3 */
     double gravity;    /* m/s2 */
+    double loose;      /* Young's modulus of deposits, as a share of the rock's */
     double tolerance;  /* of T: its error's 95th percentile by its own */
     int max_iterations;
     bool multigrid; /* preconditioned by a cycle of multigrid, else by Jacobi's diagonal */
@@ -42,6 +44,7 @@ struct elastic {
         *u; /* vec4 [items]: displacement, m; the state that frames hand on. 0 at nodes that do not move */
     struct gpu_buffer *p, *q, *r; /* vec4 [items] */
     struct gpu_buffer *scalars, *marks;
+    struct gpu_buffer *weight; /* float [items], the cells': in full cells of rock */
     /* vec4 [items], the cells': xx yy zz T, xy yz xz von Mises; Pa, tension positive. While it is solved, the nodes': the
      * finest level's corrections. */
     struct gpu_buffer *normal_stress, *shear_stress;

@@ -8,8 +8,8 @@ static void cells_of(const int voxels[3], int cells[3])
         cells[a] = voxels[a] / 2 + 2;
 }
 
-/* Beside the lattice's own: u, p, q, r and the stress. */
-enum { VALUE_BYTES = 6 * 16 };
+/* Beside the lattice's own: u, p, q, r, the stress, and the weight. */
+enum { VALUE_BYTES = 6 * 16 + 4 };
 
 uint64_t elastic_bytes(const int voxels[3], uint64_t n, uint64_t bare, uint64_t ends)
 {
@@ -36,6 +36,7 @@ static status make_room(struct gpu *gpu, struct elastic *e)
     TRY(lattice_buffer(gpu, &e->lattice, "residual", 16, &e->r));
     TRY(lattice_buffer(gpu, &e->lattice, "normal stress", 16, &e->normal_stress));
     TRY(lattice_buffer(gpu, &e->lattice, "shear stress", 16, &e->shear_stress));
+    TRY(lattice_buffer(gpu, &e->lattice, "cell weight", 4, &e->weight));
 done:
     return st;
 }
@@ -63,7 +64,7 @@ done:
 void elastic_destroy(struct gpu *gpu, struct elastic *e)
 {
     struct gpu_buffer **all[] = {
-        &e->u, &e->p, &e->q, &e->r, &e->scalars, &e->marks, &e->normal_stress, &e->shear_stress};
+        &e->u, &e->p, &e->q, &e->r, &e->scalars, &e->marks, &e->normal_stress, &e->shear_stress, &e->weight};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
     lattice_destroy(gpu, &e->lattice);
@@ -106,8 +107,10 @@ status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct elastic *
     TRY(make_room(gpu, e));
     TRY(carry(gpu, e));
     lattice_table(gpu, l);
-    const struct stress_params k = lattice_params(l, lattice_items(l));
-    GPU_RUN(gpu, stress_fill, k.n, k, l->run, p->held.words, p->start, p->field[ROCK_viability], l->fill);
+    struct stress_params k = lattice_params(l, lattice_items(l));
+    k.loose = (float)e->options.loose; /* the rest tells where things are */
+    GPU_RUN(gpu, stress_fill, k.n, k, l->run, p->held.words, p->start, p->field[ROCK_viability],
+            p->field[ROCK_phase], l->fill, e->weight);
     TRY(lattice_activate(gpu, work, l));
     gpu_gather(gpu, l->list, e->p, e->q, l->n_active);
     place(gpu, e);
