@@ -7,13 +7,12 @@
 
 READ_U(0, list)
 READ_V(1, position)
-READ_V(2, normal)
-READ_U(3, phase)
-READ_U(4, start)
-READ_F(5, before)
-READ_U(6, id)
-WRITE_F(7, vegetation)
-READ_U(8, words)
+READ_U(2, phase)
+READ_U(3, start)
+READ_F(4, before)
+READ_U(5, id)
+WRITE_F(6, vegetation)
+READ_U(7, words)
 PARAMS(plants_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
@@ -23,7 +22,6 @@ PARAMS(plants_params)
 #include "plants/stand.glsl"
 #include "shared/random.glsl"
 
-const float SEEDLING = 0.02;
 const float WIDE = 0.2; // how often from across a corner, as seen from above: measured, for a round front
 
 bool covered(ivec3 v)
@@ -45,9 +43,7 @@ void main()
     uint self = LOAD_U(list, i);
     if (LOAD_U(phase, self) != 1u || LOAD_F(before, self) > 0.0)
         return;
-    vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
-    if (n.z < k.steepest)
-        return;
+    vec3 x = LOAD_V(position, self).xyz;
     ivec3 v = voxel_of(x);
     bool wide = random_float(random_hash(k.seed, LOAD_U(id, self), k.spread, 0u)) < WIDE;
     bool found = false;
@@ -56,6 +52,6 @@ void main()
             for (int s = -1; s <= 1; s++)
                 if (!found && (wide || s == 0 || y == 0))
                     found = covered(v + ivec3(s, y, z));
-    if (found && stands(x, n))
+    if (found && stands(x))
         AT(vegetation, self) = SEEDLING;
 }

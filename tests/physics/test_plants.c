@@ -1,5 +1,6 @@
-/* Plants: covered ground erodes more slowly by the stated factor; cover grows and spreads on deposits, at the
- * same speed whatever the spacing, not on rock and not up cliffs; and it dies where it cannot stand. */
+/* Plants: covered ground erodes more slowly by the stated factor; cover goes down with the surface and grows through what buries
+ * it; it grows and spreads on deposits, at the same speed whatever the spacing, and by seeds from afar, not on rock and not up
+ * cliffs; and it dies where it cannot stand. */
 #include "model_help.h"
 
 #include <math.h>
@@ -274,6 +275,91 @@ static void cover_stays_off_rock_and_cliffs_and_dies_there(void **state)
     ground_end(&g);
 }
 
+/* A meadow on rock, framed by inert rock: by its rate and what plants leave of it. */
+static void a_meadow_goes_down_with_the_ground(void **state)
+{
+    static const double spacing[] = {2, 1, 1}, years[] = {1000, 1000, 500};
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        char text[1024];
+        double volume[2];
+        snprintf(
+            text, sizeof text,
+            "hoodoo: 1\n"
+            "name: meadow\n"
+            "frames: 1-100\n"
+            "clock: {years_per_frame: %g}\n"
+            "domain: {size_m: [16, 12, 8], spacing_m: %g}\n"
+            "scene: {box: {min_m: [0, 0, 0], max_m: [16, 12, 6]}}\n"
+            "paint:\n"
+            "  - {shape: {difference: [box: {min_m: [-1, -1, -1], max_m: [17, 13, 9]}, box: {min_m: [2, 2, "
+            "-1], max_m: [14, 10, 9]}]}, inert: true}\n"
+            "  - {shape: {box: {min_m: [-1, -1, -1], max_m: [17, 13, 9]}}, vegetation: 1}\n"
+            "strata: [{weak_m_per_kyr: 1.5, strong_m_per_kyr: 1.5, interlock_MPa: 1000}]\n"
+            "wind: {abrasion: 0, deflation: {strength_MPa: 1000}}\n",
+            years[i], spacing[i]);
+        struct sim s = sim_begin(text);
+        for (int k = 0; k < 2; k++) {
+            for (int f = 0; k == 1 && f < 20000 / years[i]; f++)
+                assert_ok(model_step(s.model));
+            struct frame frame = sim_output(&s);
+            volume[k] = frame.volume_m3;
+            frame_free(&frame);
+        }
+        sim_end(&s);
+        double lowered = (volume[0] - volume[1]) / (12 * 8);
+        print_message(
+            "# spacing %g m, %g years a frame: lowered by %.3f m in 20 kyr (30 if bare; 1.2 covered)\n",
+            spacing[i], years[i], lowered);
+        assert_true(fabs(lowered - 1.2) < 0.12);
+    }
+}
+
+/* A hill with plants on top alone; whatever else is default. What they cover of the deposits at its foot, m2. */
+static double foot_covered(double spacing, double years, int kyr)
+{
+    char text[1024];
+    double covered = 0;
+    snprintf(text, sizeof text,
+             "hoodoo: 1\n"
+             "name: hill\n"
+             "frames: 1-100\n"
+             "clock: {years_per_frame: %g}\n"
+             "domain: {size_m: [48, 48, 16], spacing_m: %g}\n"
+             "scene:\n"
+             "  union:\n"
+             "    - box: {min_m: [0, 0, 0], max_m: [48, 48, 2], inert: true}\n"
+             "    - box: {min_m: [16, 16, 2], max_m: [32, 32, 12]}\n"
+             "paint: [{shape: {box: {min_m: [15, 15, 9], max_m: [33, 33, 17]}}, vegetation: 1}]\n"
+             "strata: [{weak_m_per_kyr: 0.2, strong_m_per_kyr: 0.2, interlock_MPa: 1000}]\n"
+             "wind: {abrasion: 0}\n"
+             "deposition: {viability: 1}\n",
+             years, spacing);
+    struct sim s = sim_begin(text);
+    for (int f = 0; f < kyr * 1000 / years; f++)
+        assert_ok(model_step(s.model));
+    struct frame frame = sim_output(&s);
+    for (size_t i = 0; i < frame.rock.n; i++)
+        if (frame.rock.phase[i] == 1 && frame.rock.P[4 * i + 2] < 7)
+            covered += (double)frame.rock.vegetation[i] * spacing * spacing;
+    frame_free(&frame);
+    sim_end(&s);
+    return covered;
+}
+
+static void new_plants_grow_at_the_foot_of_the_hill(void **state)
+{
+    const double coarse = foot_covered(2, 1000, 24), fine = foot_covered(1, 1000, 24),
+                 often = foot_covered(1, 500, 24);
+    (void)state;
+    print_message(
+        "# of the deposits at the foot plants cover %.1f m2 after 24 kyr at 2 m, %.1f at 1 m, %.1f in "
+        "frames of 500 years\n",
+        coarse, fine, often);
+    assert_true(coarse > 20);
+    assert_true(fine < 1.5 * coarse && coarse < 1.5 * fine && often < 1.3 * fine && fine < 1.3 * often);
+}
+
 static void frames_with_plants_resume_with_the_same_bits(void **state)
 {
     struct sim s =
@@ -333,6 +419,8 @@ int main(void)
         cmocka_unit_test(cover_spreads_at_its_speed_whatever_the_spacing),
         cmocka_unit_test(cover_thickens_as_the_logistic_does),
         cmocka_unit_test(cover_stays_off_rock_and_cliffs_and_dies_there),
+        cmocka_unit_test(a_meadow_goes_down_with_the_ground),
+        cmocka_unit_test(new_plants_grow_at_the_foot_of_the_hill),
         cmocka_unit_test(frames_with_plants_resume_with_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
