@@ -142,7 +142,7 @@ struct stress_params {
     float dx;         /* m */
     float weight;     /* N: of a full cell */
     uint walls;
-    float loose;      /* deposits' stiffness, as a share of the rock's */
+    float loose; /* deposits' stiffness, as a share of the rock's */
 };
 SHARED_SIZE(stress_params, 40)
 
@@ -347,7 +347,7 @@ SHARED_SIZE(water_surface_params, 68)
 #define DEPOSIT_ROOM 4u          /* how many land in a cell in a round, at most */
 #define DEPOSIT_WAITS 0u         /* a crumb's place: nowhere yet, */
 #define DEPOSIT_LEFT 0xffffffffu /* out of the domain, */
-#define DEPOSIT_HELD 0xfffffffeu /* where it broke off until the next landing, or the voxel it lies in, plus one */
+#define DEPOSIT_HELD 0xfffffffeu /* where it broke off until it lands, or its voxel's number plus one */
 
 struct deposit_params {
     uint n;
