@@ -27,15 +27,8 @@ PARAMS(erosion_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/empty.glsl"
+#include "erosion/bare.glsl"
 #include "erosion/budget.glsl"
-
-// The surface a voxel's bare faces stand for, in units of h^2.
-float bare_area(ivec3 v, vec3 n)
-{
-    return dot(abs(n), vec3(float(voxel_empty(v + ivec3(1, 0, 0))) + float(voxel_empty(v - ivec3(1, 0, 0))),
-                            float(voxel_empty(v + ivec3(0, 1, 0))) + float(voxel_empty(v - ivec3(0, 1, 0))),
-                            float(voxel_empty(v + ivec3(0, 0, 1))) + float(voxel_empty(v - ivec3(0, 0, 1)))));
-}
 
 void main()
 {

@@ -293,7 +293,7 @@ struct flow_params {
 };
 SHARED_SIZE(flow_params, 116)
 
-/* ---- water: see water/water.h. Cells are 2 x 2 x 2 voxels; voxel v lies in cell (v + shift) / 2. A column's
+/* ---- water: see water/water.h. Cells are cubes of `size` voxels a side; voxel v lies in cell (v + shift) / size. A column's
  * cells are bits, `words` words of 32 levels each; its spans are nodes, numbered upwards, column by column. */
 
 #define WATER_EMPTY 0u
@@ -308,6 +308,9 @@ SHARED_SIZE(flow_params, 116)
 /* Spacings that water takes in a step at most. */
 #define WATER_DEPTH 2.0f
 
+/* Falls count up to this many units of altitude, 2^-16 cells, so that four of them fit an int. */
+#define WATER_FALL 0x1fffffff
+
 /* What a hash is for (with water_params.random). */
 #define RANDOM_ROUGHNESS 1u
 #define RANDOM_RECEIVER 2u
@@ -316,31 +319,53 @@ SHARED_SIZE(flow_params, 116)
 struct water_params {
     uint n;
     uint vx, vy, vz; /* voxels of the domain */
-    uint sx, sy, sz; /* shift */
+    uint size;       /* voxels along a cell's side: 1 or 2 */
+    uint sx, sy, sz; /* shift; 0 where size is 1 */
     uint cx, cy, cz; /* cells */
     uint words;      /* of a column */
     uint nodes;      /* that many; also the number that stands for outside */
     uint basins;     /* likewise */
     uint leak;
-    uint random;             /* hash of seed, frame and step */
+    uint random; /* hash of seed, frame and step */
+    uint rain;   /* units that fall on a voxel's column */
+    uint round;
     float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
     uint walls;
 };
-SHARED_SIZE(water_params, 72)
+SHARED_SIZE(water_params, 84)
+
+/* What a span's water is split into. */
+#define WATER_WHOLE 0x8000u
+
+/* How wide streams are, and how they pull: cells of one voxel. */
+struct water_stream_params {
+    uint n;
+    uint cx, cy, cz;
+    uint words;
+    float h;                      /* m */
+    float rain_unit, spring_unit; /* m3/yr */
+    float width, power, least;    /* a stream of Q m3/yr is width Q^power wide, but at least so many m */
+    float narrowest, widest;      /* m: what cells can show of that */
+    float window;                 /* m: slopes are measured up to so far around */
+    float deep;              /* m: banks are so high; and water that stands so deep in a pit does not pull */
+    uint reach;              /* cells: the farthest that a stream or a slope reaches */
+    float pull, steepest;    /* k_f (Pa) */
+    float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
+    uint walls;
+};
+SHARED_SIZE(water_stream_params, 84)
 
 struct water_surface_params {
     uint n;
-    uint sx, sy, sz;
-    uint cx, cy, cz;
-    uint words;
-    float cell;                   /* m */
-    float rain_unit, spring_unit; /* m3/yr */
-    float rate, shear, threshold; /* k_t (1/Pa), k_f (Pa), tau_c (Pa) */
-    float steepest;
-    float most; /* m/kyr */
+    uint nx, ny, nz;               /* voxels, which are the cells */
+    float h;                       /* m */
+    uint words;                    /* of a column */
+    uint size, sx, sy, sz, cx, cy; /* of the crumbs' cells */
+    float rate, threshold;         /* k_t (1/Pa), tau_c (Pa) */
+    float most;                    /* m/kyr */
     uint walls;
 };
-SHARED_SIZE(water_surface_params, 68)
+SHARED_SIZE(water_surface_params, 64)
 
 /* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
 

@@ -42,6 +42,6 @@ void main()
     float columns = float((high.x - low.x) * (high.y - low.y));
     if (c.z == 0u)
         sum += float(k.sz) * columns; // the half of a cell that is below the ground
-    uint share = min(uint(sum / columns * 32256.0), 64512u);
+    uint share = min(uint(sum / columns * (64512.0 / float(k.size))), 64512u);
     AT(altitude, i) = rock ? (c.z << 16u) + share + (random_hash(k.random, at, 0u, RANDOM_ROUGHNESS) & 1023u) : 0u;
 }

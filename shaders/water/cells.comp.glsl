@@ -19,6 +19,7 @@ WRITE_U(10, receiver)
 PARAMS(water_params)
 #include "water/cell_of.glsl"
 #include "water/columns.glsl"
+#include "water/side.glsl"
 
 uint to_cell(uint node, uint self)
 {
@@ -44,12 +45,16 @@ void rock(uint i, uvec3 c, uint column, out uint kind, out uint to)
         node = node_at(column, c.z - 1u);
     } else {
         uint column_at[4] = uint[4](column + 1u, column + k.cx, column - 1u, column - k.cx);
+        bool within[4] = bool[4](c.x + 1u < k.cx, c.y + 1u < k.cy, c.x > 0u, c.y > 0u); // a wall is no air
+        bool air[4];
         uint falls = 0u;
-        for (int d = 0; d < 4; d++)
-            falls += is_occupied(column_at[d], c.z) ? 0u : 1u;
+        for (int d = 0; d < 4; d++) {
+            air[d] = within[d] && !is_occupied(column_at[d], c.z);
+            falls += air[d] ? 1u : 0u;
+        }
         int left = falls > 0u ? int(random_below(random_hash(k.random, i, 0u, RANDOM_RECEIVER), falls)) : 4;
         for (int d = 0; d < 4; d++)
-            if (!is_occupied(column_at[d], c.z)) {
+            if (air[d]) {
                 if (left == 0)
                     node = node_at(column_at[d], c.z);
                 left--;

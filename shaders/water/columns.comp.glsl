@@ -4,7 +4,7 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, rows)
+READ_U(0, rows) // words of bits along x; where cells are voxels, those of particles/held.glsl
 WRITE_U(1, occupied)
 WRITE_U(2, floors)
 WRITE_U(3, count)
@@ -17,14 +17,18 @@ void main()
         return;
     uint x = i % k.cx, y = (i / k.cx) % k.cy, word = i / (k.cx * k.cy), bits = 0u, above = 0u;
     uint wide = (k.cx + 31u) / 32u, slab = wide * k.cy, levels = min(k.cz - 32u * word, 33u);
-    uint at = 32u * word * slab + y * wide + (x >> 5u);
+    uint at = 32u * word * slab + y * wide + (x >> 5u), stride = 1u;
+    if (k.size == 1u) {
+        stride = HELD_STRIDE;
+        at = at * HELD_STRIDE + 2u;
+    }
     for (uint l = 0u; l < levels; l++) {
         uint rock = LOAD_U(rows, at) >> (x & 31u) & 1u;
         if (l < 32u)
             bits |= rock << l;
         else
             above = rock << 31u;
-        at += slab;
+        at += slab * stride;
     }
     uint bottoms = bits & ~(bits >> 1u | above);
     if (word == 0u && (bits & 1u) == 0u)

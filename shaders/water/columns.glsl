@@ -4,13 +4,6 @@
 
 const uint NONE = 0xffffffffu;
 
-// Where water leaves the domain: the cells at its open sides.
-bool is_side(uvec3 c)
-{
-    return (c.x == 0u && (k.walls & WALL_X_MIN) == 0u) || (c.x + 1u == k.cx && (k.walls & WALL_X_MAX) == 0u) ||
-           (c.y == 0u && (k.walls & WALL_Y_MIN) == 0u) || (c.y + 1u == k.cy && (k.walls & WALL_Y_MAX) == 0u);
-}
-
 bool is_occupied(uint column, uint z)
 {
     return (LOAD_U(occupied, column * k.words + (z >> 5u)) >> (z & 31u) & 1u) != 0u;

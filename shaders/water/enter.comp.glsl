@@ -52,7 +52,7 @@ void main()
     ivec2 low = ivec2((k.walls & WALL_X_MIN) != 0u ? 0 : margin.x, (k.walls & WALL_Y_MIN) != 0u ? 0 : margin.y);
     ivec2 high = last - ivec2((k.walls & WALL_X_MAX) != 0u ? 0 : margin.x, (k.walls & WALL_Y_MAX) != 0u ? 0 : margin.y);
     uvec3 voxel = uvec3(LOAD_U(source, 4u * i), LOAD_U(source, 4u * i + 1u), LOAD_U(source, 4u * i + 2u));
-    uvec3 c = (voxel + uvec3(k.sx, k.sy, k.sz)) / 2u;
+    uvec3 c = (voxel + uvec3(k.sx, k.sy, k.sz)) / k.size;
     ivec2 middle = clamp(ivec2(c.xy), low, high);
     uint best = NONE, nearest = FAR, widest = max(k.cx, k.cy);
     for (uint r = 0u; r < widest && r * r <= nearest; r++)

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What running water adds to the intensity on each particle of the surface (Arenite eq. 14): shear above the
-// threshold, held to what a step can take.
+// What running water adds to the intensity on each particle of the surface (Arenite eq. 14): shear above the threshold, held to
+// what a step can take. Water lowers the floors it runs over, each column by as much as its shear says: what the particle's
+// other bare faces would make of that (erosion/weather) is divided out.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -11,15 +12,15 @@ READ_V(2, normal)
 READ_U(3, occupied)
 READ_U(4, floors)
 READ_U(5, first)
-READ_U(6, altitude)
-READ_U(7, rain)
-READ_U(8, spring)
-READ_F(9, erodibility)
-WRITE_F(10, intensity)
-WRITE_U(11, parts) // deflation's and water's share in it
+READ_V(6, pull)
+READ_F(7, erodibility)
+WRITE_F(8, intensity)
+WRITE_U(9, parts) // deflation's and water's share in it
 PARAMS(water_surface_params)
+#include "particles/voxel.glsl"
 #include "water/columns.glsl"
-#include "water/discharge.glsl"
+#include "water/floor.glsl"
+#include "erosion/bare.glsl"
 
 void main()
 {
@@ -27,16 +28,18 @@ void main()
     if (i >= k.n)
         return;
     uint self = LOAD_U(list, i);
-    vec3 n = LOAD_V(normal, self).xyz;
-    if (n.z <= 0.0)
+    ivec3 v = voxel_of(LOAD_V(position, self).xyz);
+    uint node = floor_at(v);
+    float rate = LOAD_F(erodibility, self);
+    if (node == NONE || rate <= 0.0)
         return;
-    float rate = LOAD_F(erodibility, self), q = discharge_at(LOAD_V(position, self).xyz);
-    float slope = min(length(n.xy) / n.z, k.steepest);
-    if (rate <= 0.0 || q <= 0.0 || slope <= 0.0)
+    vec4 p = LOAD_V(pull, node);
+    float cut = k.rate * mix(max(p.y - k.threshold, 0.0), max(p.x - k.threshold, 0.0), p.z);
+    float area = max(bare_area(v, LOAD_V(normal, self).xyz), 0.1);
+    cut = min(cut, k.most / rate) / area;
+    if (cut <= 0.0)
         return;
-    float shear = k.shear * pow(q, 0.6) * pow(slope, 0.7);
-    float cut = min(k.rate * max(0.0, shear - k.threshold), k.most / rate), sum = AT(intensity, i) + cut;
+    float sum = AT(intensity, i) + cut;
     AT(intensity, i) = sum;
-    if (cut > 0.0)
-        AT(parts, i) = packUnorm2x16(vec2(unpackUnorm2x16(AT(parts, i)).x * (1.0 - cut / sum), cut / sum));
+    AT(parts, i) = packUnorm2x16(vec2(unpackUnorm2x16(AT(parts, i)).x * (1.0 - cut / sum), cut / sum));
 }

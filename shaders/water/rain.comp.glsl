@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Rain on the highest span of each column: as many units as the column has columns of voxels.
+// Rain on the highest span of each column: as many units for each column of voxels.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -19,5 +19,5 @@ void main()
         return;
     uvec3 low, high;
     cell_voxels(uvec3(column % k.cx, column / k.cx, 0u), low, high);
-    AT(rain, node_at(column, k.cz - 1u)) = (high.x - low.x) * (high.y - low.y);
+    AT(rain, node_at(column, k.cz - 1u)) = k.rain * (high.x - low.x) * (high.y - low.y);
 }

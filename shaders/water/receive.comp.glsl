@@ -17,6 +17,7 @@ WRITE_U(7, root)
 PARAMS(water_params)
 #include "water/cell_of.glsl"
 #include "water/columns.glsl"
+#include "water/side.glsl"
 
 void main()
 {
@@ -33,22 +34,15 @@ void main()
     column = c.y * k.cx + c.x;
     bool ground = !is_occupied(column, c.z);
     uint beside[4], fall[4];
-    uint falls = 0u, drop = 0u;
+    uint drop = 0u;
     for (int d = 0; d < 4; d++) {
         ivec2 to = ivec2(c.xy) + (d == 0 ? ivec2(1, 0) : d == 1 ? ivec2(0, 1) : d == 2 ? ivec2(-1, 0) : ivec2(0, -1));
         bool inside = to.x >= 0 && to.y >= 0 && to.x < int(k.cx) && to.y < int(k.cy) && !ground;
         uint other = inside ? uint(to.y) * k.cx + uint(to.x) : column, m = inside ? node_at(other, c.z) : NONE;
         bool air = m != NONE && !is_occupied(other, c.z);
         beside[d] = m;
-        fall[d] = 0u;
-        if (m != NONE && !air)
-            fall[d] = uint(max(int(own) - int(LOAD_U(altitude, m)), 0));
-        if (air) {
-            fall[d] = 1u << 31u;
-            falls++;
-        } else {
-            drop += fall[d];
-        }
+        fall[d] = m != NONE ? uint(clamp(int(own) - int(LOAD_U(altitude, m)), 0, WATER_FALL)) : 0u;
+        drop += fall[d];
         AT(pass, 4u * i + uint(d)) = air || d < 2 ? m : NONE;
     }
     uint to = i;
@@ -57,13 +51,12 @@ void main()
         to = k.nodes;
     } else if (k.leak != 0u && c.z > 0u && !is_occupied(column, c.z - 1u)) {
         to = node_at(column, c.z - 1u);
-    } else if (falls + drop > 0u) {
-        int left = int(random_below(hash, falls > 0u ? falls : drop));
+    } else if (drop > 0u) {
+        int left = int(random_below(hash, drop));
         for (int d = 0; d < 4; d++) {
-            int weight = falls > 0u ? (fall[d] >> 31u != 0u ? 1 : 0) : int(fall[d]);
-            if (left >= 0 && left < weight)
+            if (left >= 0 && left < int(fall[d]))
                 to = beside[d];
-            left -= weight;
+            left -= int(fall[d]);
         }
     }
     AT(receiver, i) = to;

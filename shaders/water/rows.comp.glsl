@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which of 32 cells of a row along x have particles, as bits.
+// Which of 32 cells of a row along x have particles, as bits. Cells of two voxels a side: single voxels are such bits.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

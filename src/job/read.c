@@ -12,22 +12,30 @@ enum { NODE_DEPTH = 24, MAX_KEYS = 64 };
 /* Strata, paints, cameras: some checks compare each with each. */
 enum { LIST_ITEMS = 4096 };
 
-/* Keys that there were, and what says it now. */
-static const struct {
-    enum job_section_id section;
-    const char *name, *now;
-} replaced[] = {
-    {SECTION_arches, "edges", "domain.sides, each of which is open or a wall (closed: four walls)"},
-};
+/* What to write instead of a key that there was; NULL: there never was one. */
+static const char *instead_of(enum job_section_id section, const char *key)
+{
+    static const struct {
+        enum job_section_id section;
+        const char *key, *instead;
+    } gone[] = {
+#define GONE(section, key, instead) {SECTION_##section, #key, instead},
+#include "job/keys.def"
+    };
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++)
+        if (gone[i].section == section && strcmp(gone[i].key, key) == 0)
+            return gone[i].instead;
+    return NULL;
+}
 
 static status unknown_key(enum job_section_id section, const struct yaml *at, const char *const *names,
                           size_t n)
 {
     char list[600];
     size_t used = 0;
-    for (size_t i = 0; i < sizeof replaced / sizeof *replaced; i++)
-        if (section == replaced[i].section && strcmp(at->key, replaced[i].name) == 0)
-            return yaml_fail_key(at, "replaced by %s", replaced[i].now);
+    const char *instead = instead_of(section, at->key);
+    if (instead)
+        return yaml_fail_key(at, "replaced by %s", instead);
     const char *near = nearest_word(at->key, names, n);
     if (near)
         return yaml_fail_key(at, "unknown key; did you mean %s?", near);

@@ -81,18 +81,21 @@ static status route(struct arenite *a, int step)
     status st = OK;
     const struct job *job = a->m.job;
     const bool deposits = depositing(a), flows = water_flows(job, a->m.frame);
-    const struct water_routing how = {.seed = (uint32_t)job->seed,
-                                      .frame = a->m.frame,
-                                      .step = step,
-                                      .leak = job->rain.leak,
-                                      .cells = deposits};
+    struct water_routing how = {.seed = (uint32_t)job->seed,
+                                .frame = a->m.frame,
+                                .step = step,
+                                .leak = job->rain.leak,
+                                .cells = deposits};
     gpu_stage(a->m.gpu, "water");
-    if (deposits || flows)
-        TRY(water_route(a->m.gpu, a->m.work, &a->water, &how, &a->particles));
-    if (flows)
-        TRY(water_discharge(a->m.gpu, a->m.work, &a->water, job, a->m.frame, &a->particles));
-    if (flows && deposits)
-        water_sweep(a->m.gpu, &a->water, job, &a->particles);
+    if (deposits)
+        TRY(water_route(a->m.gpu, a->m.work, &a->crumbs.ways, &how, &a->particles));
+    if (!flows)
+        goto done;
+    how.cells = false;
+    TRY(water_route(a->m.gpu, a->m.work, &a->water, &how, &a->particles));
+    TRY(water_discharge(a->m.gpu, a->m.work, &a->water, job, a->m.frame, &a->particles));
+    if (deposits)
+        water_sweep(a->m.gpu, &a->water, job, &a->particles, &a->crumbs);
 done:
     return st;
 }
@@ -101,9 +104,10 @@ done:
 static status land(struct arenite *a, int step, bool last, struct deposit_counts *moved)
 {
     status st = OK;
-    struct deposit_routing routing = {.tag = a->water.tag, .receiver = a->water.receiver};
-    memcpy(routing.cells, a->water.cells, sizeof routing.cells);
-    memcpy(routing.shift, a->water.shift, sizeof routing.shift);
+    const struct water *ways = &a->crumbs.ways;
+    struct deposit_routing routing = {.tag = ways->tag, .receiver = ways->receiver};
+    memcpy(routing.cells, ways->cells, sizeof routing.cells);
+    memcpy(routing.shift, ways->shift, sizeof routing.shift);
     gpu_stage(a->m.gpu, "deposition");
     weigh(a, PROCESS_DEPOSITION, false);
     TRY(deposit_land(a->m.gpu, a->m.work, &a->deposit, a->m.job, a->m.frame, step, &routing, &a->particles,

@@ -29,9 +29,11 @@
     PART(wind, LASTS_RUN, wind_bytes(job, voxels), wind_create(a->m.gpu, a->m.whole, a->m.voxels, &a->wind)) \
     PART(deposit, LASTS_JOB, arenite_ever(job, deposit_wanted) ? deposit_bytes(voxels) : 0,                  \
          a->deposits ? deposit_create(a->m.gpu, a->m.voxels, &a->deposit) : OK)                              \
-    PART(water, LASTS_JOB,                                                                                   \
-         arenite_ever(job, arenite_routes) ? water_bytes(voxels, arenite_ever(job, deposit_wanted)) : 0,     \
-         arenite_routes(a->m.job) ? water_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->water) : OK)   \
+    PART(water, LASTS_JOB, arenite_ever(job, water_ever_flows) ? water_bytes(voxels, 1) : 0,                 \
+         water_ever_flows(a->m.job) ? water_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, 1, &a->water)    \
+                                    : OK)                                                                    \
+    PART(crumbs, LASTS_JOB, arenite_ever(job, deposit_wanted) ? water_bytes(voxels, 2) : 0,                  \
+         a->deposits ? crumbs_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->crumbs) : OK)              \
     PART(erosion, LASTS_ROCK, erosion_bytes(n),                                                              \
          erosion_create(a->m.gpu, a->m.job, a->particles.n_max, &a->erosion))                                \
     PART(collapse, LASTS_ROCK, collapse_bytes(job, n, voxels),                                               \
@@ -81,9 +83,6 @@ void arenite_destroy_particles(struct arenite *a);
 /* The parts that last so long, but for those of rock: the two above have them. */
 MUST_USE status arenite_create_parts(struct arenite *a, enum lasts lasts);
 void arenite_destroy_parts(struct arenite *a, enum lasts lasts);
-
-/* Does anything in the job need to know where water runs? */
-bool arenite_routes(const struct job *job);
 
 /* Does the stress grid find its stress? Rock in motion has its own, and so do material points at rest. */
 bool arenite_rests(const struct job *job);

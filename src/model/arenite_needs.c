@@ -5,11 +5,6 @@
 #include "plants/plants.h"
 #include "scene/scene.h"
 
-bool arenite_routes(const struct job *job)
-{
-    return water_ever_flows(job) || deposit_wanted(job);
-}
-
 bool arenite_ever(const struct job *job, bool (*wanted)(const struct job *))
 {
     bool any = wanted(job);

@@ -20,6 +20,7 @@ struct water_params water_params(const struct water *w, size_t n)
                                  .vx = (uint)w->voxels[0],
                                  .vy = (uint)w->voxels[1],
                                  .vz = (uint)w->voxels[2],
+                                 .size = (uint)w->size,
                                  .sx = (uint)w->shift[0],
                                  .sy = (uint)w->shift[1],
                                  .sz = (uint)w->shift[2],
@@ -31,6 +32,7 @@ struct water_params water_params(const struct water *w, size_t n)
                                  .basins = (uint)w->n_basins,
                                  .leak = w->leak,
                                  .random = w->random,
+                                 .rain = w->rain_units,
                                  .per_row = 1.0f / (float)w->cells[0],
                                  .per_slab = 1.0f / (float)w->columns,
                                  .walls = w->walls};
@@ -41,13 +43,15 @@ static status find_nodes(struct gpu *gpu, struct gpu_work *work, struct water *w
 {
     status st = OK;
     size_t n_words = w->columns * w->words;
+    struct gpu_buffer *rows = w->rows ? w->rows : p->held.words; /* which has voxels as such rows */
     struct water_params k = water_params(w, n_words);
     uint32_t n_nodes;
     gpu_fill(gpu, w->first, 0);
     k.n = (uint)(((size_t)w->cells[0] + 31) / 32 * (size_t)w->cells[1] * (size_t)w->cells[2]);
-    GPU_RUN(gpu, water_rows, k.n, k, p->held.words, w->rows);
+    if (w->rows)
+        GPU_RUN(gpu, water_rows, k.n, k, p->held.words, w->rows);
     k.n = (uint)n_words;
-    GPU_RUN(gpu, water_columns, n_words, k, w->rows, w->occupied, w->floors, w->first);
+    GPU_RUN(gpu, water_columns, n_words, k, rows, w->occupied, w->floors, w->first);
     gpu_scan(gpu, work, w->first, n_words + 1);
     TRY(gpu_download(gpu, w->first, n_words, &n_nodes, 1));
     w->n_nodes = n_nodes;
@@ -121,11 +125,15 @@ status water_route(struct gpu *gpu, struct gpu_work *work, struct water *w, cons
     struct gpu_buffer **node = w->node;
     w->random = water_random(how, w->shift);
     w->leak = how->leak;
-    for (int a = 0; a < 3; a++)
-        w->cells[a] = w->voxels[a] / 2 + w->shift[a];
+    for (int a = 0; a < 3; a++) {
+        w->shift[a] = w->size > 1 ? w->shift[a] : 0;
+        w->cells[a] = w->voxels[a] / w->size + w->shift[a];
+    }
     w->columns = (size_t)w->cells[0] * (size_t)w->cells[1];
     w->words = ((size_t)w->cells[2] + 31) / 32;
     w->n_basins = 0;
+    for (w->rain_units = 1U << 20; w->rain_units > 1 && w->columns >= (1U << 31) / w->rain_units;)
+        w->rain_units /= 2;
     TRY(find_nodes(gpu, work, w, p));
     TRY(find_basins(gpu, work, w, &n_border));
     TRY(join_basins(gpu, work, w, n_border));

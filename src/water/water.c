@@ -12,33 +12,36 @@ struct most {
     size_t cells, columns, words, row_words;
 };
 
-static struct most most_of(const int voxels[3])
+static struct most most_of(const int voxels[3], int size)
 {
     size_t n[3];
     for (int a = 0; a < 3; a++)
-        n[a] = (size_t)voxels[a] / 2 + 1;
+        n[a] = (size_t)(voxels[a] / size + (size > 1));
     return (struct most){n[0] * n[1] * n[2], n[0] * n[1], (n[2] + 31) / 32, (n[0] + 31) / 32 * n[1] * n[2]};
 }
 
-/* Room for as many spans as are usual: a surface that lies 8 times over itself. */
-static size_t usual_nodes(const struct most *m)
+/* Room for as many spans as are usual: a surface that lies twice over itself, or a fine one in coarse cells. */
+static size_t usual_nodes(const struct most *m, int size)
 {
-    size_t many = 8 * m->columns;
+    size_t many = (size > 1 ? 8 : 2) * m->columns;
     return many < m->cells ? many : m->cells;
 }
 
-uint64_t water_bytes(const int voxels[3], bool cells)
+/* Words of a span: arrays, passes; and of streams. */
+enum { NODE_WORDS = WATER_NODE_ARRAYS + 4, STREAM_WORDS = 2 + 2 + 4 + 4 };
+
+uint64_t water_bytes(const int voxels[3], int size)
 {
-    struct most m = most_of(voxels);
-    return (cells ? 12 * (uint64_t)m.cells : 0) + 4 * (uint64_t)m.row_words +
+    struct most m = most_of(voxels, size);
+    return (size > 1 ? 12 * (uint64_t)m.cells + 4 * (uint64_t)m.row_words : 0) +
            12 * (uint64_t)(m.columns * m.words + 1) +
-           4 * (WATER_NODE_ARRAYS + 4) * (uint64_t)(usual_nodes(&m) + 1);
+           4 * (uint64_t)(size > 1 ? NODE_WORDS : NODE_WORDS + STREAM_WORDS) * (usual_nodes(&m, size) + 1);
 }
 
 status water_reserve_cells(struct gpu *gpu, struct water *w)
 {
     status st = OK;
-    const struct most m = most_of(w->voxels);
+    const struct most m = most_of(w->voxels, w->size);
     if (w->tag)
         return OK;
     TRY(gpu_buffer_create(gpu, "water cells' kinds", m.cells, 4, &w->tag));
@@ -53,27 +56,45 @@ status water_reserve(struct gpu *gpu, struct water *w, size_t n)
     status st = OK;
     if (n <= w->nodes_max)
         return OK;
-    struct most m = most_of(w->voxels);
+    struct most m = most_of(w->voxels, w->size);
     size_t room = n + n / 4;
     w->nodes_max = 0;
     for (int i = 0; i < WATER_NODE_ARRAYS; i++)
         gpu_buffer_destroy(gpu, &w->node[i]);
     gpu_buffer_destroy(gpu, &w->pass);
-    if (room < usual_nodes(&m))
-        room = usual_nodes(&m);
+    gpu_buffer_destroy(gpu, &w->shares);
+    gpu_buffer_destroy(gpu, &w->heading);
+    gpu_buffer_destroy(gpu, &w->stream);
+    gpu_buffer_destroy(gpu, &w->pull);
+    if (room < usual_nodes(&m, w->size))
+        room = usual_nodes(&m, w->size);
     for (int i = 0; i < WATER_NODE_ARRAYS; i++)
         TRY(gpu_buffer_create(gpu, "water", room + 1, 4, &w->node[i]));
     TRY(gpu_buffer_create(gpu, "water passes", 4 * room, 4, &w->pass));
+    if (w->size == 1) {
+        TRY(gpu_buffer_create(gpu, "water's shares", 2 * room, 4, &w->shares));
+        TRY(gpu_buffer_create(gpu, "water's heading", 2 * room, 4, &w->heading));
+        TRY(gpu_buffer_create(gpu, "streams", room, 16, &w->stream));
+        TRY(gpu_buffer_create(gpu, "water's pull", room, 16, &w->pull));
+    }
     w->nodes_max = room;
 done:
     return st;
 }
+
+/* Spacings: the radius from which on a bed's voxels are in one piece whatever its direction. */
+static const double BED = 1.5;
 
 static status source_voxel(const struct job *job, size_t i, const int voxels[3], double h, uint32_t out[4])
 {
     const struct job_source *s = &job->sources[i];
     if (s->n_path_m == 0)
         return fail(E_USAGE, "sources[%zu].path_m: needs at least one point, where the water enters", i);
+    if (s->bed_m > 0 && s->bed_m < BED * h)
+        log_warn("sources[%zu].bed_m: a bed of %g m radius may be cut into pieces at a spacing of %g m: make "
+                 "it %g m, or the "
+                 "spacing finer",
+                 i, s->bed_m, h, BED * h);
     const double *x = s->path_m[0];
     for (int a = 0; a < 3; a++) {
         double v = floor(x[a] / h);
@@ -88,14 +109,18 @@ static status source_voxel(const struct job *job, size_t i, const int voxels[3],
     return OK;
 }
 
-status water_create(struct gpu *gpu, const struct job *job, const int voxels[3], double h, struct water *w)
+status water_create(struct gpu *gpu, const struct job *job, const int voxels[3], double h, int size,
+                    struct water *w)
 {
     status st = OK;
     uint32_t *source = NULL;
-    struct most m = most_of(voxels);
-    *w = (struct water){
-        .n_sources = job->n_sources, .voxels = {voxels[0], voxels[1], voxels[2]}, .walls = job_walls(job)};
-    TRY(gpu_buffer_create(gpu, "rows of cells", m.row_words, 4, &w->rows));
+    struct most m = most_of(voxels, size);
+    *w = (struct water){.size = size,
+                        .n_sources = job->n_sources,
+                        .voxels = {voxels[0], voxels[1], voxels[2]},
+                        .walls = job_walls(job)};
+    if (size > 1)
+        TRY(gpu_buffer_create(gpu, "rows of cells", m.row_words, 4, &w->rows));
     TRY(gpu_buffer_create(gpu, "occupied cells", m.columns * m.words + 1, 4, &w->occupied));
     TRY(gpu_buffer_create(gpu, "floors", m.columns * m.words + 1, 4, &w->floors));
     TRY(gpu_buffer_create(gpu, "first spans", m.columns * m.words + 1, 4, &w->first));
@@ -115,13 +140,24 @@ done:
 
 void water_destroy(struct gpu *gpu, struct water *w)
 {
-    struct gpu_buffer **all[] = {&w->tag,    &w->z,     &w->receiver, &w->rows,   &w->occupied,
-                                 &w->floors, &w->first, &w->pass,     &w->source, &w->entry};
+    struct gpu_buffer **all[] = {&w->tag,    &w->z,       &w->receiver, &w->rows,   &w->occupied,
+                                 &w->floors, &w->first,   &w->pass,     &w->source, &w->entry,
+                                 &w->shares, &w->heading, &w->stream,   &w->pull};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
     for (int i = 0; i < WATER_NODE_ARRAYS; i++)
         gpu_buffer_destroy(gpu, &w->node[i]);
     *w = (struct water){0};
+}
+
+status crumbs_create(struct gpu *gpu, const struct job *job, const int voxels[3], double h, struct crumbs *c)
+{
+    return water_create(gpu, job, voxels, h, 2, &c->ways);
+}
+
+void crumbs_destroy(struct gpu *gpu, struct crumbs *c)
+{
+    water_destroy(gpu, &c->ways);
 }
 
 bool water_flows(const struct job *job, int frame)
@@ -142,142 +178,4 @@ bool water_ever_flows(const struct job *job)
         if (curve_max(&job->sources[i].m3_per_yr) > 0)
             return true;
     return false;
-}
-
-/* ---- discharge */
-
-static status let_it_rain(struct gpu *gpu, struct gpu_work *work, struct water *w)
-{
-    status st = OK;
-    struct gpu_buffer **node = w->node, *counts = gpu_work_words(work);
-    struct gpu_buffer *sum[2] = {node[WATER_RAIN], node[WATER_SCRATCH]};
-    struct gpu_buffer *pointer[2] = {node[WATER_SCRATCH + 1], node[WATER_SCRATCH + 2]};
-    struct water_params k = water_params(w, w->columns);
-    uint32_t changed = 1;
-    GPU_RUN(gpu, water_rain, k.n, k, w->occupied, w->floors, w->first, sum[0]);
-    k.n = (uint)w->n_nodes + 1;
-    GPU_RUN(gpu, water_downstream, k.n, k, node[WATER_FINAL], pointer[0]);
-    for (int round = 0; changed; round++) {
-        if (round == 32) /* 2^64 hops */
-            return fail(E_NUMERIC, "water: %zu receivers have a cycle: the device computes wrongly",
-                        w->n_nodes);
-        gpu_fill(gpu, counts, 0);
-        for (int i = 0; i < 2; i++) {
-            gpu_copy(gpu, sum[!i], sum[i], w->n_nodes + 1);
-            GPU_RUN(gpu, water_push, k.n, k, pointer[i], sum[i], sum[!i], pointer[!i], counts);
-        }
-        TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
-    }
-done:
-    return st;
-}
-
-/* Tells once of sources whose water enters elsewhere. */
-static status tell_entries(struct gpu *gpu, struct water *w)
-{
-    status st = OK;
-    uint32_t *entry = NULL;
-    if (w->entered)
-        return OK;
-    w->entered = true;
-    TRY(memory_alloc(2 * w->n_sources, 4, "sources", &entry));
-    TRY(gpu_download(gpu, w->entry, 0, entry, 2 * w->n_sources));
-    for (size_t i = 0; i < w->n_sources; i++)
-        if (entry[2 * i + 1] > 1)
-            log_warn("sources[%zu].path_m: begins inside rock; its water enters at the nearest place that is "
-                     "not, %.3g cells of two spacings away: begin it in the open, or give it a bed_m",
-                     i, sqrt(entry[2 * i + 1]));
-done:
-    free(entry);
-    return st;
-}
-
-static status let_it_spring(struct gpu *gpu, struct water *w, const struct job *job, int frame)
-{
-    status st = OK;
-    double sum = 0;
-    struct gpu_buffer **node = w->node;
-    struct water_params k = water_params(w, w->n_sources);
-    for (size_t i = 0; i < w->n_sources; i++)
-        sum += curve_at(&job->sources[i].m3_per_yr, frame);
-    w->spring_unit = sum / 2147483648.0;
-    if (!(sum > 0))
-        goto done;
-    for (size_t i = 0; i < w->n_sources; i++) {
-        double share = curve_at(&job->sources[i].m3_per_yr, frame) / w->spring_unit;
-        uint32_t amount = share > 0 ? (uint32_t)fmax(1, share) : 0;
-        TRY(gpu_upload(gpu, w->source, 4 * i + 3, &amount, 1));
-    }
-    GPU_RUN(gpu, water_enter, k.n, k, w->occupied, w->floors, w->first, node[WATER_BASIN],
-            node[WATER_COMPONENT], w->source, w->entry);
-    GPU_RUN(gpu, water_spring, k.n, k, w->entry, w->source, node[WATER_FINAL], node[WATER_SPRING]);
-    TRY(tell_entries(gpu, w));
-done:
-    return st;
-}
-
-status water_discharge(struct gpu *gpu, struct gpu_work *work, struct water *w, const struct job *job,
-                       int frame, const struct particles *p)
-{
-    status st = OK;
-    double rain = curve_at(&job->rain.m_per_yr, frame);
-    w->rain_unit = rain * p->h * p->h;
-    gpu_fill(gpu, w->node[WATER_RAIN], 0);
-    gpu_fill(gpu, w->node[WATER_SPRING], 0);
-    if (rain > 0)
-        TRY(let_it_rain(gpu, work, w));
-    TRY(let_it_spring(gpu, w, job, frame));
-done:
-    return st;
-}
-
-/* ---- the surface */
-
-static struct water_surface_params surface_params(const struct water *w, const struct particles *p)
-{
-    return (struct water_surface_params){.n = (uint)p->n_surface,
-                                         .sx = (uint)w->shift[0],
-                                         .sy = (uint)w->shift[1],
-                                         .sz = (uint)w->shift[2],
-                                         .cx = (uint)w->cells[0],
-                                         .cy = (uint)w->cells[1],
-                                         .cz = (uint)w->cells[2],
-                                         .words = (uint)w->words,
-                                         .cell = (float)(2 * p->h),
-                                         .rain_unit = (float)w->rain_unit,
-                                         .spring_unit = (float)w->spring_unit,
-                                         .walls = w->walls};
-}
-
-void water_show(struct gpu *gpu, struct water *w, struct particles *p)
-{
-    struct water_surface_params k = surface_params(w, p);
-    gpu_fill(gpu, p->field[ROCK_discharge], 0);
-    GPU_RUN(gpu, water_show, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
-            w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING],
-            p->field[ROCK_discharge]);
-}
-
-void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct particles *p)
-{
-    struct water_surface_params k = surface_params(w, p);
-    k.shear = (float)job->rain.shear_Pa;
-    k.threshold = (float)job->deposition.carry_Pa;
-    k.steepest = (float)job->rain.steepest;
-    GPU_RUN(gpu, water_sweep, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
-            w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING], w->tag);
-}
-
-void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
-                 struct particles *p, struct gpu_buffer *intensity, struct gpu_buffer *parts)
-{
-    struct water_surface_params k = surface_params(w, p);
-    k.rate = (float)curve_at(&job->rain.erosion, frame);
-    k.shear = (float)job->rain.shear_Pa;
-    k.threshold = (float)curve_at(&job->rain.threshold_Pa, frame);
-    k.steepest = (float)job->rain.steepest;
-    k.most = (float)(WATER_DEPTH * p->h / kyr);
-    GPU_RUN(gpu, water_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
-            w->floors, w->first, w->node[WATER_Z], w->node[WATER_RAIN], w->node[WATER_SPRING],
-            p->field[ROCK_erodibility], intensity, parts);
 }

@@ -165,7 +165,8 @@ static struct pillars pillars(const char *what, const char *weather)
     return out;
 }
 
-#define WATER "rain: {m_per_yr: 1, erosion: 6, shear_Pa: 0.2, threshold_Pa: 0.35}\n"
+#define WATER                                                                                                \
+    "rain: {m_per_yr: 2, erosion: 6, pull_Pa: 0.3, threshold_Pa: 0.35, least_width_m: 1.5, slope_m: 3}\n"
 #define WIND "wind: {direction: [0.7, 0.7, 0], abrasion: 0.15, deflation: {intensity: 0.5}}\n"
 #define CALM "wind: {abrasion: 0, deflation: {intensity: 0}}\n"
 
@@ -266,11 +267,11 @@ static void a_threshold_moves_gullies_down_and_apart(void **state)
 {
     (void)state;
     struct gullies none =
-        gullies("no threshold", "rain: {m_per_yr: 1, erosion: 3, shear_Pa: 0.2, threshold_Pa: 0}\n");
+        gullies("no threshold", "rain: {m_per_yr: 1, erosion: 3, pull_Pa: 0.3, threshold_Pa: 0}\n");
     struct gullies some =
-        gullies("threshold 0.6 Pa", "rain: {m_per_yr: 1, erosion: 3, shear_Pa: 0.2, threshold_Pa: 0.6}\n");
+        gullies("threshold 0.6 Pa", "rain: {m_per_yr: 1, erosion: 3, pull_Pa: 0.3, threshold_Pa: 0.6}\n");
     struct gullies high =
-        gullies("threshold 1.2 Pa", "rain: {m_per_yr: 1, erosion: 3, shear_Pa: 0.2, threshold_Pa: 1.2}\n");
+        gullies("threshold 1.2 Pa", "rain: {m_per_yr: 1, erosion: 3, pull_Pa: 0.3, threshold_Pa: 1.2}\n");
     assert_true(none.untouched < 0.1);
     assert_true(some.untouched > none.untouched + 0.1 && high.untouched > some.untouched + 0.1);
     assert_true(some.head > none.head + 2 && high.head > some.head + 1);

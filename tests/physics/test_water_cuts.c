@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "shared/params.h"
 #include "water_help.h"
 
 /* ---- catchments */
@@ -37,6 +38,14 @@ struct gauge {
     double dam;           /* over the dams' crests, in the mean */
 };
 
+static uint32_t *words(struct gpu *gpu, const struct gpu_buffer *b, size_t n)
+{
+    uint32_t *data = calloc(n, 4);
+    assert_non_null(data);
+    assert_ok(gpu_download(gpu, b, 0, data, n));
+    return data;
+}
+
 static struct gauge measure(struct gpu *gpu, double h, int step)
 {
     struct gauge g = {0};
@@ -46,35 +55,31 @@ static struct gauge measure(struct gpu *gpu, double h, int step)
     spacing = h;
     struct scene scene = {.n = {(int)(32 / h), (int)(32 / h), (int)(20 / h)}};
     struct bed bed = bed_of(gpu, &scene, h, valleys);
-    struct water_routing how = {.seed = 11, .frame = 4, .step = step, .cells = true};
+    struct water_routing how = {.seed = 11, .frame = 4, .step = step};
     job_of_rain(&job, &year);
-    assert_ok(water_create(gpu, &job, bed.n, h, &w));
+    assert_ok(water_create(gpu, &job, bed.n, h, 1, &w));
     assert_ok(water_route(gpu, bed.work, &w, &how, &bed.p));
     assert_ok(water_discharge(gpu, bed.work, &w, &job, 1, &bed.p));
-    uint32_t *cell = calloc(w.n_nodes, 4), *rain = calloc(w.n_nodes, 4), *final = calloc(w.n_nodes, 4);
-    assert_non_null(cell);
-    assert_non_null(rain);
-    assert_non_null(final);
-    assert_ok(gpu_download(gpu, w.node[WATER_CELL], 0, cell, w.n_nodes));
-    assert_ok(gpu_download(gpu, w.node[WATER_RAIN], 0, rain, w.n_nodes));
-    assert_ok(gpu_download(gpu, w.node[WATER_FINAL], 0, final, w.n_nodes));
-    for (size_t i = 0; i < w.n_nodes; i++) {
-        uint32_t nx = (uint32_t)w.cells[0], ny = (uint32_t)w.cells[1], x = cell[i] % nx,
-                 y = cell[i] / nx % ny;
-        double along = (2.0 * y + 1 - w.shift[1]) * h, across = (2.0 * x + 1 - w.shift[0]) * h;
+    const size_t n = w.n_nodes;
+    const uint32_t nx = (uint32_t)w.cells[0], ny = (uint32_t)w.cells[1];
+    uint32_t *cell = words(gpu, w.node[WATER_CELL], n), *rain = words(gpu, w.node[WATER_RAIN], n);
+    uint32_t *to = words(gpu, w.pass, 4 * n), *shares = words(gpu, w.shares, 2 * n);
+    for (size_t i = 0; i < n; i++) {
+        const double along = (cell[i] / nx % ny + 0.5) * h, across = (cell[i] % nx + 0.5) * h;
         if (along < 3 || along > 31)
             continue;
-        if (final[i] == w.n_nodes && x == 0)
+        if (cell[i] % nx == 0)
             *(along < 17 ? &g.first : &g.second) += rain[i] * w.rain_unit;
-        if (final[i] < w.n_nodes) {
-            double to = (2.0 * (cell[final[i]] % nx) + 1 - w.shift[0]) * h;
-            if (across > 13 && to <= 13)
-                g.dam += rain[i] * w.rain_unit / 2;
+        for (size_t d = 0; d < 4; d++) {
+            const double share = (double)(shares[2 * i + d / 2] >> 16 * (d % 2) & 0xffff) / WATER_WHOLE;
+            if (share > 0 && across > 13 && (cell[to[4 * i + d]] % nx + 0.5) * h <= 13)
+                g.dam += share * rain[i] * w.rain_unit / 2;
         }
     }
     free(cell);
     free(rain);
-    free(final);
+    free(to);
+    free(shares);
     water_destroy(gpu, &w);
     bed_free(&bed);
     return g;

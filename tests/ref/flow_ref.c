@@ -34,7 +34,18 @@ static size_t cell(const struct flow_ref *f, int x, int y, int z)
 
 static bool at_side(const struct flow_ref *f, struct place p)
 {
-    return p.x == 0 || p.y == 0 || p.x == f->cells[0] - 1 || p.y == f->cells[1] - 1;
+    return (p.x == 0 && !(f->walls & WALL_X_MIN)) || (p.x == f->cells[0] - 1 && !(f->walls & WALL_X_MAX)) ||
+           (p.y == 0 && !(f->walls & WALL_Y_MIN)) || (p.y == f->cells[1] - 1 && !(f->walls & WALL_Y_MAX));
+}
+
+/* The cell beside one, a step along a way; false: there is a wall. */
+static bool beside_of(const struct flow_ref *f, struct place p, int d, size_t *c)
+{
+    const int x = p.x + step_x[d], y = p.y + step_y[d];
+    if (x < 0 || y < 0 || x >= f->cells[0] || y >= f->cells[1])
+        return false;
+    *c = cell(f, x, y, p.z);
+    return true;
 }
 
 static uint32_t kind(const struct flow_ref *f, size_t c)
@@ -69,7 +80,7 @@ static void find_kinds(struct flow_ref *f, const struct rock *rock, const int vo
         int c[3];
         for (size_t a = 0; a < 3; a++) {
             int v = (int)floorf(rock->P[4 * i + a] / (float)h);
-            c[a] = ((v < 0 ? 0 : v >= voxels[a] ? voxels[a] - 1 : v) + shift[a]) / 2;
+            c[a] = ((v < 0 ? 0 : v >= voxels[a] ? voxels[a] - 1 : v) + shift[a]) / f->size;
         }
         size_t at = cell(f, c[0], c[1], c[2]);
         rocky[at] = 1;
@@ -84,12 +95,12 @@ static void find_kinds(struct flow_ref *f, const struct rock *rock, const int vo
             continue;
         int wide[2], at[2] = {p.x, p.y};
         for (int a = 0; a < 2; a++) {
-            int low = 2 * at[a] - shift[a], high = low + 2;
+            int low = f->size * at[a] - shift[a], high = low + f->size;
             wide[a] = (high > voxels[a] ? voxels[a] : high) - (low < 0 ? 0 : low);
         }
         float columns = (float)(wide[0] * wide[1]);
         float rock_in = sum[c] + (p.z == 0 ? (float)shift[2] * columns : 0);
-        uint32_t share = (uint32_t)(rock_in / columns * 32256.0f);
+        uint32_t share = (uint32_t)(rock_in / columns * (64512.0f / (float)f->size));
         f->z[c] +=
             (share < 64512 ? share : 64512) + (random_hash(random, (uint32_t)c, 0, RANDOM_ROUGHNESS) & 1023);
         f->altitude[c] = f->z[c];
@@ -112,7 +123,7 @@ static size_t first_receiver(const struct flow_ref *f, size_t c, uint32_t random
 {
     struct place p = place_of(f, c);
     uint32_t hash = random_hash(random, (uint32_t)c, 0, RANDOM_RECEIVER), weight[4] = {0}, sum = 0;
-    bool rock = kind(f, c) == WATER_SOLID, any = false;
+    bool rock = kind(f, c) == WATER_SOLID;
     size_t beside[4];
     if (is_out(f, c))
         return c;
@@ -120,14 +131,14 @@ static size_t first_receiver(const struct flow_ref *f, size_t c, uint32_t random
         return f->floor[c];
     if ((rock || leak) && p.z > 0 && is_air(f, p.x, p.y, p.z - 1))
         return f->floor[cell(f, p.x, p.y, p.z - 1)];
-    for (int d = 0; d < 4; d++)
-        any |= is_air(f, p.x + step_x[d], p.y + step_y[d], p.z);
     for (int d = 0; d < 4; d++) {
-        beside[d] = cell(f, p.x + step_x[d], p.y + step_y[d], p.z);
-        if (any)
+        if (!beside_of(f, p, d, &beside[d]))
+            continue;
+        uint32_t to = f->altitude[f->floor[beside[d]]];
+        if (rock)
             weight[d] = kind(f, beside[d]) == WATER_EMPTY;
-        else if (!rock && kind(f, beside[d]) == WATER_SURF && f->z[beside[d]] < f->z[c])
-            weight[d] = f->z[c] - f->z[beside[d]];
+        else if (is_open(f, beside[d]) && to < f->z[c])
+            weight[d] = f->z[c] - to;
         sum += weight[d];
     }
     if (sum == 0)
@@ -271,8 +282,8 @@ static void add_up(struct flow_ref *f, const int voxels[3], const int shift[3])
     size_t *queue = need(f->n, sizeof *queue), head = 0, tail = 0;
     for (int y = 0; y < f->cells[1]; y++)
         for (int x = 0; x < f->cells[0]; x++)
-            for (int s = 0; s < 4; s++) {
-                int vx = 2 * x + (s & 1) - shift[0], vy = 2 * y + (s >> 1) - shift[1];
+            for (int s = 0; s < f->size * f->size; s++) {
+                int vx = f->size * x + s % f->size - shift[0], vy = f->size * y + s / f->size - shift[1];
                 if (vx >= 0 && vy >= 0 && vx < voxels[0] && vy < voxels[1])
                     f->rain[f->floor[cell(f, x, y, f->cells[2] - 1)]]++;
             }
@@ -294,12 +305,12 @@ static void add_up(struct flow_ref *f, const int voxels[3], const int shift[3])
     free(queue);
 }
 
-struct flow_ref flow_ref_route(const struct rock *rock, const int voxels[3], double h, const int shift[3],
-                               uint32_t random, bool leak)
+struct flow_ref flow_ref_route(const struct rock *rock, const int voxels[3], double h, int size,
+                               const int shift[3], uint32_t random, bool leak, unsigned walls)
 {
-    struct flow_ref f = {.n = 1};
+    struct flow_ref f = {.n = 1, .size = size, .walls = walls};
     for (int a = 0; a < 3; a++) {
-        f.cells[a] = voxels[a] / 2 + shift[a];
+        f.cells[a] = voxels[a] / size + shift[a];
         f.n *= (size_t)f.cells[a];
     }
     f.tag = need(f.n, 4);
@@ -421,4 +432,108 @@ uint32_t *flow_ref_levels(const struct flow_ref *f, bool leak)
     }
     free(heap.item);
     return level;
+}
+
+/* ---- the split */
+
+/* Of the water; what has no way out stands no higher than its floor. */
+static uint32_t level_at(const struct flow_ref *f, const uint32_t *level, size_t c)
+{
+    return level[c] == UINT32_MAX ? f->altitude[c] : level[c];
+}
+
+/* To whom a floor gives, in shares of WATER_WHOLE; how many. */
+static int split_of(const struct flow_ref *f, const uint32_t *level, size_t c, bool leak, size_t to[4],
+                    uint32_t share[4])
+{
+    const struct place p = place_of(f, c);
+    uint32_t drop[4] = {0}, highest = 0, sum = 0, given = 0;
+    size_t below[4];
+    int n = 0, most = 0;
+    const uint32_t own = level_at(f, level, c);
+    if (is_out(f, c))
+        return 0;
+    const bool drips = leak && p.z > 0 && is_air(f, p.x, p.y, p.z - 1);
+    for (int d = 0; d < 4 && !drips && own == f->altitude[c]; d++) {
+        size_t beside;
+        if (!beside_of(f, p, d, &beside) || !is_open(f, beside))
+            continue;
+        below[d] = f->floor[beside];
+        const uint32_t there = level_at(f, level, below[d]);
+        if (there >= own)
+            continue;
+        drop[d] = own - there;
+        highest = drop[d] > highest ? drop[d] : highest;
+    }
+    if (highest == 0) {
+        to[0] = f->receiver[c];
+        share[0] = WATER_WHOLE;
+        return to[0] != c;
+    }
+    for (; highest >> 15; highest >>= 1)
+        for (int d = 0; d < 4; d++)
+            drop[d] >>= 1;
+    for (int d = 0; d < 4; d++) {
+        sum += drop[d];
+        most = drop[d] > drop[most] ? d : most;
+    }
+    for (int d = 0; d < 4; d++)
+        given += drop[d] * WATER_WHOLE / sum;
+    for (int d = 0; d < 4; d++) {
+        const uint32_t part = drop[d] * WATER_WHOLE / sum + (d == most ? WATER_WHOLE - given : 0);
+        if (part == 0)
+            continue;
+        to[n] = below[d];
+        share[n++] = part;
+    }
+    return n;
+}
+
+/* Parts of `whole` by shares; the largest share's, of equals the first, has what is left of rounding. */
+static void parts_of(uint32_t whole, const uint32_t *share, int n, uint32_t part[4])
+{
+    int last = 0;
+    uint32_t given = 0;
+    for (int i = 0; i < n; i++) {
+        part[i] = (uint32_t)((uint64_t)whole * share[i] >> 15);
+        given += part[i];
+        last = share[i] > share[last] ? i : last;
+    }
+    part[last] += whole - given;
+}
+
+uint32_t *flow_ref_split(const struct flow_ref *f, const uint32_t *level, const int voxels[3], bool leak,
+                         uint32_t unit)
+{
+    uint32_t *sum = need(f->n, sizeof *sum), *donors = need(f->n, sizeof *donors), share[4], part[4];
+    size_t *queue = need(f->n, sizeof *queue), head = 0, tail = 0, floors = 0, to[4];
+    assert(f->size == 1);
+    for (int y = 0; y < voxels[1]; y++)
+        for (int x = 0; x < voxels[0]; x++)
+            sum[f->floor[cell(f, x, y, f->cells[2] - 1)]] += unit;
+    for (size_t c = 0; c < f->n; c++)
+        if (is_open(f, c) && f->floor[c] == c)
+            for (int i = split_of(f, level, c, leak, to, share); i-- > 0;)
+                donors[to[i]]++;
+    for (size_t c = 0; c < f->n; c++)
+        if (is_open(f, c) && f->floor[c] == c) {
+            floors++;
+            if (donors[c] == 0)
+                queue[tail++] = c;
+        }
+    while (head < tail) {
+        const size_t c = queue[head++];
+        const int n = split_of(f, level, c, leak, to, share);
+        if (n > 0)
+            parts_of(sum[c], share, n, part);
+        for (int i = 0; i < n; i++) {
+            sum[to[i]] += part[i];
+            if (--donors[to[i]] == 0)
+                queue[tail++] = to[i];
+        }
+    }
+    assert(tail == floors); /* no cycles */
+    free(donors);
+    free(queue);
+    return sum;
 }

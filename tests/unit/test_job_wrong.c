@@ -18,6 +18,7 @@ static const struct wrong wrong[] = {
     {"spacing_m: 0.5",
      "spacng_m: 0.5",
      {"job.yaml:8:32: domain.spacng_m: unknown key", "did you mean spacing_m?"}},
+    {"fps: 25", "fps: 25\nrain: {shear_Pa: 1}", {"rain.shear_Pa: replaced by pull_Pa"}},
     {"wind: {", "wnd: {", {"job.yaml:27:1: wnd: unknown key", "did you mean wind?"}},
     {"scale_m: 14", "scale: 14", {"noise.scale: unknown key", "did you mean scale_m?"}},
     {"fps: 25", "zzzzzz: 25", {"job.yaml:5:1: zzzzzz: unknown key", "known here: hoodoo, name, model"}},

@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Spans that wait for none give in the first round.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, waits)
+WRITE_U(1, when)
+PARAMS(water_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(when, i) = LOAD_U(waits, i) == 0u ? 0u : 0xffffffffu;
+}

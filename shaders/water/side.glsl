@@ -1,0 +1,13 @@
+// The domain's open sides, through which water leaves. Needs k.
+
+// Is a cell at them: at the first and last in x, and in y?
+bvec4 open_sides(uvec3 c)
+{
+    return bvec4(c.x == 0u && (k.walls & WALL_X_MIN) == 0u, c.x + 1u == k.cx && (k.walls & WALL_X_MAX) == 0u,
+                 c.y == 0u && (k.walls & WALL_Y_MIN) == 0u, c.y + 1u == k.cy && (k.walls & WALL_Y_MAX) == 0u);
+}
+
+bool is_side(uvec3 c)
+{
+    return any(open_sides(c));
+}

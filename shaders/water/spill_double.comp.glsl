@@ -1,0 +1,21 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The highest pass on each basin's way out: looks twice as far in every round.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, spill)
+READ_U(1, next)
+WRITE_U(2, farther)
+WRITE_U(3, beyond)
+PARAMS(water_params)
+
+void main()
+{
+    uint b = THREAD;
+    if (b >= k.n)
+        return;
+    uint to = LOAD_U(next, b);
+    AT(farther, b) = max(LOAD_U(spill, b), LOAD_U(spill, to));
+    AT(beyond, b) = LOAD_U(next, to);
+}

@@ -1,0 +1,51 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How wide the water of each span is, and what it is spread over: the sum of the weights of the floors around, by which what
+// each of them has of it is divided.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, occupied)
+READ_U(1, floors)
+READ_U(2, first)
+READ_U(3, cell)
+READ_U(4, level)
+READ_U(5, rain)
+READ_U(6, spring)
+WRITE_V(7, stream) // radius in cells; 1 / sum of weights; m3/yr of rain and of springs
+WRITE_F(8, width)  // m
+PARAMS(water_stream_params)
+#include "water/cell_of.glsl"
+#include "water/columns.glsl"
+#include "water/around.glsl"
+
+// Of a disc whose weights fall to 0 at its rim as 1 - r^2: what a line through its middle is as wide as.
+const float RADIUS = 0.84882636; // 8 / 3 pi
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    float rains = float(LOAD_U(rain, i)) * k.rain_unit, springs = float(LOAD_U(spring, i)) * k.spring_unit;
+    float q = rains + springs, own = max(k.least, q > 0.0 ? k.width * pow(q, k.power) : 0.0);
+    float radius = RADIUS * clamp(own, k.narrowest, k.widest) / k.h, sum = 0.0;
+    AT(width, i) = own;
+    if (q > 0.0) {
+        ivec3 c = ivec3(cell_of(LOAD_U(cell, i)));
+        uint stands = LOAD_U(level, i);
+        int reach = int(radius);
+        for (int y = c.y - reach; y <= c.y + reach; y++)
+            for (int x = c.x - reach; x <= c.x + reach; x++) {
+                float r = length(vec2(ivec2(x, y) - c.xy));
+                vec2 flip;
+                uint column = column_seen(ivec2(x, y), flip);
+                if (r >= radius || column == NONE)
+                    continue;
+                uint m = r == 0.0 ? i : node_near(column, c.z, r);
+                if (m != NONE)
+                    sum += spread(stands, LOAD_U(level, m), r, radius);
+            }
+    }
+    AT(stream, i) = vec4(radius, sum > 0.0 ? 1.0 / sum : 0.0, rains, springs);
+}

@@ -1,0 +1,174 @@
+/* Discharge: rain split between lower neighbours, springs along receivers; and the streams these make. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "water/internal.h"
+
+/* ---- rain */
+
+/* Of the flow, between looks at whether it has come to its end. */
+enum { ROUNDS = 32 };
+
+/* The level at which each basin overflows, in *spill. */
+static void find_spills(struct gpu *gpu, struct water *w, struct gpu_buffer **spill)
+{
+    struct gpu_buffer **node = w->node;
+    struct gpu_buffer *level[2] = {node[WATER_LOWEST], node[WATER_PICK]};
+    struct gpu_buffer *next[2] = {node[WATER_NEXT], node[WATER_SCRATCH]};
+    const struct water_params k = water_params(w, w->n_basins + 1);
+    int now = 0;
+    GPU_RUN(gpu, water_spill, k.n, k, node[WATER_COMPONENT], node[WATER_FROM], node[WATER_TO],
+            node[WATER_BASIN], node[WATER_Z], level[0], next[0]);
+    for (size_t far = 1; far <= w->n_basins; far *= 2, now = !now)
+        GPU_RUN(gpu, water_spill_double, k.n, k, level[now], next[now], level[!now], next[!now]);
+    *spill = level[now];
+}
+
+/* Levels, ways and shares of all spans, and how many give to each. */
+static void split(struct gpu *gpu, struct water *w)
+{
+    struct gpu_buffer **node = w->node, *spill, *donors = node[WATER_SCRATCH + 1];
+    const struct water_params k = water_params(w, w->n_nodes);
+    find_spills(gpu, w, &spill);
+    gpu_fill(gpu, donors, 0);
+    GPU_RUN(gpu, water_split, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
+            node[WATER_BASIN], spill, node[WATER_FINAL], node[WATER_LEVEL], w->pass, w->shares, w->heading,
+            donors);
+}
+
+static status let_it_rain(struct gpu *gpu, struct gpu_work *work, struct water *w)
+{
+    status st = OK;
+    struct gpu_buffer **node = w->node, *counts = gpu_work_words(work);
+    struct gpu_buffer *when = node[WATER_SCRATCH], *waits = node[WATER_SCRATCH + 1];
+    struct water_params k = water_params(w, w->columns);
+    uint32_t changed = 0;
+    GPU_RUN(gpu, water_rain, k.n, k, w->occupied, w->floors, w->first, node[WATER_RAIN]);
+    k.n = (uint)w->n_nodes;
+    GPU_RUN(gpu, water_begin, k.n, k, waits, when);
+    gpu_fill(gpu, counts, 0);
+    for (k.round = 0; k.round == changed;) {
+        if (k.round > w->n_nodes)
+            return fail(E_NUMERIC, "water: the ways of %zu spans have a cycle: the device computes wrongly",
+                        w->n_nodes);
+        for (int i = 0; i < ROUNDS; i++, k.round++)
+            GPU_RUN(gpu, water_flow, k.n, k, w->pass, w->shares, when, waits, node[WATER_RAIN], counts);
+        TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
+    }
+done:
+    return st;
+}
+
+/* ---- springs */
+
+/* Tells once of sources whose water enters elsewhere. */
+static status tell_entries(struct gpu *gpu, struct water *w)
+{
+    status st = OK;
+    uint32_t *entry = NULL;
+    if (w->entered)
+        return OK;
+    w->entered = true;
+    TRY(memory_alloc(2 * w->n_sources, 4, "sources", &entry));
+    TRY(gpu_download(gpu, w->entry, 0, entry, 2 * w->n_sources));
+    for (size_t i = 0; i < w->n_sources; i++)
+        if (entry[2 * i + 1] > 4)
+            log_warn("sources[%zu].path_m: begins inside rock; its water enters at the nearest place that is "
+                     "not, %.3g spacings away: begin it in the open, or give it a bed_m",
+                     i, sqrt(entry[2 * i + 1]));
+done:
+    free(entry);
+    return st;
+}
+
+static status let_it_spring(struct gpu *gpu, struct water *w, const struct job *job, int frame)
+{
+    status st = OK;
+    double sum = 0;
+    struct gpu_buffer **node = w->node;
+    struct water_params k = water_params(w, w->n_sources);
+    for (size_t i = 0; i < w->n_sources; i++)
+        sum += curve_at(&job->sources[i].m3_per_yr, frame);
+    w->spring_unit = sum / 2147483648.0;
+    if (!(sum > 0))
+        goto done;
+    for (size_t i = 0; i < w->n_sources; i++) {
+        double share = curve_at(&job->sources[i].m3_per_yr, frame) / w->spring_unit;
+        uint32_t amount = share > 0 ? (uint32_t)fmax(1, share) : 0;
+        TRY(gpu_upload(gpu, w->source, 4 * i + 3, &amount, 1));
+    }
+    GPU_RUN(gpu, water_enter, k.n, k, w->occupied, w->floors, w->first, node[WATER_BASIN],
+            node[WATER_COMPONENT], w->source, w->entry);
+    GPU_RUN(gpu, water_spring, k.n, k, w->entry, w->source, node[WATER_FINAL], node[WATER_SPRING]);
+    TRY(tell_entries(gpu, w));
+done:
+    return st;
+}
+
+/* ---- streams */
+
+/* No stream is wider than all water together. */
+static struct water_stream_params stream_params(const struct water *w, const struct job *job, int frame,
+                                                double h)
+{
+    enum { REACH = 16 };            /* cells, so that a wide river on a fine grid stays affordable */
+    const double disc = 0.84882636; /* as shaders/water/wide has it */
+    const struct job_rain *rain = &job->rain;
+    double q = curve_at(&rain->m_per_yr, frame) * w->voxels[0] * w->voxels[1] * h * h;
+    for (size_t i = 0; i < job->n_sources; i++)
+        q += curve_at(&job->sources[i].m3_per_yr, frame);
+    const double narrowest = 1.5 * h, widest = REACH * h / disc, window = fmax(rain->slope_m / 2, 1.5 * h);
+    const double width =
+        fmax(fmax(rain->width_m * pow(q, rain->width_power), rain->least_width_m), narrowest);
+    const double reach = fmax(disc * fmin(width, widest), fmin(window, REACH * h)) / h;
+    return (struct water_stream_params){.n = (uint)w->n_nodes,
+                                        .cx = (uint)w->cells[0],
+                                        .cy = (uint)w->cells[1],
+                                        .cz = (uint)w->cells[2],
+                                        .words = (uint)w->words,
+                                        .h = (float)h,
+                                        .rain_unit = (float)w->rain_unit,
+                                        .spring_unit = (float)w->spring_unit,
+                                        .width = (float)rain->width_m,
+                                        .power = (float)rain->width_power,
+                                        .least = (float)rain->least_width_m,
+                                        .narrowest = (float)narrowest,
+                                        .widest = (float)widest,
+                                        .window = (float)fmin(window, REACH * h),
+                                        .reach = (uint)ceil(reach),
+                                        .deep = (float)fmax(h, rain->least_width_m / 2),
+                                        .pull = (float)rain->pull_Pa,
+                                        .steepest = (float)rain->steepest,
+                                        .per_row = 1.0f / (float)w->cells[0],
+                                        .per_slab = 1.0f / (float)w->columns,
+                                        .walls = w->walls};
+}
+
+static void gather_streams(struct gpu *gpu, struct water *w, const struct job *job, int frame, double h)
+{
+    struct gpu_buffer **node = w->node, *width = node[WATER_NEXT];
+    const struct water_stream_params k = stream_params(w, job, frame, h);
+    GPU_RUN(gpu, water_wide, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_LEVEL],
+            node[WATER_RAIN], node[WATER_SPRING], w->stream, width);
+    GPU_RUN(gpu, water_pull, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
+            node[WATER_LEVEL], w->heading, w->stream, width, w->pull);
+}
+
+status water_discharge(struct gpu *gpu, struct gpu_work *work, struct water *w, const struct job *job,
+                       int frame, const struct particles *p)
+{
+    status st = OK;
+    const double rain = curve_at(&job->rain.m_per_yr, frame);
+    w->rain_unit = rain * p->h * p->h / w->rain_units;
+    gpu_fill(gpu, w->node[WATER_RAIN], 0);
+    gpu_fill(gpu, w->node[WATER_SPRING], 0);
+    split(gpu, w);
+    if (rain > 0)
+        TRY(let_it_rain(gpu, work, w));
+    TRY(let_it_spring(gpu, w, job, frame));
+    gather_streams(gpu, w, job, frame, p->h);
+done:
+    return st;
+}

@@ -1,0 +1,48 @@
+/* What water does to the particles of the surface. */
+#include "water/internal.h"
+
+static struct water_surface_params surface_params(const struct water *w, const struct particles *p)
+{
+    return (struct water_surface_params){.n = (uint)p->n_surface,
+                                         .nx = (uint)w->voxels[0],
+                                         .ny = (uint)w->voxels[1],
+                                         .nz = (uint)w->voxels[2],
+                                         .h = (float)p->h,
+                                         .words = (uint)w->words,
+                                         .walls = w->walls};
+}
+
+void water_show(struct gpu *gpu, struct water *w, struct particles *p)
+{
+    struct water_surface_params k = surface_params(w, p);
+    gpu_fill(gpu, p->field[ROCK_discharge], 0);
+    GPU_RUN(gpu, water_show, p->n_surface, k, p->surface, p->field[ROCK_P], w->occupied, w->floors, w->first,
+            w->node[WATER_CELL], w->pull, p->field[ROCK_discharge]);
+}
+
+void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct particles *p,
+                 struct crumbs *crumbs)
+{
+    const struct water *ways = &crumbs->ways;
+    struct water_surface_params k = surface_params(w, p);
+    k.size = (uint)ways->size;
+    k.sx = (uint)ways->shift[0];
+    k.sy = (uint)ways->shift[1];
+    k.sz = (uint)ways->shift[2];
+    k.cx = (uint)ways->cells[0];
+    k.cy = (uint)ways->cells[1];
+    k.threshold = (float)job->deposition.carry_Pa;
+    GPU_RUN(gpu, water_sweep, p->n_surface, k, p->surface, p->field[ROCK_P], w->occupied, w->floors, w->first,
+            w->pull, ways->tag);
+}
+
+void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
+                 struct particles *p, struct gpu_buffer *intensity, struct gpu_buffer *parts)
+{
+    struct water_surface_params k = surface_params(w, p);
+    k.rate = (float)curve_at(&job->rain.erosion, frame);
+    k.threshold = (float)curve_at(&job->rain.threshold_Pa, frame);
+    k.most = (float)(WATER_DEPTH * p->h / kyr);
+    GPU_RUN(gpu, water_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
+            w->floors, w->first, w->pull, p->field[ROCK_erodibility], intensity, parts);
+}
