@@ -14,13 +14,14 @@ READ_F(4, stress)
 READ_U(5, phase)
 WRITE_F(6, erodibility)
 PARAMS(interlock_params)
+#include "erosion/layer.glsl"
 
 void main()
 {
     uint i = THREAD;
     if (i >= k.n)
         return;
-    vec4 rates = LOAD_V(layers, LOAD_U(layer, i));
+    vec4 rates = layer_rates(LOAD_U(layer, i));
     float factor = LOAD_F(rate_factor, i);
     AT(erodibility, i) = LOAD_U(phase, i) == 1u
                              ? factor * rates.x

@@ -247,7 +247,7 @@ struct wind_params {
     float h;                            /* m */
     float deflation;                    /* k_d */
     float cohesion, friction, strength; /* mu_c (Pa), mu_f, alpha (Pa) */
-    float abrasion;                     /* k_a (|v| / v_ref)^2 */
+    float abrasion, gale;               /* k_a (|v| / v_ref)^2, and without k_a */
     float wind_x, wind_y, wind_z;       /* unit vector, where it blows to */
     float shelter;                      /* m; with a flow, how far off the rock its speed counts */
     uint bx, by, bz;                    /* cells of the averaged flow, */
@@ -255,7 +255,7 @@ struct wind_params {
     float cell;                         /* m: and how wide they are */
     uint walls;
 };
-SHARED_SIZE(wind_params, 84)
+SHARED_SIZE(wind_params, 88)
 
 /* The flow's units are the spacing of its particles and the wind's speed; its origin is the low corner of the
  * box of air, on the ground. */

@@ -14,13 +14,16 @@ READ_U(4, floors)
 READ_U(5, first)
 READ_V(6, pull)
 READ_F(7, erodibility)
-WRITE_F(8, intensity)
-WRITE_U(9, parts) // deflation's and water's share in it
+READ_U(8, layer)
+READ_V(9, layers)
+WRITE_F(10, intensity)
+WRITE_U(11, parts) // deflation's and water's share in it
 PARAMS(water_surface_params)
 #include "particles/voxel.glsl"
 #include "water/columns.glsl"
 #include "water/floor.glsl"
 #include "erosion/bare.glsl"
+#include "erosion/layer.glsl"
 
 void main()
 {
@@ -33,8 +36,9 @@ void main()
     float rate = LOAD_F(erodibility, self);
     if (node == NONE || rate <= 0.0)
         return;
-    vec4 p = LOAD_V(pull, node);
-    float cut = k.rate * mix(max(p.y - k.threshold, 0.0), max(p.x - k.threshold, 0.0), p.z);
+    vec4 p = LOAD_V(pull, node), own = layer_weather(LOAD_U(layer, self));
+    float threshold = own.w < 0.0 ? k.threshold : own.w;
+    float cut = (own.z < 0.0 ? k.rate : own.z) * mix(max(p.y - threshold, 0.0), max(p.x - threshold, 0.0), p.z);
     float area = max(bare_area(v, LOAD_V(normal, self).xyz), 0.1);
     cut = min(cut, k.most / rate) / area;
     if (cut <= 0.0)

@@ -10,12 +10,15 @@ READ_V(1, position)
 READ_V(2, normal)
 READ_F(3, stress)
 READ_U(4, words)
-WRITE_F(5, intensity)
-WRITE_U(6, parts) // deflation's and water's share in it
+READ_U(5, layer)
+READ_V(6, layers)
+WRITE_F(7, intensity)
+WRITE_U(8, parts) // deflation's and water's share in it
 PARAMS(wind_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/empty.glsl"
+#include "erosion/layer.glsl"
 #include "wind/deflation.glsl"
 
 // 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
@@ -43,9 +46,11 @@ void main()
     uint self = LOAD_U(list, i);
     vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
     float against = -dot(n, vec3(k.wind_x, k.wind_y, k.wind_z));
-    float plucked = deflation(LOAD_F(stress, self)), sum = plucked;
-    if (k.abrasion > 0.0 && against > 0.0)
-        sum += k.abrasion * against * reached_by_wind(x, n);
+    vec4 own = layer_weather(LOAD_U(layer, self));
+    float plucked = deflation(LOAD_F(stress, self), own), sum = plucked;
+    float rubbed = abrasion(own);
+    if (rubbed > 0.0 && against > 0.0)
+        sum += rubbed * against * reached_by_wind(x, n);
     AT(intensity, i) = sum;
     AT(parts, i) = packUnorm2x16(vec2(sum > 0.0 ? plucked / sum : 0.0, 0.0));
 }

@@ -16,12 +16,15 @@ READ_V(2, normal)
 READ_F(3, stress)
 READ_U(4, words)
 READ_V(5, air)
-WRITE_F(6, intensity)
-WRITE_U(7, parts) // deflation's and water's share in it
+READ_U(6, layer)
+READ_V(7, layers)
+WRITE_F(8, intensity)
+WRITE_U(9, parts) // deflation's and water's share in it
 PARAMS(wind_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/empty.glsl"
+#include "erosion/layer.glsl"
 #include "wind/deflation.glsl"
 
 vec3 air_at(ivec3 c)
@@ -59,7 +62,8 @@ void main()
     vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
     vec3 at = (x + clear_way(x, n) * n - vec3(k.origin_x, k.origin_y, 0.0)) / k.cell - 0.5;
     vec3 v = air_between(ivec3(floor(at)), fract(at));
-    float plucked = deflation(LOAD_F(stress, self)), sum = plucked + k.abrasion * length(v) * max(0.0, -dot(n, v));
+    vec4 own = layer_weather(LOAD_U(layer, self));
+    float plucked = deflation(LOAD_F(stress, self), own), sum = plucked + abrasion(own) * length(v) * max(0.0, -dot(n, v));
     AT(intensity, i) = sum;
     AT(parts, i) = packUnorm2x16(vec2(sum > 0.0 ? plucked / sum : 0.0, 0.0));
 }

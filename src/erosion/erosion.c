@@ -14,7 +14,7 @@ status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, stru
 {
     status st = OK;
     *e = (struct erosion){.n_layers = job->n_strata};
-    TRY(gpu_buffer_create(gpu, "layers", e->n_layers, 16, &e->layers));
+    TRY(gpu_buffer_create(gpu, "layers", 2 * e->n_layers, 16, &e->layers));
     TRY(gpu_buffer_create(gpu, "intensity", n_max, 4, &e->intensity));
     TRY(gpu_buffer_create(gpu, "intensity parts", n_max, 4, &e->parts));
 done:
@@ -30,15 +30,12 @@ void erosion_destroy(struct gpu *gpu, struct erosion *e)
     gpu_buffer_destroy(gpu, &e->parts);
 }
 
-/* By the plane face of unstressed rock of the weakest layer, across the wind. Where edges, tension, noise, paint and deposits
- * make single spots faster, the model cuts a step into parts. */
-int erosion_steps(const struct job *job, int frame, double intensity)
+/* By the plane face of unstressed rock, across the wind. Where edges, tension, noise, paint and deposits make single spots faster,
+ * the model cuts a step into parts. */
+int erosion_steps(const struct job *job, double m_per_kyr)
 {
-    double weakest = 0;
-    for (size_t i = 0; i < job->n_strata; i++)
-        weakest = fmax(weakest, curve_at(&job->strata[i].weak_m_per_kyr, frame));
     double kyr = job->clock.years_per_frame / 1000;
-    double share = weakest * intensity * kyr / job->domain.spacing_m;
+    double share = m_per_kyr * kyr / job->domain.spacing_m;
     double steps = ceil(share / job->erosion.max_step);
     return steps < 1 ? 1 : steps > 1000 ? 1000 : (int)steps;
 }
@@ -47,14 +44,17 @@ static status upload_layers(struct gpu *gpu, struct erosion *e, const struct job
 {
     status st = OK;
     float *layer = NULL;
-    TRY(memory_alloc(e->n_layers, 16, "layers", &layer));
+    TRY(memory_alloc(2 * e->n_layers, 16, "layers", &layer));
     for (size_t i = 0; i < e->n_layers; i++) {
         const struct job_layer *l = &job->strata[i];
-        layer[4 * i + 0] = (float)curve_at(&l->weak_m_per_kyr, frame);
-        layer[4 * i + 1] = (float)curve_at(&l->strong_m_per_kyr, frame);
-        layer[4 * i + 2] = (float)(1e6 * curve_at(&l->interlock_MPa, frame));
+        const struct curve *own[] = {&l->deflation, &l->abrasion, &l->water, &l->threshold_Pa};
+        layer[8 * i + 0] = (float)curve_at(&l->weak_m_per_kyr, frame);
+        layer[8 * i + 1] = (float)curve_at(&l->strong_m_per_kyr, frame);
+        layer[8 * i + 2] = (float)(1e6 * curve_at(&l->interlock_MPa, frame));
+        for (size_t k = 0; k < 4; k++)
+            layer[8 * i + 4 + k] = (float)curve_at(own[k], frame);
     }
-    TRY(gpu_upload(gpu, e->layers, 0, layer, e->n_layers));
+    TRY(gpu_upload(gpu, e->layers, 0, layer, 2 * e->n_layers));
 done:
     free(layer);
     return st;

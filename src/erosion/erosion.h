@@ -15,7 +15,8 @@ struct erosion {
     struct gpu_buffer *intensity;
     struct gpu_buffer
         *parts; /* uint [n_max], likewise: deflation's and water's share in it (packUnorm2x16) */
-    struct gpu_buffer *layers; /* vec4 [n_layers]: weak, strong (m/kyr), I (Pa) in this frame */
+    struct gpu_buffer *layers; /* vec4 [2 n_layers], of this frame: weak, strong (m/kyr), I (Pa), 0; and the
+                                * layer's own k_d, k_a, k_t (1/Pa), tau_c (Pa), negative where they are the job's */
     size_t n_layers;
 };
 
@@ -23,9 +24,9 @@ uint64_t erosion_bytes(size_t n);
 MUST_USE status erosion_create(struct gpu *gpu, const struct job *job, size_t n_max, struct erosion *out);
 void erosion_destroy(struct gpu *gpu, struct erosion *e);
 
-/* Steps a frame is cut into, so that none takes more than erosion.max_step of a particle of the weakest layer
- * under this intensity. Depends on the job and the frame only. In each of them stress is solved at least once. */
-int erosion_steps(const struct job *job, int frame, double intensity);
+/* Steps a frame is cut into, so that none takes more than erosion.max_step of a particle of rock that retreats so fast. In each of
+ * them stress is solved at least once. */
+int erosion_steps(const struct job *job, double m_per_kyr);
 
 /* Particles' `erodibility` from their stress, with the strata as they are in this frame. Waits. */
 MUST_USE status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame,

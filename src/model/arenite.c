@@ -298,8 +298,8 @@ static status run_water(struct arenite *a, int step, double least, struct erosio
     TRY(route(a, step));
     if (!water_flows(job, a->m.frame))
         goto done;
-    water_erode(a->m.gpu, &a->water, job, a->m.frame, least, &a->particles, a->erosion.intensity,
-                a->erosion.parts);
+    water_erode(a->m.gpu, &a->water, job, a->m.frame, least, &a->particles, a->erosion.layers,
+                a->erosion.intensity, a->erosion.parts);
     TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, pace));
     if (fmax(pace->rock, pace->loose) * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m &&
         !a->told) {
@@ -368,7 +368,8 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
     const struct job *job = a->m.job;
     gpu_stage(a->m.gpu, "wind");
     TRY(wind_update(a->m.gpu, &a->wind, job, a->m.frame, &a->particles));
-    wind_erode(a->m.gpu, &a->wind, job, a->m.frame, &a->particles, a->erosion.intensity, a->erosion.parts);
+    wind_erode(a->m.gpu, &a->wind, job, a->m.frame, &a->particles, a->erosion.layers, a->erosion.intensity,
+               a->erosion.parts);
     TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, pace));
     *kyr = part_of(s->left, s->whole / (double)job->erosion.parts, longest(a, pace));
     TRY(run_water(a, number, fmin(s->whole / (double)job->rain.steps, *kyr), pace, kyr));
@@ -413,7 +414,7 @@ static status weather(struct arenite *a)
 {
     status st = OK;
     const struct job *job = a->m.job;
-    const int steps = erosion_steps(job, a->m.frame, wind_intensity(job, a->m.frame));
+    const int steps = erosion_steps(job, wind_fastest(job, a->m.frame));
     const double whole = job->clock.years_per_frame / 1000 / steps;
     int number = 0;
     if (a->plants) {

@@ -43,7 +43,7 @@ static double steps(const struct job *job)
 {
     double sum = 0;
     for (int f = job->frames.first + 1; f <= job->frames.last; f++)
-        sum += erosion_steps(job_at(job, f), f, wind_intensity(job_at(job, f), f));
+        sum += erosion_steps(job_at(job, f), wind_fastest(job_at(job, f), f));
     return sum;
 }
 

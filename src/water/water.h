@@ -147,11 +147,12 @@ void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct
                  struct crumbs *crumbs);
 
 /* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14), and water's share goes
- * into parts[i] as erosion.h has it. Each column's floor falls by F times its erodibility, whatever the area of its bare faces.
+ * into parts[i] as erosion.h has it, and `layers`. Each column's floor falls by F times its erodibility, whatever the area of its bare faces.
  * It is held to what takes
  * WATER_DEPTH spacings in `kyr`: below its surface a step reaches no further (erosion/carry). For the surface,
  * normals and erodibility of the shape that was routed. Records only. */
 void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
-                 struct particles *p, struct gpu_buffer *intensity, struct gpu_buffer *parts);
+                 struct particles *p, struct gpu_buffer *layers, struct gpu_buffer *intensity,
+                 struct gpu_buffer *parts);
 
 #endif

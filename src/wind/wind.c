@@ -21,15 +21,29 @@ struct wind_at wind_at(const struct job *job, int frame)
     return w;
 }
 
+/* The wind's speed over the one at which abrasion holds. */
+static double gale(const struct job *job, int frame)
+{
+    return wind_at(job, frame).speed / job->wind.reference_m_s;
+}
+
 static double abrasion(const struct job *job, int frame)
 {
-    double ratio = wind_at(job, frame).speed / job->wind.reference_m_s;
+    double ratio = gale(job, frame);
     return curve_at(&job->wind.abrasion, frame) * ratio * ratio;
 }
 
-double wind_intensity(const struct job *job, int frame)
+double wind_fastest(const struct job *job, int frame)
 {
-    return curve_at(&job->wind.deflation.intensity, frame) + abrasion(job, frame);
+    double fastest = 0;
+    for (size_t i = 0; i < job->n_strata; i++) {
+        const struct job_layer *l = &job->strata[i];
+        const double plucked = curve_at(&l->deflation, frame), rubbed = curve_at(&l->abrasion, frame);
+        const double all = (plucked < 0 ? curve_at(&job->wind.deflation.intensity, frame) : plucked) +
+                           (rubbed < 0 ? abrasion(job, frame) : rubbed * pow(gale(job, frame), 2));
+        fastest = fmax(fastest, curve_at(&l->weak_m_per_kyr, frame) * all);
+    }
+    return fastest;
 }
 
 /* ---- the flow */
@@ -120,7 +134,7 @@ bool wind_lattice(const struct wind *w, const struct job *job, int frame, struct
 /* ---- erosion */
 
 void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, int frame, struct particles *p,
-                struct gpu_buffer *intensity, struct gpu_buffer *parts)
+                struct gpu_buffer *layers, struct gpu_buffer *intensity, struct gpu_buffer *parts)
 {
     const struct job_deflation *d = &job->wind.deflation;
     struct wind_at wind = wind_at(job, frame);
@@ -135,6 +149,7 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
         .friction = (float)d->friction,
         .strength = (float)(1e6 * d->strength_MPa),
         .abrasion = (float)abrasion(job, frame),
+        .gale = (float)pow(gale(job, frame), 2),
         .wind_x = (float)wind.direction[0],
         .wind_y = (float)wind.direction[1],
         .wind_z = (float)wind.direction[2],
@@ -144,7 +159,7 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
     struct wind_lattice air;
     if (!wind_lattice(w, job, frame, &air)) {
         GPU_RUN(gpu, wind_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-                p->field[ROCK_stress], p->held.words, intensity, parts);
+                p->field[ROCK_stress], p->held.words, p->field[ROCK_layer], layers, intensity, parts);
         return;
     }
     k.shelter = (float)job->wind.flow.reach_m;
@@ -155,5 +170,6 @@ void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, in
     k.origin_x = (float)air.origin[0];
     k.origin_y = (float)air.origin[1];
     GPU_RUN(gpu, wind_strike, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
-            p->field[ROCK_stress], p->held.words, air.velocity, intensity, parts);
+            p->field[ROCK_stress], p->held.words, air.velocity, p->field[ROCK_layer], layers, intensity,
+            parts);
 }

@@ -21,8 +21,8 @@ struct wind_at {
 };
 struct wind_at wind_at(const struct job *job, int frame);
 
-/* The intensity on a bare, unstressed face across the wind. */
-double wind_intensity(const struct job *job, int frame);
+/* How fast bare, unstressed rock across the wind retreats in the layer where it does so fastest, m/kyr. */
+double wind_fastest(const struct job *job, int frame);
 
 struct wind {
     bool flows; /* else there is no flow */
@@ -43,9 +43,9 @@ MUST_USE status wind_update(struct gpu *gpu, struct wind *w, const struct job *j
                             struct particles *p);
 
 /* intensity[i] = W of the surface's particle i (float [n_surface], in the order of p->surface), and parts[i] (uint)
- * deflation's share in it, as erosion.h has them. Needs surface and stress of the current shape. Records only. */
+ * deflation's share in it, as erosion.h has them, and `layers`. Needs surface and stress of the current shape. Records only. */
 void wind_erode(struct gpu *gpu, const struct wind *w, const struct job *job, int frame, struct particles *p,
-                struct gpu_buffer *intensity, struct gpu_buffer *parts);
+                struct gpu_buffer *layers, struct gpu_buffer *intensity, struct gpu_buffer *parts);
 
 /* The averaged air around the rock: vec4 at the middles of n cells from `origin`, numbered (k n_y + j) n_x +
  * i: velocity as a share of `speed`, and the share of space that is air. */

@@ -568,7 +568,7 @@ static void streams_pull_as_the_equations_say(void **state)
 
     size_t n = bed.p.n_surface;
     float *erodibility = calloc(bed.p.n, 4), *before = calloc(n, 4), *after = calloc(n, 4);
-    struct gpu_buffer *intensity = NULL, *parts = NULL;
+    struct gpu_buffer *intensity = NULL, *parts = NULL, *layers = NULL;
     assert_non_null(erodibility);
     assert_non_null(before);
     assert_non_null(after);
@@ -576,13 +576,22 @@ static void streams_pull_as_the_equations_say(void **state)
         erodibility[i] = i % 7 == 0 ? 0 : i % 5 == 0 ? 40 : 0.2f;
     for (size_t i = 0; i < n; i++)
         before[i] = (float)unit((uint32_t)i, 5);
+    const float layer[16] = {0, 0, 0, 0, -1, -1, -1,   -1,
+                             0, 0, 0, 0, -1, -1, 0.3F, 1.4F}; /* the second has its own */
+    uint32_t *of = calloc(bed.p.n, 4);
+    assert_non_null(of);
+    for (size_t i = 0; i < bed.p.n; i++)
+        of[i] = i % 3 == 0;
+    assert_ok(gpu_buffer_create(gpu, "test", 4, 16, &layers));
+    assert_ok(gpu_upload(gpu, layers, 0, layer, 4));
+    assert_ok(gpu_upload(gpu, bed.p.field[ROCK_layer], 0, of, bed.p.n));
     assert_ok(gpu_buffer_create(gpu, "test", n, 4, &intensity));
     assert_ok(gpu_upload(gpu, intensity, 0, before, n));
     assert_ok(gpu_upload(gpu, bed.p.field[ROCK_erodibility], 0, erodibility, bed.p.n));
     water_show(gpu, &r.water, &bed.p);
     assert_ok(gpu_buffer_create(gpu, "test", n, 4, &parts));
     gpu_fill(gpu, parts, 0);
-    water_erode(gpu, &r.water, &job, 1, kyr, &bed.p, intensity, parts);
+    water_erode(gpu, &r.water, &job, 1, kyr, &bed.p, layers, intensity, parts);
     struct rock rock;
     uint32_t *surface = download(gpu, bed.p.surface, n);
     assert_ok(gpu_download(gpu, intensity, 0, after, n));
@@ -596,8 +605,9 @@ static void streams_pull_as_the_equations_say(void **state)
         const bool floor = (r.tag[c] & WATER_KIND) == WATER_SURF;
         const struct stream_ref *p = &ref[c];
         const double limit = 2 * bed.h / (kyr * (double)erodibility[i]);
-        double F = rate * (p->share * fmax(0, p->stream - threshold) +
-                           (1 - p->share) * fmax(0, p->beside - threshold));
+        const double k_t = of[i] ? 0.3 : rate, tau_c = of[i] ? 1.4 : threshold;
+        double F =
+            k_t * (p->share * fmax(0, p->stream - tau_c) + (1 - p->share) * fmax(0, p->beside - tau_c));
         F = floor && erodibility[i] > 0 ? F : 0;
         cut += F > 0;
         held += F > limit;
@@ -615,6 +625,8 @@ static void streams_pull_as_the_equations_say(void **state)
     rock_free(&rock);
     gpu_buffer_destroy(gpu, &intensity);
     gpu_buffer_destroy(gpu, &parts);
+    gpu_buffer_destroy(gpu, &layers);
+    free(of);
     free(surface);
     free(erodibility);
     free(before);

@@ -201,12 +201,57 @@ static void a_spring_cuts_its_bed(void **state)
     assert_true(cut[1].deepest > 3 * cut[1].mean && abs(cut[1].deepest_at - 9) <= 3);
 }
 
+/* ---- strata */
+
+/* What three layers of a slope lose, m3: the middle one withstands water, the highest wind. */
+static void lost_by_layer(const char *weather, double lost[3])
+{
+    enum { YEARS = 500 };
+    char text[1024];
+    snprintf(text, sizeof text,
+             "hoodoo: 1\nname: layers\nframes: 1-7\nseed: 3\nclock: {years_per_frame: %d}\n"
+             "domain: {size_m: [16, 12, 14], spacing_m: 1}\nrock: {gravity_m_s2: 0}\n"
+             "scene: {plane: {point_m: [8, 6, 6], normal: [-0.7, 0, 1]}}\n"
+             "strata:\n"
+             "  - {to_m: 4, weak_m_per_kyr: 0.2}\n"
+             "  - {to_m: 8, weak_m_per_kyr: 0.2, threshold_Pa: 1e5}\n"
+             "  - {weak_m_per_kyr: 0.2, deflation: 0, abrasion: 0}\n%s",
+             YEARS, weather);
+    struct sim sim = sim_begin(text);
+    struct frame first = sim_output(&sim);
+    for (int f = 0; f < 6; f++)
+        assert_ok(model_step(sim.model));
+    struct frame last = sim_output(&sim);
+    float *left = viability_by_id(&last.rock, first.rock.n);
+    lost[0] = lost[1] = lost[2] = 0;
+    for (size_t i = 0; i < first.rock.n; i++)
+        lost[first.rock.layer[i]] += (double)(first.rock.viability[i] - left[first.rock.id[i]]);
+    print_message("# the layers lose %.1f, %.1f and %.1f m3\n", lost[0], lost[1], lost[2]);
+    free(left);
+    frame_free(&first);
+    frame_free(&last);
+    sim_end(&sim);
+}
+
+static void each_layer_withstands_what_it_says(void **state)
+{
+    double wind[3], rain[3];
+    (void)state;
+    lost_by_layer("wind: {direction: [1, 0, 0], abrasion: 0.5, deflation: {intensity: 1}}\n", wind);
+    lost_by_layer("wind: {abrasion: 0, deflation: {intensity: 0}}\n"
+                  "rain: {m_per_yr: 1, erosion: 2, threshold_Pa: 0.05}\n",
+                  rain);
+    assert_true(wind[0] > 10 && wind[1] > 10 && wind[2] == 0);
+    assert_true(rain[0] > 3 && rain[1] == 0 && rain[2] > 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(discharge_does_not_depend_on_the_spacing),
         cmocka_unit_test(rain_gathers_into_gullies),
         cmocka_unit_test(a_spring_cuts_its_bed),
+        cmocka_unit_test(each_layer_withstands_what_it_says),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

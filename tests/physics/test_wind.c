@@ -162,10 +162,12 @@ static void a_sphere_splits_the_wind(void **state)
 
 /* Mean intensity of the surface's particles that face along n (cosine over 0.9), well above the ground and
  * below the top. */
-static double struck(struct tunnel *t, const struct wind *w, int frame, const double n[2])
+static double struck_of(struct tunnel *t, const struct wind *w, int frame, const double n[2], float k_d,
+                        float k_a)
 {
+    const float layer[8] = {0, 0, 0, 0, k_d, k_a, -1, -1};
     size_t n_surface = t->particles.n_surface, count = 0;
-    struct gpu_buffer *intensity = NULL, *parts = NULL;
+    struct gpu_buffer *intensity = NULL, *parts = NULL, *layers = NULL;
     struct rock rock;
     double sum = 0;
     float *value = malloc(4 * n_surface);
@@ -174,7 +176,9 @@ static double struck(struct tunnel *t, const struct wind *w, int frame, const do
     assert_non_null(list);
     assert_ok(gpu_buffer_create(t->gpu, "intensity", n_surface, 4, &intensity));
     assert_ok(gpu_buffer_create(t->gpu, "parts", n_surface, 4, &parts));
-    wind_erode(t->gpu, w, t->job, frame, &t->particles, intensity, parts);
+    assert_ok(gpu_buffer_create(t->gpu, "layers", 2, 16, &layers));
+    assert_ok(gpu_upload(t->gpu, layers, 0, layer, 2));
+    wind_erode(t->gpu, w, t->job, frame, &t->particles, layers, intensity, parts);
     assert_ok(gpu_download(t->gpu, intensity, 0, value, n_surface));
     assert_ok(gpu_download(t->gpu, t->particles.surface, 0, list, n_surface));
     assert_ok(particles_download(t->gpu, &t->particles, DERIVED, &rock));
@@ -191,7 +195,14 @@ static double struck(struct tunnel *t, const struct wind *w, int frame, const do
     free(value);
     free(list);
     gpu_buffer_destroy(t->gpu, &intensity);
+    gpu_buffer_destroy(t->gpu, &parts);
+    gpu_buffer_destroy(t->gpu, &layers);
     return sum / (double)count;
+}
+
+static double struck(struct tunnel *t, const struct wind *w, int frame, const double n[2])
+{
+    return struck_of(t, w, frame, n, -1, -1);
 }
 
 static void a_cube_is_worn_on_its_windward_side(void **state)
@@ -225,6 +236,9 @@ static void a_cube_is_worn_on_its_windward_side(void **state)
     double gust = struck(&t, &w, 2, back);
     print_message("# gust of 1.5: %.3f times as much (2.25)\n", gust / windward);
     assert_true(fabs(gust / windward - 2.25) < 1e-3);
+    const double own = struck_of(&t, &w, 2, back, 0.25F, 1);
+    print_message("# of a layer with k_a 1 instead of 0.5, and k_d 0.25: %.4f, of others %.4f\n", own, gust);
+    assert_true(fabs(own - 0.25 - 2 * gust) < 1e-3);
 
     assert_ok(wind_update(t.gpu, &w, t.job, 3, &t.particles));
     print_message("# anew: %d steps, settled to %.3f\n", w.flow.report.steps, w.flow.report.unsettled);
