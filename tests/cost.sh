@@ -28,7 +28,7 @@ within() {
         bad=$((bad + 1))
     fi
 }
-within "the build" 400 make
+within "the build" 340 make
 within "the demo's first frames" 60 build/hoodoo run jobs/demo.yaml --out "$scratch/out" --frames 1001-1005
 within "a still" 24 build/hoodoo preview "$scratch/out" --frames 1005 --only stills
 within "views" 24 build/hoodoo preview "$scratch/out" --frames 1005 --turntable --only views --view 0-3 --preset draft --resolution 480x270
