@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // What runs over each span's floor, and how it pulls on it (Arenite eq. 14): k_f q^0.6 S^0.7, where q is the discharge of a metre's
 // width, the sum of what the streams around spread as far as here, and S the slope of the water along it, by a line
-// through the levels of the floors within the window. On a divide, from where rain runs both ways, it is the slope of the falls around. Springs may be narrower than cells: then they pull on a share of it.
+// through the levels of the floors within the window. On a divide, from where rain runs both ways, it is the slope of the falls
+// around. Springs may be narrower than cells: then they pull on a share of it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -59,6 +59,17 @@ static inline struct frame sim_output(struct sim *s)
     return frame;
 }
 
+/* Two states are the same, bit for bit. */
+static inline void assert_same_state(const struct checkpoint *a, const struct checkpoint *b)
+{
+    assert_int_equal(a->n_sections, b->n_sections);
+    for (size_t i = 0; i < a->n_sections; i++) {
+        assert_string_equal(a->section[i].name, b->section[i].name);
+        assert_int_equal(a->section[i].n, b->section[i].n);
+        assert_memory_equal(a->section[i].data, b->section[i].data, a->section[i].n * a->section[i].item);
+    }
+}
+
 /* Viability by id, before the first particle was lost: 0 for those that are gone. */
 static inline float *viability_by_id(const struct rock *rock, size_t n_ids)
 {

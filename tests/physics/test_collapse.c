@@ -112,12 +112,7 @@ static void resumes_in_the_fall(void **state)
         frame_free(&was);
         frame_free(&is);
         assert_ok(model_save(b.model, &again));
-        assert_int_equal(saved.n_sections, again.n_sections);
-        for (size_t i = 0; i < saved.n_sections; i++) {
-            assert_int_equal(saved.section[i].n, again.section[i].n);
-            assert_memory_equal(saved.section[i].data, again.section[i].data,
-                                saved.section[i].n * saved.section[i].item);
-        }
+        assert_same_state(&saved, &again);
     }
     for (int f = 9; f < 14; f++)
         assert_ok(model_step(b.model));

@@ -400,11 +400,7 @@ static void frames_with_plants_resume_with_the_same_bits(void **state)
         }
     print_message("# after 6 frames %.0f deposits, cover on them %.1f particles\n", deposits, cover);
     assert_true(deposits > 100 && cover > 1);
-    for (size_t i = 0; i < whole.n_sections; i++) {
-        assert_int_equal(whole.section[i].n, again.section[i].n);
-        assert_memory_equal(whole.section[i].data, again.section[i].data,
-                            whole.section[i].n * whole.section[i].item);
-    }
+    assert_same_state(&whole, &again);
     model_destroy(&resumed);
     checkpoint_free(&half);
     checkpoint_free(&whole);
