@@ -218,6 +218,7 @@ SHARED_SIZE(carry_params, 28)
 #define COUNT_CHANGED 2u
 #define COUNT_FASTEST_ROCK 3u
 #define COUNT_FASTEST_LOOSE 4u
+#define COUNT_FASTEST_SLOPE 5u
 #define COUNT_BORN 5u
 
 /* The budget of a frame: a row for each process (enum process in job/job.h), a sum of two words for each of the
@@ -305,11 +306,14 @@ SHARED_SIZE(flow_params, 116)
 #define WATER_DEAD 8u
 #define WATER_SWEPT 16u
 
-/* Spacings that water takes in a step at most. */
-#define WATER_DEPTH 2.0f
+/* Spacings: floors that are no lower than so are as low, for altitudes are rough (water/altitude). */
+#define WATER_LEVEL_DROP 0.015625f
 
 /* Falls count up to this many units of altitude, 2^-16 cells, so that four of them fit an int. */
 #define WATER_FALL 0x1fffffff
+
+/* 2^32 over the golden ratio: whatever part of such turns is taken, they are spread evenly over it. */
+#define WATER_TURN 2654435769u
 
 /* What a hash is for (with water_params.random). */
 #define RANDOM_ROUGHNESS 1u
@@ -362,10 +366,9 @@ struct water_surface_params {
     uint words;                    /* of a column */
     uint size, sx, sy, sz, cx, cy; /* of the crumbs' cells */
     float rate, threshold;         /* k_t (1/Pa), tau_c (Pa) */
-    float most;                    /* m/kyr */
     uint walls;
 };
-SHARED_SIZE(water_surface_params, 64)
+SHARED_SIZE(water_surface_params, 60)
 
 /* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
 

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What running water adds to the intensity on each particle of the surface (Arenite eq. 14): shear above the threshold, held to
-// what a step can take. Water lowers the floors it runs over, each column by as much as its shear says: what the particle's
+// What running water adds to the intensity on each particle of the surface (Arenite eq. 14): shear above the threshold. Water lowers the floors it runs over, each column by as much as its shear says: what the particle's
 // other bare faces would make of that (erosion/weather) is divided out.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -17,7 +16,9 @@ READ_F(7, erodibility)
 READ_U(8, layer)
 READ_V(9, layers)
 WRITE_F(10, intensity)
-WRITE_U(11, parts) // deflation's and water's share in it
+WRITE_U(11, parts)    // deflation's and water's share in it
+READ_F(12, drop)
+WRITE_F(13, slopes) // 1/kyr, by place in the list, 0 before: how fast the floor's slope follows its height
 PARAMS(water_surface_params)
 #include "particles/voxel.glsl"
 #include "water/columns.glsl"
@@ -38,11 +39,15 @@ void main()
         return;
     vec4 p = LOAD_V(pull, node), own = layer_weather(LOAD_U(layer, self));
     float threshold = own.w < 0.0 ? k.threshold : own.w;
-    float cut = (own.z < 0.0 ? k.rate : own.z) * mix(max(p.y - threshold, 0.0), max(p.x - threshold, 0.0), p.z);
+    float k_t = own.z < 0.0 ? k.rate : own.z;
+    vec2 above = max(p.xy - threshold, vec2(0.0));
+    float cut = k_t * mix(above.y, above.x, p.z);
     float area = max(bare_area(v, LOAD_V(normal, self).xyz), 0.1);
-    cut = min(cut, k.most / rate) / area;
     if (cut <= 0.0)
         return;
+    float moved = k_t * mix(above.y > 0.0 ? p.y : 0.0, above.x > 0.0 ? p.x : 0.0, p.z);
+    AT(slopes, i) = 0.7 * moved * rate / max(LOAD_F(drop, node), k.h * WATER_LEVEL_DROP);
+    cut /= area;
     float sum = AT(intensity, i) + cut;
     AT(intensity, i) = sum;
     AT(parts, i) = packUnorm2x16(vec2(unpackUnorm2x16(AT(parts, i)).x * (1.0 - cut / sum), cut / sum));

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // What runs over each span's floor, and how it pulls on it (Arenite eq. 14): k_f q^0.6 S^0.7, where q is the discharge of a metre's
 // width, the sum of what the streams around spread as far as here, and S the slope of the water along it, by a line
-// through the levels of the floors within the window. On a divide, from where rain runs both ways, it is the slope of the falls
+// down to the levels of the floors below within the window. On a divide, from where rain runs both ways, it is the slope of the falls
 // around. Springs may be narrower than cells: then they pull on a share of it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -17,6 +17,7 @@ READ_U(6, heading)
 READ_V(7, stream)
 READ_F(8, width)
 WRITE_V(9, pull) // Pa in the stream, and beside it; its share; m3/yr, within the water's width
+WRITE_F(10, drop) // m: how far it is down to the floors below that its slope is of
 PARAMS(water_stream_params)
 #include "water/cell_of.glsl"
 #include "water/columns.glsl"
@@ -27,6 +28,56 @@ float shear(float q, float slope)
     return q > 0.0 && slope > 0.0 ? k.pull * pow(q, 0.6) * pow(slope, 0.7) : 0.0;
 }
 
+// What a place r cells away weighs in slopes: 1 - r^2 / window^2 in the mean over a cell's width, so that coarse cells see as far.
+float weight_in(float r)
+{
+    float window = k.window / k.h;
+    vec3 to = vec3(r - 0.5, r, r + 0.5) / window;
+    return dot(max(1.0 - to * to, vec3(0.0)), vec3(1.0, 4.0, 1.0) / 6.0);
+}
+
+// How much higher one level is than another, r cells away, in cells.
+float rise(uint there, uint stands, float r)
+{
+    return clamp(float(int(there) - int(stands)) / 65536.0, -k.steepest * r, k.steepest * r);
+}
+
+// The slope along a way, from the water abreast down to that below it, and how far it is there in cells: what runs where
+// counts, for banks fall to all sides. Nothing is asked of the ground above: slopes run upstream as the rock goes, and a floor that hears of
+// them from there swings. Where the domain ends, it goes on as it comes; and on bare ground, where water is gone, as it falls.
+vec2 downstream(uint i, ivec3 c, uint stands, vec2 way)
+{
+    vec3 abreast = vec3(0.0), below = vec3(0.0); // weights, and those of places and heights
+    vec2 flip;
+    vec2 here = LOAD_V(stream, i).zw;
+    float own = here.x + here.y;
+    int reach = int(k.window / k.h + 0.5);
+    for (int y = -reach; y <= reach; y++)
+        for (int x = -reach; x <= reach; x++) {
+            float along = dot(vec2(x, y), way), r = length(vec2(x, y)), near = weight_in(r);
+            float level_with = max(1.0 - abs(along), 0.0);
+            bool ends = along < 0.0 && column_seen(c.xy - ivec2(x, y), flip) == NONE;
+            uint column = column_seen(c.xy + ivec2(x, y), flip);
+            if (near <= 0.0 || column == NONE || (along <= 0.0 && level_with == 0.0 && !ends))
+                continue;
+            uint m = r == 0.0 ? i : node_near(column, c.z, r);
+            if (m == NONE)
+                continue;
+            vec2 s = LOAD_V(stream, m).zw;
+            bool ground = LOAD_U(cell, m) < k.cx * k.cy && !is_occupied(column, 0u);
+            vec3 at = near * (ground ? max(s.x + s.y, own) : s.x + s.y) * vec3(1.0, along, rise(LOAD_U(level, m), stands, r));
+            abreast += level_with * at;
+            if (along > 0.0)
+                below += along * at;
+            else if (ends)
+                below += along * vec3(-at.x, at.yz);
+        }
+    if (abreast.x <= 0.0 || below.x <= 0.0)
+        return vec2(0.0, 1.0);
+    float far = max(below.y / below.x - abreast.y / abreast.x, 0.5);
+    return vec2(clamp((abreast.z / abreast.x - below.z / below.x) / far, 0.0, k.steepest), far);
+}
+
 void main()
 {
     uint i = THREAD;
@@ -35,12 +86,8 @@ void main()
     ivec3 c = ivec3(cell_of(LOAD_U(cell, i)));
     uint stands = LOAD_U(level, i);
     int reach = int(k.reach);
-    float window = k.window / k.h, sheet = 0.0, springs = 0.0, narrow = 0.0, all = 0.0, wide = 0.0;
+    float sheet = 0.0, springs = 0.0, narrow = 0.0, all = 0.0, wide = 0.0;
     vec2 rain = vec2(0.0), spring = vec2(0.0);
-    // sums of the line's: weights, places, heights, and their products
-    float w = 0.0, z = 0.0;
-    vec2 r1 = vec2(0.0), rz = vec2(0.0);
-    vec3 rr = vec3(0.0);
     vec2 falls = vec2(0.0); // squares of falls, and of how far they are
     for (int y = c.y - reach; y <= c.y + reach; y++)
         for (int x = c.x - reach; x <= c.x + reach; x++) {
@@ -53,17 +100,9 @@ void main()
             if (m == NONE)
                 continue;
             uint there = LOAD_U(level, m);
-            float near = 1.0 - r * r / (window * window);
-            if (near > 0.0) {
-                float up = clamp(float(int(there) - int(stands)) / 65536.0, -k.steepest * r, k.steepest * r);
-                if (up < 0.0)
-                    falls += near * vec2(up * up, 0.5 * r * r);
-                w += near;
-                z += near * up;
-                r1 += near * to;
-                rz += near * up * to;
-                rr += near * vec3(to.x * to.x, to.x * to.y, to.y * to.y);
-            }
+            float near = weight_in(r), up = rise(there, stands, r);
+            if (near > 0.0 && up < 0.0)
+                falls += near * vec2(up * up, 0.5 * r * r);
             vec4 s = LOAD_V(stream, m);
             float weight = s.y > 0.0 && r < s.x ? s.y * spread(there, stands, r, s.x) / k.h : 0.0;
             if (weight > 0.0) {
@@ -83,12 +122,12 @@ void main()
     float flows = length(q);
     if (flows > 0.0) {
         vec2 way = q / flows;
-        vec3 a = rr - vec3(r1.x * r1.x, r1.x * r1.y, r1.y * r1.y) / w;
-        float across = way.x * way.x * a.x + 2.0 * way.x * way.y * a.y + way.y * way.y * a.z;
-        float slope = across > 1e-3 * w ? clamp(-dot(way, rz - r1 * z / w) / across, 0.0, k.steepest) : 0.0;
+        vec2 fall = downstream(i, c, stands, way);
+        float slope = fall.x;
         float together = sheet > 0.0 ? min(length(rain) / sheet, 1.0) : 1.0, around = falls.y > 0.0 ? sqrt(falls.x / falls.y) : 0.0;
         if (springs == 0.0)
             slope = mix(min(around, k.steepest), slope, together);
+        AT(drop, i) = slope * fall.y * k.h;
         float depth = float(int(stands) - int(LOAD_U(altitude, i))) / 65536.0 * k.h, share = springs > 0.0 ? narrow / springs : 1.0;
         float moving = max(1.0 - depth / k.deep, 0.0), run = length(spring);
         result = vec4(moving * shear(run / share + sheet, slope), moving * shear(sheet, slope), share,

@@ -46,7 +46,11 @@ void main()
         AT(pass, 4u * i + uint(d)) = air || d < 2 ? m : NONE;
     }
     uint to = i;
-    uint hash = random_hash(k.random, at, 0u, RANDOM_RECEIVER);
+    // Water goes each way as often as that is lower, in turns: with chances it would wander where it runs across the grid, and not
+    // where it runs along it. Crumbs spread.
+    int turn = (fall[0] < fall[2] ? -int(c.x) : int(c.x)) + (fall[1] < fall[3] ? -int(c.y) : int(c.y));
+    uint hash = k.size == 1u ? random_hash(k.random, 0u, 0u, RANDOM_RECEIVER) + WATER_TURN * uint(turn)
+                             : random_hash(k.random, at, 0u, RANDOM_RECEIVER);
     if (ground || is_side(c)) {
         to = k.nodes;
     } else if (k.leak != 0u && c.z > 0u && !is_occupied(column, c.z - 1u)) {

@@ -74,18 +74,19 @@ done:
 }
 
 status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
-                    struct erosion_pace *out)
+                    struct gpu_buffer *slopes, struct erosion_pace *out)
 {
     status st = OK;
-    float fastest[2] = {0};
+    float fastest[3] = {0};
     struct count_params k = {(uint)p->n_surface};
     struct gpu_buffer *words = gpu_work_words(work);
     GPU_RUN(gpu, erosion_pace, k.n, k, p->surface, e->intensity, p->field[ROCK_erodibility],
             p->field[ROCK_phase], p->flags, p->place);
     gpu_max(gpu, work, p->flags, p->n_surface, words, COUNT_FASTEST_ROCK);
     gpu_max(gpu, work, p->place, p->n_surface, words, COUNT_FASTEST_LOOSE);
-    TRY(gpu_download(gpu, words, COUNT_FASTEST_ROCK, fastest, 2));
-    *out = (struct erosion_pace){(double)fastest[0], (double)fastest[1]};
+    gpu_max(gpu, work, slopes, p->n_surface, words, COUNT_FASTEST_SLOPE);
+    TRY(gpu_download(gpu, words, COUNT_FASTEST_ROCK, fastest, 3));
+    *out = (struct erosion_pace){(double)fastest[0], (double)fastest[1], (double)fastest[2]};
 done:
     return st;
 }

@@ -32,14 +32,15 @@ int erosion_steps(const struct job *job, double m_per_kyr);
 MUST_USE status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame,
                                   struct particles *p);
 
-/* The retreat of the fastest spots of the surface, m/kyr: of rock, and of deposits. */
+/* The retreat of the fastest spots of the surface, m/kyr: of rock, and of deposits. And how fast water's slopes change, 1/kyr: in
+ * a longer step than its inverse floors pass by those below them, and swing. */
 struct erosion_pace {
-    double rock, loose;
+    double rock, loose, slopes;
 };
 
-/* The pace under e->intensity. Waits. */
+/* The pace under e->intensity and the surface's `slopes`, which water_erode() fills. Waits. */
 MUST_USE status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
-                             struct erosion_pace *out);
+                             struct gpu_buffer *slopes, struct erosion_pace *out);
 
 /* One step: the surface's viability falls by e->intensity times erodibility, and so does that of what is bared meanwhile, for
  * the rest of the step, rock down to NEAR_REACH layers below: what it would have taken of rock farther in is added to *beyond,

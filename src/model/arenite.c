@@ -30,6 +30,9 @@
  * comes to rest elsewhere once in each, so that no part may be longer than a deposit's life. */
 static const double ROCK_STEP = 1.5, LOOSE_STEP = 0.7;
 
+/* Of the time in which a floor would come down to those below it, did they not go on. */
+static const double SLOPE_STEP = 1;
+
 /* Spacings that rock may lose before its stress is solved anew, where a step is cut into parts. Deposits may go on. */
 static const double STRESS_STEP = 0.5;
 
@@ -277,10 +280,11 @@ done:
     return st;
 }
 
-/* The longest step in which neither rock nor deposits lose more than they may, kyr. */
+/* The longest step in which neither rock nor deposits lose more than they may, and no floor passes by those below it, kyr. */
 static double longest(const struct arenite *a, const struct erosion_pace *pace)
 {
-    return a->m.h * fmin(ROCK_STEP / fmax(pace->rock, 1e-30), LOOSE_STEP / fmax(pace->loose, 1e-30));
+    const double moved = fmin(ROCK_STEP / fmax(pace->rock, 1e-30), LOOSE_STEP / fmax(pace->loose, 1e-30));
+    return fmin(a->m.h * moved, SLOPE_STEP / fmax(pace->slopes, 1e-30));
 }
 
 /* One of the equal parts of so many kyr that are no longer than `most`; but of no more of them than `least` goes into it. */
@@ -289,26 +293,16 @@ static double part_of(double kyr, double least, double most)
     return kyr > most ? kyr / ceil(kyr / fmax(least, most) - 1e-6) : kyr;
 }
 
-/* Where water, and what breaks off, runs in a step, and what water cuts. *kyr, the step, becomes shorter where
- * water is fast; cut into parts of `least` it would not be into fewer. */
-static status run_water(struct arenite *a, int step, double least, struct erosion_pace *pace, double *kyr)
+/* Where water, and what breaks off, runs in a step, and what water cuts, and how fast its `slopes` change. */
+static status run_water(struct arenite *a, int step, struct gpu_buffer *slopes)
 {
     status st = OK;
     const struct job *job = a->m.job;
     TRY(route(a, step));
-    if (!water_flows(job, a->m.frame))
-        goto done;
-    water_erode(a->m.gpu, &a->water, job, a->m.frame, least, &a->particles, a->erosion.layers,
-                a->erosion.intensity, a->erosion.parts);
-    TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, pace));
-    if (fmax(pace->rock, pace->loose) * least > 0.999 * (double)WATER_DEPTH * job->domain.spacing_m &&
-        !a->told) {
-        log_warn("frame %d: water would cut deeper than %g spacings in a step and is held to that: raise "
-                 "rain.steps (%d), or lower rain.erosion",
-                 a->m.frame, (double)WATER_DEPTH, (int)job->rain.steps);
-        a->told = true;
-    }
-    *kyr = part_of(*kyr, least, longest(a, pace));
+    gpu_fill(a->m.gpu, slopes, 0);
+    if (water_flows(job, a->m.frame))
+        water_erode(a->m.gpu, &a->water, job, a->m.frame, &a->particles, a->erosion.layers,
+                    a->erosion.intensity, a->erosion.parts, slopes);
 done:
     return st;
 }
@@ -366,13 +360,14 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
 {
     status st = OK;
     const struct job *job = a->m.job;
+    struct gpu_buffer *slopes = a->particles.taken;
     gpu_stage(a->m.gpu, "wind");
     TRY(wind_update(a->m.gpu, &a->wind, job, a->m.frame, &a->particles));
     wind_erode(a->m.gpu, &a->wind, job, a->m.frame, &a->particles, a->erosion.layers, a->erosion.intensity,
                a->erosion.parts);
-    TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, pace));
+    TRY(run_water(a, number, slopes));
+    TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, slopes, pace));
     *kyr = part_of(s->left, s->whole / (double)job->erosion.parts, longest(a, pace));
-    TRY(run_water(a, number, fmin(s->whole / (double)job->rain.steps, *kyr), pace, kyr));
     if (a->plants)
         plants_shield(a->m.gpu, job, &a->particles, a->erosion.intensity);
 done:

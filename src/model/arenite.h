@@ -50,7 +50,6 @@ struct arenite {
 #define PART(name, lasts, bytes, create) struct name name;
     ARENITE_PARTS(PART)
 #undef PART
-    bool told; /* that water is held back */
     double
         beyond; /* m3 that steps would have taken farther in than they may, and nobody has been told of yet */
     bool deposits, plants; /* does the run ever have any? */

@@ -122,7 +122,7 @@ static struct water_stream_params stream_params(const struct water *w, const str
     const double narrowest = 1.5 * h, widest = REACH * h / disc, window = fmax(rain->slope_m / 2, 1.5 * h);
     const double width =
         fmax(fmax(rain->width_m * pow(q, rain->width_power), rain->least_width_m), narrowest);
-    const double reach = fmax(disc * fmin(width, widest), fmin(window, REACH * h)) / h;
+    const double reach = fmax(disc * fmin(width, widest), fmin(window, REACH * h) + h / 2) / h;
     return (struct water_stream_params){.n = (uint)w->n_nodes,
                                         .cx = (uint)w->cells[0],
                                         .cy = (uint)w->cells[1],
@@ -153,7 +153,7 @@ static void gather_streams(struct gpu *gpu, struct water *w, const struct job *j
     GPU_RUN(gpu, water_wide, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_LEVEL],
             node[WATER_RAIN], node[WATER_SPRING], w->stream, width);
     GPU_RUN(gpu, water_pull, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
-            node[WATER_LEVEL], w->heading, w->stream, width, w->pull);
+            node[WATER_LEVEL], w->heading, w->stream, width, w->pull, node[WATER_DROP]);
 }
 
 status water_discharge(struct gpu *gpu, struct gpu_work *work, struct water *w, const struct job *job,

@@ -36,15 +36,14 @@ void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct
             w->pull, ways->tag);
 }
 
-void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
-                 struct particles *p, struct gpu_buffer *layers, struct gpu_buffer *intensity,
-                 struct gpu_buffer *parts)
+void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, struct particles *p,
+                 struct gpu_buffer *layers, struct gpu_buffer *intensity, struct gpu_buffer *parts,
+                 struct gpu_buffer *slopes)
 {
     struct water_surface_params k = surface_params(w, p);
     k.rate = (float)curve_at(&job->rain.erosion, frame);
     k.threshold = (float)curve_at(&job->rain.threshold_Pa, frame);
-    k.most = (float)(WATER_DEPTH * p->h / kyr);
     GPU_RUN(gpu, water_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
             w->floors, w->first, w->pull, p->field[ROCK_erodibility], p->field[ROCK_layer], layers, intensity,
-            parts);
+            parts, w->node[WATER_DROP], slopes);
 }

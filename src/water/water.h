@@ -11,7 +11,7 @@
  *            on the bare ground (k = 0).
  * Receivers  EMPTY drains onto the SURF cell at the bottom of its run of empty cells (or out, on the ground).
  *            SURF drains to one of the lower floors beside it, of the SURF cell there or at the bottom of the empty cells there
- *            (by a hash, as likely as it is lower), else it is a pit. With `leak`, first of all into
+ *            (as often as it is lower, in turns, or for crumbs by a hash), else it is a pit. With `leak`, first of all into
  *            an empty cell below it. WALLs drain below or beside them; they carry no water, only what breaks
  *            off them. Receivers name the SURF cell (or outlet) at the end of a fall, which need not touch.
  * Pits       overflow across the lowest pass: the passes taken are the minimum spanning tree of the basins,
@@ -24,7 +24,8 @@
  *            pits, up to their pass, it follows the receivers too.
  * Streams    What runs over a floor is spread over the width of a stream of that discharge, W = width_m Q^width_power and at
  *            least least_width_m, as far as the ground beside it is no steeper than a bank; several streams add up. Where a
- *            spring's stream is narrower than cells, it pulls as hard as it is narrow, on its share of the cells.
+ *            spring's stream is narrower than cells, it pulls as hard as it is narrow, on its share of the cells. Its slope is
+ *            from the water abreast down to the water below, within half of slope_m.
  */
 #ifndef HOODOO_WATER_H
 #define HOODOO_WATER_H
@@ -46,6 +47,7 @@ enum water_node_array {
     WATER_COMPONENT, /* by basin: n_basins if it has a way out */
     WATER_RAIN,      /* discharge, in rain_unit */
     WATER_SPRING,    /* and in spring_unit */
+    WATER_DROP,      /* float, m: how far down it is to the floors below by which its slope is */
     WATER_FROM,      /* by basin: the pass it overflows, from node */
     WATER_TO,        /* to node */
     WATER_LOWEST,    /* by component, while they join */
@@ -147,12 +149,11 @@ void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct
                  struct crumbs *crumbs);
 
 /* intensity[i] += F of the surface's particle i (float, in the order of p->surface; eq. 14), and water's share goes
- * into parts[i] as erosion.h has it, and `layers`. Each column's floor falls by F times its erodibility, whatever the area of its bare faces.
- * It is held to what takes
- * WATER_DEPTH spacings in `kyr`: below its surface a step reaches no further (erosion/carry). For the surface,
- * normals and erodibility of the shape that was routed. Records only. */
-void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, double kyr,
-                 struct particles *p, struct gpu_buffer *layers, struct gpu_buffer *intensity,
-                 struct gpu_buffer *parts);
+ * into parts[i] as erosion.h has it, and `layers`. Each column's floor falls by F times its erodibility, whatever the area of its
+ * bare faces. slopes[i], 0 before, becomes the 1/kyr at which its fall would change for each part of it that its height does. For
+ * the surface, normals and erodibility of the shape that was routed. Records only. */
+void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, struct particles *p,
+                 struct gpu_buffer *layers, struct gpu_buffer *intensity, struct gpu_buffer *parts,
+                 struct gpu_buffer *slopes);
 
 #endif

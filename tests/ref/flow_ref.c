@@ -143,6 +143,10 @@ static size_t first_receiver(const struct flow_ref *f, size_t c, uint32_t random
     }
     if (sum == 0)
         return c;
+    if (!rock && f->size == 1) /* in turns along each quadrant's diagonals */
+        hash = random_hash(random, 0, 0, RANDOM_RECEIVER) +
+               WATER_TURN *
+                   (uint32_t)((weight[0] < weight[2] ? -p.x : p.x) + (weight[1] < weight[3] ? -p.y : p.y));
     uint32_t left = below(hash, sum);
     for (int d = 0;; d++) {
         if (left < weight[d])

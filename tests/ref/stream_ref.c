@@ -39,6 +39,11 @@ static bool is_floor(const struct flow_ref *f, size_t c)
     return is_open(f, c) && f->floor[c] == c;
 }
 
+static bool is_ground(const struct flow_ref *f, size_t c)
+{
+    return c < (size_t)f->cells[0] * (size_t)f->cells[1] && (f->tag[c] & WATER_KIND) == WATER_EMPTY;
+}
+
 static void place_of(const struct flow_ref *f, size_t c, int at[3])
 {
     at[0] = (int)(c % (size_t)f->cells[0]);
@@ -159,25 +164,44 @@ static struct source source_of(const struct all *a, size_t c, bool leak, double 
     return s;
 }
 
-/* The slope along a way: a line through the levels around. */
-static double slope_along(const struct all *a, size_t c, const double way[2])
+/* What a place r cells away weighs in a slope, in the mean over a cell's width by Simpson's rule. */
+static double weight_in(double r, double window)
+{
+    double sum = 0;
+    for (int i = -1; i <= 1; i++)
+        sum += (i ? 1 : 4) * fmax(0, 1 - pow((r + i / 2.0) / window, 2)) / 6;
+    return sum;
+}
+
+/* The slope along a way, from the water abreast to the water below, or from that above where the domain ends below; *far, cells,
+ * is how far it is there. */
+static double slope_along(const struct all *a, size_t c, const double way[2], double *far)
 {
     const double window = fmax(a->how->slope_m / 2, 1.5 * a->h) / a->h, steepest = a->how->steepest;
-    double w = 0, l = 0, z = 0, ll = 0, lz = 0;
-    EACH_FLOOR(a, c, (int)window, {
-        const double near = 1 - r * r / (window * window), along = dx * way[0] + dy * way[1];
+    const double own = a->source[c].rains + a->source[c].springs;
+    double abreast[3] = {0}, below[3] = {0}; /* weights, and those of places and of rises */
+    EACH_FLOOR(a, c, (int)(window + 0.5), {
+        const double along = dx * way[0] + dy * way[1];
         const double rise = ((double)level_of(a, m) - (double)level_of(a, c)) / 65536;
         const double up = fmax(-steepest * r, fmin(steepest * r, rise));
-        if (near > 0) {
-            w += near;
-            l += near * along;
-            z += near * up;
-            ll += near * along * along;
-            lz += near * along * up;
-        }
+        const double runs = a->source[m].rains + a->source[m].springs;
+        const double water = weight_in(r, window) * (is_ground(a->f, m) ? fmax(runs, own) : runs);
+        int behind[2] = {2 * p_[0] - x, 2 * p_[1] - y};
+        const bool ends = along < 0 && !seen_at(a->f, behind, flip);
+        const double side = ends ? -1 : 1, weight = along > 0 || ends ? water * fabs(along) : 0;
+        const double beside = water * fmax(0, 1 - fabs(along));
+        abreast[0] += beside;
+        abreast[1] += beside * along;
+        abreast[2] += beside * up;
+        below[0] += weight;
+        below[1] += weight * side * along;
+        below[2] += weight * side * up;
     });
-    const double across = ll - l * l / w;
-    return across > 1e-3 * w ? fmax(0, fmin(steepest, -(lz - l * z / w) / across)) : 0;
+    *far = 1;
+    if (!(abreast[0] > 0) || !(below[0] > 0))
+        return 0;
+    *far = fmax(0.5, below[1] / below[0] - abreast[1] / abreast[0]);
+    return fmax(0, fmin(steepest, (abreast[2] / abreast[0] - below[2] / below[0]) / *far));
 }
 
 /* The slope of what falls off a floor, to whatever side. */
@@ -185,8 +209,8 @@ static double slope_of_falls(const struct all *a, size_t c)
 {
     const double window = fmax(a->how->slope_m / 2, 1.5 * a->h) / a->h, steepest = a->how->steepest;
     double squares = 0, far = 0;
-    EACH_FLOOR(a, c, (int)window, {
-        const double near = 1 - r * r / (window * window);
+    EACH_FLOOR(a, c, (int)(window + 0.5), {
+        const double near = weight_in(r, window);
         const double fall = fmin(steepest * r, ((double)level_of(a, c) - (double)level_of(a, m)) / 65536);
         if (near > 0 && fall > 0) {
             squares += near * fall * fall;
@@ -225,8 +249,10 @@ static struct stream_ref pull_of(const struct all *a, size_t c, int reach)
     const double way[2] = {(rain[0] + spring[0]) / flows, (rain[1] + spring[1]) / flows};
     const double depth = ((double)level_of(a, c) - (double)a->f->altitude[c]) / 65536 / a->deep;
     const double together = sheet > 0 ? fmin(hypot(rain[0], rain[1]) / sheet, 1) : 1;
-    const double along = slope_along(a, c, way), run = hypot(spring[0], spring[1]);
+    double far;
+    const double along = slope_along(a, c, way, &far), run = hypot(spring[0], spring[1]);
     const double slope = springs > 0 ? along : together * along + (1 - together) * slope_of_falls(a, c);
+    result.drop = slope * far * a->h;
     result.share = springs > 0 ? narrow / springs : 1;
     result.beside = fmax(0, 1 - depth) * shear(a, sheet, slope);
     result.stream = fmax(0, 1 - depth) * shear(a, run / result.share + sheet, slope);

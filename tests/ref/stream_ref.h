@@ -9,6 +9,7 @@ struct stream_ref {
     double stream, beside; /* Pa: in the stream, and beside it */
     double share;          /* of the floor that is stream */
     double shown;          /* m3/yr */
+    double drop;           /* m: to the floors below by which its slope is */
 };
 
 /* By cell, for those that are floors. rain, spring: m3/yr through each cell, split by `level` and along the receivers. The
