@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
 #include "farm/farm.h"
-#include "output/folder.h"
+#include "output/product.h"
 
 static double modified(const char *path)
 {
@@ -107,11 +107,20 @@ done:
     return st;
 }
 
-/* Is the file there, no older than what it is made of? */
-static bool current(const struct path *made, const struct path *from)
+/* Is root/`made` there as its record says, by its size, made of the frame that is there; and no older than `from` if it is made of
+ * other products (NULL: of a frame)? */
+static status current(const char *root, const char *name, const char *made, const struct path *from,
+                      bool *done)
 {
-    const double at = modified(made->text);
-    return at > 0 && at >= modified(from->text);
+    struct path path;
+    struct product p;
+    status st = product_read(root, made, &p);
+    if (st == OK)
+        st = product_check(root, name, &p, false);
+    *done = st == OK &&
+            (!from || (path_join(&path, root, made) == OK && modified(path.text) >= modified(from->text)));
+    product_free(&p);
+    return st == E_MEMORY ? st : OK;
 }
 
 /* Are the files there that the task makes of a frame? */
@@ -126,8 +135,8 @@ static status frame_done(const struct farm *f, const struct farm_task *t, int fr
     TRY(folder_path(&from, root.text, job->name, kind->from, frame, NULL));
     for (size_t i = 0; i < n && *done; i++) {
         const char *part = kind->part ? kind->part(job, i) : t->show;
-        TRY(folder_path(&made, root.text, job->name, kind->makes, frame, part));
-        *done = current(&made, &from);
+        TRY(folder_name(&made, job->name, kind->makes, frame, part));
+        TRY(current(root.text, job->name, made.text, kind->from == FILE_VOLUMES ? NULL : &from, done));
     }
 done:
     return st;
@@ -138,13 +147,11 @@ static status views_done(const struct farm *f, const struct farm_task *t, bool *
     status st = OK;
     const struct job *job = farm_job(f, t);
     const int frame = t->frames.last;
-    struct path root, made, from;
+    struct path root, made;
     TRY(farm_root(f, t->wedge, &root));
-    TRY(folder_path(&from, root.text, job->name, farm_kinds[t->kind].from, frame, NULL));
     for (int view = t->views.first; view <= t->views.last && *done; view++) {
         TRY(folder_view(&made, job->name, t->show, frame, view));
-        TRY(path_join(&made, root.text, made.text));
-        *done = current(&made, &from);
+        TRY(current(root.text, job->name, made.text, NULL, done));
     }
 done:
     return st;
@@ -156,12 +163,12 @@ static status across_done(const struct farm *f, const struct farm_task *t, bool 
     status st = OK;
     const struct farm_kind_info *kind = &farm_kinds[t->kind];
     struct path root, made, from;
-    TRY(folder_path(&made, f->root.text, f->base->name, kind->makes, 0, NULL));
+    TRY(folder_name(&made, f->base->name, kind->makes, 0, NULL));
     for (size_t i = 0; i < f->n_wedges && *done; i++) {
         const struct job *job = f->wedge[i].job;
         TRY(farm_root(f, (int)job->wedge.index, &root));
         TRY(folder_path(&from, root.text, job->name, kind->from, job->frames.last, NULL));
-        *done = current(&made, &from);
+        TRY(current(f->root.text, job->name, made.text, &from, done));
     }
 done:
     return st;

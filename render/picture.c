@@ -24,6 +24,7 @@ struct picture {
     struct preview *preview;
     struct picture *next;
     char what[64], tag[PNG_TAG];
+    struct preview_recipe made;
     struct path path;
     struct path rendered, drawn, bar, scene; /* "": none to remove */
     struct slate slate;
@@ -45,19 +46,38 @@ status picture_view_path(const struct preview *p, int frame, int view, struct pa
     return folder_view(out, p->job->name, picture_part(p), frame, view);
 }
 
-/* Is root/`path` there, as it is asked for (a draft is no preview), and no older than root/`source`? */
-static bool current_as_asked(const struct preview *p, const char *path, const char *source, const char *tag)
+status preview_recipe(const struct preview *p, const char *only, const char *more, int frame,
+                      struct preview_recipe *out)
 {
-    struct path full, from;
+    size_t n = 0;
+    *out = (struct preview_recipe){.recipe = {.root = p->root, .word = out->word, .frame = ALL_FRAMES}};
+    out->word[n++] = "preview";
+    out->word[n++] = only;
+    for (size_t i = 0; i < p->n_options; i++)
+        out->word[n++] = p->option[i];
+    if (more)
+        out->word[n++] = more;
+    out->recipe.n_words = n;
+    return frame == ALL_FRAMES ? OK : recipe_of_frame(&out->recipe, p->job->name, frame);
+}
+
+/* Is root/`path` there, whole, of the frame that is there, and as it is asked for (a draft is no preview)? Which options said so does
+ * not matter. */
+static status done_as_asked(const struct preview_recipe *made, const char *path, const char *tag, bool *done)
+{
+    status st = OK;
+    struct path full;
     char has[PNG_TAG];
-    struct stat made, of;
-    if (path_join(&full, p->root, path) != OK || stat(full.text, &made) != 0 || made.st_size == 0)
-        return false;
-    if (path_join(&from, p->root, source) == OK && stat(from.text, &of) == 0 &&
-        made.st_mtim.tv_sec < of.st_mtim.tv_sec)
-        return false;
+    struct recipe any = made->recipe;
+    any.n_words = 0;
+    TRY(product_done(&any, path, true, done));
+    if (!*done)
+        goto done;
+    TRY(path_join(&full, any.root, path));
     png_tag(full.text, has);
-    return strcmp(has, tag) == 0;
+    *done = strcmp(has, tag) == 0;
+done:
+    return st;
 }
 
 bool picture_has_slate(const struct preview *p, const char *path)
@@ -270,31 +290,25 @@ void pictures_end(struct preview *p)
 }
 
 /* Moves a finished picture to its name, if it is whole. */
-static status picture_place(struct picture *picture, const char *made)
+static status picture_drawn(void *user)
 {
+    struct picture *picture = user;
     status st = OK;
-    struct path from, to;
+    struct path from;
     void *bytes = NULL, *tagged = NULL;
     size_t n = 0;
-    TRY(path_join(&from, picture->preview->root, made));
-    TRY(path_join(&to, picture->preview->root, picture->path.text));
+    TRY(path_join(&from, picture->preview->root, picture->drawn.text));
     TRY(file_read(from.text, (size_t)1 << 30, &bytes, &n));
     st = png_with_tag(bytes, n, picture->tag, &tagged, &n);
     if (st == E_INPUT) /* what we have had made */
         st = fail(E_OUTPUT, "%s: the picture is cut short; is the disk full?", from.text);
     TRY(st);
-    TRY(atomic_file_write(to.text, tagged, n));
+    TRY(product_write(&picture->made.recipe, picture->path.text, tagged, n));
 done:
     free(bytes);
     free(tagged);
     picture_end(picture);
     return st;
-}
-
-static status picture_drawn(void *user)
-{
-    struct picture *picture = user;
-    return picture_place(picture, picture->drawn.text);
 }
 
 /* POV-Ray has made it: now the strip and the legend. */
@@ -304,10 +318,8 @@ static status picture_rendered(void *user)
     struct preview *p = picture->preview;
     status st = OK;
     struct path full;
-    if (!slate_draws(&picture->slate))
-        return picture_place(picture, picture->rendered.text);
-    TRY(atomic_file_temporary(picture->path.text, ".png", &picture->drawn));
-    if (p->show != VALUE_NONE) {
+    TRY(atomic_file_temporary(picture->path.text, "", &picture->drawn));
+    if (p->show != VALUE_NONE && slate_draws(&picture->slate)) {
         TRY(atomic_file_temporary(picture->path.text, ".ppm", &picture->bar));
         TRY(path_join(&full, p->root, picture->bar.text));
         TRY(slate_write_bar(&picture->slate, full.text));
@@ -346,7 +358,7 @@ static status start(struct preview *p, struct picture *picture, const char *scen
                                 "-D",
                                 "-P",
                                 "-V",
-                                "+FN8",
+                                "+FP8",
                                 "+WT1",
                                 "-GA",
                                 NULL};
@@ -383,7 +395,7 @@ static void describe(const struct preview *p, int frame, const char *seen_from, 
 
 /* On the list of those under way; picture_end() takes it off. */
 static status new_picture(struct preview *p, const char *what, const struct path *path, int width, int height,
-                          struct picture **out)
+                          const struct preview_recipe *made, struct picture **out)
 {
     status st = memory_alloc(1, sizeof **out, "a picture", out);
     if (st != OK)
@@ -395,7 +407,10 @@ static status new_picture(struct preview *p, const char *what, const struct path
     (*out)->slate.height = height;
     snprintf((*out)->what, sizeof(*out)->what, "%s", what);
     (*out)->path = *path;
-    return atomic_file_temporary(path->text, ".png", &(*out)->rendered);
+    (*out)->made = *made;
+    (*out)->made.recipe.word = (*out)->made.word;
+    /* POV-Ray appends to a name what its format ends in, and nobody waits for PPM. */
+    return atomic_file_temporary(path->text, ".ppm", &(*out)->rendered);
 }
 
 /* Scenes that stay are named like their picture; others have names of their own. */
@@ -408,21 +423,24 @@ static status scene_path(const struct preview *p, enum folder_file kind, int fra
 status picture_still(struct preview *p, int frame)
 {
     status st = OK;
-    struct path path, source, scene;
+    struct path path, scene;
+    struct preview_recipe made;
+    bool done;
     char what[64], tag[PNG_TAG];
     struct picture *picture = NULL;
     const struct job_camera *own = chosen_camera(p);
     int width, height;
+    TRY(preview_recipe(p, "--only=stills", NULL, frame, &made));
     TRY(picture_still_path(p, frame, &path));
-    TRY(folder_name(&source, p->job->name, FILE_VOLUMES, frame, NULL));
     size_of(p, own, false, &width, &height);
     tag_of(p, width, height, -1, 0, tag);
-    if (current_as_asked(p, path.text, source.text, tag))
+    TRY(done_as_asked(&made, path.text, tag, &done));
+    if (done)
         return OK;
     snprintf(what, sizeof what, "the still of frame %d", frame);
     TRY(scene_path(p, FILE_STILL_SCENE, frame, &scene));
     TRY(write_scene(p, frame, 0, scene.text, width, height));
-    TRY(new_picture(p, what, &path, width, height, &picture));
+    TRY(new_picture(p, what, &path, width, height, &made, &picture));
     snprintf(picture->tag, sizeof picture->tag, "%s", tag);
     if (!p->keep_scenes)
         picture->scene = scene;
@@ -435,23 +453,26 @@ done:
 status picture_orbit(struct preview *p, int frame, int views, struct frame_range which)
 {
     status st = OK;
-    struct path path, source, scene = {""};
+    struct path path, scene = {""};
+    struct preview_recipe made;
+    bool done;
     char what[64], tag[PNG_TAG], number[32];
     struct picture *picture = NULL;
     int width, height;
-    TRY(folder_name(&source, p->job->name, FILE_VOLUMES, frame, NULL));
+    TRY(preview_recipe(p, "--only=views", NULL, frame, &made));
     size_of(p, chosen_camera(p), true, &width, &height);
     for (int view = which.first, k = 0; view <= which.last; view += which.step, k++) {
         TRY(picture_view_path(p, frame, view, &path));
         tag_of(p, width, height, view, views, tag);
-        if (current_as_asked(p, path.text, source.text, tag))
+        TRY(done_as_asked(&made, path.text, tag, &done));
+        if (done)
             continue;
         if (!*scene.text) {
             TRY(scene_path(p, FILE_ORBIT_SCENE, frame, &scene));
             TRY(write_scene(p, frame, views, scene.text, width, height));
         }
         snprintf(what, sizeof what, "view %d of frame %d", view, frame);
-        TRY(new_picture(p, what, &path, width, height, &picture));
+        TRY(new_picture(p, what, &path, width, height, &made, &picture));
         snprintf(picture->tag, sizeof picture->tag, "%s", tag);
         snprintf(number, sizeof number, "view %03d", view); /* as its file is called */
         describe(p, frame, number, &picture->slate);

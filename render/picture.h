@@ -1,7 +1,8 @@
 /* Pictures of frames, through POV-Ray: each whole under its name, or absent.
  *
  * Done once     A picture holds what was asked for (size, care, camera, colours, slate) as text in the file. It is made again
- *               when that differs or the frame's volumes are newer, and else left as it is.
+ *               when that differs, when it is not what its record says (output/product.h) or was made of another frame than
+ *               is there, and else left as it is.
  * Side by side  Any number of processes may make different pictures of one folder: what is not finished has
  *               names of its own.
  */
@@ -15,10 +16,13 @@
 #include "base/progress.h"
 #include "base/ranges.h"
 #include "job/job.h"
+#include "output/product.h"
 #include "render/povray.h"
 
 /* Where what this and the turntable run comes from. */
 #define PICTURE_PACKAGES "povray, ffmpeg and openimageio-tools"
+
+enum { PREVIEW_OPTIONS = 16 };
 
 /* What is asked for. */
 struct preview {
@@ -31,10 +35,24 @@ struct preview {
     const char *camera; /* of the job, or NULL: its first, or an orbit if it has none */
     bool keep_scenes;
     bool no_slate;
+    /* The options that decide what is made, as words of the command, and --frames of the sheet (NULL: all). */
+    const char *option[PREVIEW_OPTIONS];
+    size_t n_options;
+    const char *sheet_frames;
     enum value_id show;        /* VALUE_NONE: the rock as it looks */
     struct show_range range;   /* of what is shown */
     struct picture *under_way; /* pictures that are being made */
 };
+
+/* How a part of it is made: `preview --only=PART` with these options. `more` is one more word, or NULL. The recipe points into
+ * itself. */
+struct preview_recipe {
+    struct recipe recipe;
+    const char *word[PREVIEW_OPTIONS + 3];
+};
+/* Of a frame, or of ALL_FRAMES. E_MEMORY. */
+MUST_USE status preview_recipe(const struct preview *p, const char *only, const char *more, int frame,
+                               struct preview_recipe *out);
 
 /* preview/NAME.FRAME.png, or NAME.stress.FRAME.png. Starts it (children_wait() ends it), or skips it if it is
  * there as asked for. */

@@ -10,7 +10,7 @@
 #include "base/child.h"
 #include "base/json.h"
 #include "job/job.h"
-#include "output/folder.h"
+#include "output/product.h"
 
 struct report_frame {
     struct manifest manifest;
@@ -59,6 +59,9 @@ struct report {
     char *log;         /* the end of log/run.log, or NULL */
     struct text notes; /* sentences, one a line */
 };
+
+/* How a page and its pictures are made. */
+struct recipe report_recipe(const char *root);
 
 /* "kind of a note": added as a line. */
 void report_note(struct report *r, const char *format, ...) PRINTF_LIKE(2, 3);

@@ -2,11 +2,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "base/cores.h"
+#include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "render/report.h"
@@ -15,31 +15,34 @@ enum { CONTACT = 24 /* thumbs at most */, MAX_VIEWS = 72, LARGEST_VIDEO = 1 << 3
 
 /* One conversion under way. */
 struct conversion {
-    const struct report *report;
+    struct recipe recipe;
     struct path source, temporary, path; /* relative to root */
     bool *made;
 };
 
-static bool current(const struct report *r, const char *path, const char *source)
+struct recipe report_recipe(const char *root)
 {
+    static const char *const command[] = {"report"};
+    return (struct recipe){.root = root, .word = command, .n_words = 1, .frame = ALL_FRAMES};
+}
+
+/* Of what is made of root/`source`. */
+static status recipe_of(const struct report *r, const char *source, struct recipe *out)
+{
+    status st = OK;
     struct path full;
-    struct stat made, from;
-    if (path_join(&full, r->root, path) != OK || stat(full.text, &made) != 0 || made.st_size == 0)
-        return false;
-    return path_join(&full, r->root, source) == OK && stat(full.text, &from) == 0 &&
-           (made.st_mtim.tv_sec > from.st_mtim.tv_sec ||
-            (made.st_mtim.tv_sec == from.st_mtim.tv_sec && made.st_mtim.tv_nsec >= from.st_mtim.tv_nsec));
+    uint64_t size;
+    *out = report_recipe(r->root);
+    TRY(path_join(&full, r->root, source));
+    TRY(hash_file(full.text, &out->source, &size));
+done:
+    return st;
 }
 
 static status converted(void *user)
 {
     struct conversion *c = user;
-    status st = OK;
-    struct path from, to;
-    TRY(path_join(&from, c->report->root, c->temporary.text));
-    TRY(path_join(&to, c->report->root, c->path.text));
-    TRY(atomic_file_adopt(from.text, to.text));
-done:
+    const status st = product_adopt(&c->recipe, c->temporary.text, c->path.text);
     *c->made = st == OK;
     return st;
 }
@@ -63,12 +66,11 @@ static status convert(struct report *r, struct children *children, struct conver
     size_t k = 0;
     const char *ending = strrchr(path_last(c->source.text), '.');
     const bool linear = ending && strcmp(ending, ".exr") == 0;
-    c->report = r;
-    if (current(r, c->path.text, c->source.text)) {
-        *c->made = true;
+    TRY(recipe_of(r, c->source.text, &c->recipe));
+    TRY(product_done(&c->recipe, c->path.text, true, c->made));
+    if (*c->made)
         return OK;
-    }
-    TRY(atomic_file_temporary(c->path.text, ".jpg", &c->temporary));
+    TRY(atomic_file_temporary(c->path.text, "", &c->temporary));
     argv[k++] = "oiiotool";
     argv[k++] = "--threads";
     argv[k++] = "1";
@@ -87,8 +89,8 @@ static status convert(struct report *r, struct children *children, struct conver
         argv[k++] = "--resize";
         argv[k++] = resize;
     }
-    const char *const last[] = {"-d", "uint8",          "--quality", "88", "--nosoftwareattrib",
-                                "-o", c->temporary.text};
+    const char *const last[] = {
+        "-d", "uint8", "--quality", "88", "--nosoftwareattrib", "-o:fileformatname=jpeg", c->temporary.text};
     for (size_t i = 0; i < sizeof last / sizeof *last; i++)
         argv[k++] = last[i];
     argv[k] = NULL;
@@ -124,17 +126,20 @@ static status find_orbit(const struct report *r, int *frame, bool *found)
 static status copy_video(struct report *r)
 {
     status st = OK;
-    struct path source, from, to;
+    struct path source, from;
+    struct recipe recipe;
+    bool there;
     void *bytes = NULL;
     size_t n = 0;
     TRY(folder_name(&source, r->name, FILE_VIDEO, 0, NULL));
     TRY(path_join(&from, r->root, source.text));
-    TRY(path_join(&to, r->root, "report/turntable.mp4"));
     if (access(from.text, R_OK) != 0)
         return OK;
-    if (!current(r, "report/turntable.mp4", source.text)) {
+    TRY(recipe_of(r, source.text, &recipe));
+    TRY(product_done(&recipe, "report/turntable.mp4", true, &there));
+    if (!there) {
         TRY(file_read(from.text, LARGEST_VIDEO, &bytes, &n));
-        TRY(atomic_file_write(to.text, bytes, n));
+        TRY(product_write(&recipe, "report/turntable.mp4", bytes, n));
     }
     r->video = true;
 done:

@@ -119,8 +119,9 @@ static status copy_still(const struct sweep *s, const struct wedge *w, bool *the
     if (!*there)
         return OK;
     TRY(file_read(path.text, STILL_BYTES, (char **)&bytes, &size));
-    TRY(path_format(&path, "%s/report/%s.png", s->root, wedge_text((int)w->job->wedge.index, number)));
-    TRY(atomic_file_write(path.text, bytes, size));
+    TRY(path_format(&path, "report/%s.png", wedge_text((int)w->job->wedge.index, number)));
+    const struct recipe recipe = report_recipe(s->root);
+    TRY(product_write(&recipe, path.text, bytes, size));
 done:
     free(bytes);
     return st;

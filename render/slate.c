@@ -177,12 +177,15 @@ static void add_strip(struct slate_command *c, const struct slate *s)
 void slate_command(const struct slate *s, const char *from, const char *bar, const char *to,
                    struct slate_command *c)
 {
+    const bool draws = slate_draws(s), legend = draws && s->show != VALUE_NONE;
     c->n = c->n_own = 0;
     word(c, "oiiotool");
-    if (s->show != VALUE_NONE)
+    if (legend)
         word(c, bar);
     word(c, from);
-    if (s->show != VALUE_NONE) {
+    word(c, "--iscolorspace"); /* PPM does not say it */
+    word(c, "sRGB");
+    if (legend) {
         struct panel p = panel_of(s);
         word(c, "--paste");
         made(c, "+%d+%d", p.bar_x, p.bar_y);
@@ -194,9 +197,9 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
         add_box(c, dark, p.left, p.bar_y + p.bar_h, s->width - 1, p.bottom);
         add_legend(c, s);
     }
-    if (*s->left || *s->right)
+    if (draws && (*s->left || *s->right))
         add_strip(c, s);
-    word(c, "-o");
+    word(c, "-o:fileformatname=png"); /* the name does not say it */
     word(c, to);
 }
 

@@ -32,7 +32,8 @@ bool slate_draws(const struct slate *s);
 /* The colour bar as a picture file (PPM): one of oiiotool's inputs. */
 MUST_USE status slate_write_bar(const struct slate *s, const char *path);
 
-/* oiiotool's words that draw on the picture `from` and write `to`; `bar` is what slate_write_bar() wrote. */
+/* oiiotool's words that draw what there is to draw on the picture `from`, a PPM in sRGB, and write the PNG `to`; `bar` is what
+ * slate_write_bar() wrote. */
 void slate_command(const struct slate *s, const char *from, const char *bar, const char *to,
                    struct slate_command *out);
 

@@ -9,25 +9,43 @@
 #include "base/atomic_file.h"
 #include "base/memory.h"
 #include "output/folder.h"
+#include "render/png.h"
 #include "render/slate.h"
 
 static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 /* A file under root, moved into place when its program has made it. */
 struct sheet {
-    const struct preview *preview;
+    const struct recipe *recipe;
     struct path temporary, path;
 };
 
-static status sheet_done(void *user)
+static status video_done(void *user)
 {
     struct sheet *sheet = user;
+    return product_adopt(sheet->recipe, sheet->temporary.text, sheet->path.text);
+}
+
+/* The picture alone: oiiotool writes the date, and its command line with names of temporary files. */
+static status sheet_done(void *user)
+{
+    enum { LARGEST = 1 << 30 };
+    struct sheet *sheet = user;
     status st = OK;
-    struct path from, to;
-    TRY(path_join(&from, sheet->preview->root, sheet->temporary.text));
-    TRY(path_join(&to, sheet->preview->root, sheet->path.text));
-    TRY(atomic_file_adopt(from.text, to.text));
+    struct path from;
+    void *bytes = NULL, *plain = NULL;
+    size_t n = 0;
+    TRY(path_join(&from, sheet->recipe->root, sheet->temporary.text));
+    TRY(file_read(from.text, LARGEST, &bytes, &n));
+    st = png_with_tag(bytes, n, "contact sheet", &plain, &n);
+    if (st == E_INPUT) /* what we have had made */
+        st = fail(E_OUTPUT, "%s: the sheet is cut short; is the disk full?", from.text);
+    TRY(st);
+    TRY(product_write(sheet->recipe, sheet->path.text, plain, n));
+    unlink(from.text);
 done:
+    free(bytes);
+    free(plain);
     return st;
 }
 
@@ -36,7 +54,9 @@ status turntable_video(struct preview *p, int frame, int views)
     status st = OK;
     struct path path, pattern;
     char filter[200], count[16];
-    struct sheet sheet = {.preview = p};
+    struct preview_recipe made;
+    struct sheet sheet = {.recipe = &made.recipe};
+    TRY(preview_recipe(p, "--only=video", NULL, frame, &made));
     for (int view = 0; view < views; view++) {
         TRY(picture_view_path(p, frame, view, &path));
         TRY(path_join(&path, p->root, path.text));
@@ -46,7 +66,7 @@ status turntable_video(struct preview *p, int frame, int views)
         }
     }
     TRY(folder_name(&sheet.path, p->job->name, FILE_VIDEO, 0, picture_part(p)));
-    TRY(atomic_file_temporary(sheet.path.text, ".mp4", &sheet.temporary));
+    TRY(atomic_file_temporary(sheet.path.text, "", &sheet.temporary));
     TRY(folder_views(&pattern, p->job->name, picture_part(p), frame));
     /* Three turns: a video of one and a half seconds is over before one has looked. */
     snprintf(
@@ -54,28 +74,16 @@ status turntable_video(struct preview *p, int frame, int views)
         "loop=loop=2:size=%d,scale=trunc(iw/2)*2:trunc(ih/2)*2:in_color_matrix=bt709:out_color_matrix=bt709",
         views);
     snprintf(count, sizeof count, "%d", 3 * views);
-    const char *const argv[] = {"ffmpeg",     "-nostdin",
-                                "-y",         "-loglevel",
-                                "warning",    "-framerate",
-                                "24",         "-start_number",
-                                "0",          "-i",
-                                pattern.text, "-frames:v",
-                                count,        "-vf",
-                                filter,       "-c:v",
-                                "libx264",    "-threads",
-                                "2",          "-preset",
-                                "medium",     "-crf",
-                                "18",         "-pix_fmt",
-                                "yuv420p",    "-color_range",
-                                "tv",         "-colorspace",
-                                "bt709",      "-color_primaries",
-                                "bt709",      "-color_trc",
-                                "bt709",      "-movflags",
-                                "+faststart", "-fflags",
-                                "+bitexact",  "-flags:v",
-                                "+bitexact",  sheet.temporary.text,
-                                NULL};
-    TRY(children_run(&p->children, argv, "the turntable's video", sheet_done, &sheet));
+    const char *const argv[] = {
+        "ffmpeg",    "-nostdin",      "-y",        "-loglevel",   "warning",    "-framerate",
+        "24",        "-start_number", "0",         "-i",          pattern.text, "-frames:v",
+        count,       "-vf",           filter,      "-c:v",        "libx264",    "-threads",
+        "2",         "-preset",       "medium",    "-crf",        "18",         "-pix_fmt",
+        "yuv420p",   "-color_range",  "tv",        "-colorspace", "bt709",      "-color_primaries",
+        "bt709",     "-color_trc",    "bt709",     "-movflags",   "+faststart", "-fflags",
+        "+bitexact", "-flags:v",      "+bitexact", "-f",          "mp4",        sheet.temporary.text,
+        NULL};
+    TRY(children_run(&p->children, argv, "the turntable's video", video_done, &sheet));
     TRY(children_wait(&p->children));
 done:
     return st;
@@ -88,17 +96,18 @@ struct tile {
 
 /* Pictures side by side, a line of text on each that has one. oiiotool takes its pictures and what is done to
  * each in order: IN --text ... IN --text ... --mosaic. */
-static status mosaic(struct preview *p, const struct path *path, const struct tile *tile, size_t n)
+static status mosaic(struct preview *p, const struct recipe *recipe, const struct path *path,
+                     const struct tile *tile, size_t n)
 {
     enum { EACH = 4 };
     status st = OK;
-    struct sheet sheet = {.preview = p};
+    struct sheet sheet = {.recipe = recipe};
     const char **argv = NULL;
     char shape[48], text_option[256];
     size_t k = 0, columns = (size_t)ceil(sqrt((double)n));
     TRY(memory_alloc(EACH * n + 8, sizeof *argv, "the contact sheet", &argv));
     sheet.path = *path;
-    TRY(atomic_file_temporary(path->text, ".png", &sheet.temporary));
+    TRY(atomic_file_temporary(path->text, "", &sheet.temporary));
     snprintf(text_option, sizeof text_option, "--text:x=10:y=26:size=18:color=1,1,1,1:shadow=2:font=%s",
              FONT);
     argv[k++] = "oiiotool";
@@ -112,7 +121,7 @@ static status mosaic(struct preview *p, const struct path *path, const struct ti
     snprintf(shape, sizeof shape, "%zux%zu", columns, (n + columns - 1) / columns);
     argv[k++] = "--mosaic:pad=4";
     argv[k++] = shape;
-    argv[k++] = "-o";
+    argv[k++] = "-o:fileformatname=png";
     argv[k++] = sheet.temporary.text;
     TRY(children_run(&p->children, argv, "the contact sheet", sheet_done, &sheet));
     TRY(children_wait(&p->children));
@@ -126,6 +135,7 @@ status turntable_contact(struct preview *p, const int *frames, size_t n, int vie
     status st = OK;
     struct tile *tile = NULL;
     struct path path;
+    struct preview_recipe made;
     size_t n_pictures = views ? ((size_t)views + 2) / 3 : n;
     if (n_pictures == 0)
         return OK;
@@ -138,7 +148,10 @@ status turntable_contact(struct preview *p, const int *frames, size_t n, int vie
             slate_when(p->job, frame, tile[i].label);
     }
     TRY(folder_name(&path, p->job->name, FILE_SHEET, 0, picture_part(p)));
-    TRY(mosaic(p, &path, tile, n_pictures));
+    /* One of views is made with the video, where there is no other. */
+    TRY(views ? preview_recipe(p, "--only=video", NULL, frames[n - 1], &made)
+              : preview_recipe(p, "--only=sheet", p->sheet_frames, ALL_FRAMES, &made));
+    TRY(mosaic(p, &made.recipe, &path, tile, n_pictures));
 done:
     free(tile);
     return st;
@@ -165,6 +178,7 @@ status turntable_wedges(struct preview *p, const struct job *const *wedge, size_
     status st = OK;
     struct tile *tile = NULL;
     struct path path;
+    struct preview_recipe made;
     size_t k = 0;
     TRY(memory_alloc(n, sizeof *tile, "the contact sheet", &tile));
     for (size_t i = 0; i < n; i++) {
@@ -181,7 +195,8 @@ status turntable_wedges(struct preview *p, const struct job *const *wedge, size_
         goto done;
     }
     TRY(folder_name(&path, p->job->name, FILE_WEDGES, 0, NULL));
-    TRY(mosaic(p, &path, tile, k));
+    TRY(preview_recipe(p, "--only=wedges", NULL, ALL_FRAMES, &made));
+    TRY(mosaic(p, &made.recipe, &path, tile, k));
 done:
     free(tile);
     return st;

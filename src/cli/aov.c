@@ -5,10 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/progress.h"
@@ -17,10 +15,17 @@
 #include "field/field.h"
 #include "model/air.h"
 #include "output/exr.h"
-#include "output/folder.h"
+#include "output/product.h"
 #include "output/vdb.h"
 #include "run/branch.h"
 #include "scene/scene.h"
+
+/* The command that makes a picture; it points into itself. */
+struct shot_recipe {
+    struct recipe recipe;
+    struct path camera;
+    const char *word[PRODUCT_WORDS];
+};
 
 struct shot {
     struct path root;
@@ -30,6 +35,7 @@ struct shot {
     uint64_t job_hash;
     const struct job_camera **camera;
     size_t n_cameras;
+    const struct words *sets;
     int voxels[3];
     struct gpu *gpu;
     struct gpu_work *work;
@@ -92,9 +98,8 @@ static status check_unlisted(const struct shot *s, int frame, const char *path)
 {
     struct manifest manifest = {0};
     status st = manifest_read(s->root.text, s->name, frame, &manifest);
-    const char *own = path + strlen(s->root.text) + 1;
     for (size_t i = 0; st == OK && i < manifest.n_files; i++)
-        if (strcmp(manifest.file[i].path, own) == 0)
+        if (strcmp(manifest.file[i].path, path) == 0)
             st = fail(E_OUTPUT,
                       "%s is the run's own picture, which its manifest vouches for; give the camera another "
                       "name (--set 'cameras.NAME={...}' --camera NAME)",
@@ -103,10 +108,27 @@ static status check_unlisted(const struct shot *s, int frame, const char *path)
     return st == E_INPUT ? OK : st; /* a frame without a manifest vouches for nothing */
 }
 
+/* What makes the picture of this camera. */
+static status recipe_of(const struct shot *s, int frame, const char *camera, struct shot_recipe *out)
+{
+    *out = (struct shot_recipe){
+        .recipe = {.root = s->root.text, .word = out->word, .n_words = 3 + 2 * s->sets->n}};
+    status st = path_format(&out->camera, "--camera=%s", camera);
+    out->word[0] = "aov";
+    out->word[1] = "--missing";
+    out->word[2] = out->camera.text;
+    for (size_t i = 0; i < s->sets->n; i++) {
+        out->word[3 + 2 * i] = "--set";
+        out->word[4 + 2 * i] = s->sets->word[i];
+    }
+    return st == OK ? recipe_of_frame(&out->recipe, s->name, frame) : st;
+}
+
 static status write_picture(const struct shot *s, int frame, const struct aov_image *image)
 {
     status st = OK;
     struct path path;
+    struct shot_recipe made;
     void *bytes = NULL;
     size_t size;
     const struct exr_options options = {
@@ -118,24 +140,27 @@ static status write_picture(const struct shot *s, int frame, const struct aov_im
         .owner = s->job->output.owner,
         .comments = s->job->output.comments,
     };
-    TRY(folder_path(&path, s->root.text, s->name, FILE_AOV, frame, image->camera));
+    TRY(folder_name(&path, s->name, FILE_AOV, frame, image->camera));
     TRY(check_unlisted(s, frame, path.text));
+    TRY(recipe_of(s, frame, image->camera, &made));
     TRY(exr_encode(image, &options, &bytes, &size));
-    TRY(atomic_file_write(path.text, bytes, size));
+    TRY(product_write(&made.recipe, path.text, bytes, size));
 done:
     free(bytes);
     return st;
 }
 
-/* Is the camera's picture there, no older than the frame's volumes? */
-static bool current(const struct shot *s, int frame, const char *camera)
+/* Is the camera's picture there, whole, made by this command of the frame that is there? */
+static status picture_done(const struct shot *s, int frame, const char *camera, bool *out)
 {
+    status st = OK;
     struct path path;
-    struct stat from, made;
-    return folder_path(&path, s->root.text, s->name, FILE_VOLUMES, frame, NULL) == OK &&
-           stat(path.text, &from) == 0 &&
-           folder_path(&path, s->root.text, s->name, FILE_AOV, frame, camera) == OK &&
-           stat(path.text, &made) == 0 && made.st_mtim.tv_sec >= from.st_mtim.tv_sec;
+    struct shot_recipe made;
+    TRY(folder_name(&path, s->name, FILE_AOV, frame, camera));
+    TRY(recipe_of(s, frame, camera, &made));
+    TRY(product_done(&made.recipe, path.text, true, out));
+done:
+    return st;
 }
 
 static status shoot(struct shot *s, int frame)
@@ -143,15 +168,15 @@ static status shoot(struct shot *s, int frame)
     status st = OK;
     struct loaded l = {0};
     struct aov_image image = {0};
-    size_t todo = 0;
-    for (size_t c = 0; c < s->n_cameras; c++)
-        todo += !s->missing || !current(s, frame, s->camera[c]->name);
-    if (todo == 0)
-        return OK;
-    TRY(load(s, frame, &l));
+    bool loaded = false, there = false;
     for (size_t c = 0; c < s->n_cameras; c++) {
-        if (s->missing && current(s, frame, s->camera[c]->name))
+        if (s->missing)
+            TRY(picture_done(s, frame, s->camera[c]->name, &there));
+        if (there)
             continue;
+        if (!loaded)
+            TRY(load(s, frame, &l));
+        loaded = true;
         TRY(aov_render(s->gpu, &s->aov, s->job, s->camera[c], frame, &s->field, &l.particles,
                        l.air.velocity ? &l.air : NULL, &image));
         TRY(write_picture(s, frame, &image));
@@ -252,7 +277,7 @@ status cli_aov(int argc, char **argv)
         {"camera", "NAME", OPTION_WORDS, &cameras,
          "of the job, or of --set 'cameras.NAME={...}'; repeatable (default: farm.cameras, or all)"},
         {"missing", NULL, OPTION_FLAG, &s.missing,
-         "only pictures that are not there, or older than their volumes"},
+         "only pictures that are not there, are damaged, or were made otherwise or of another frame"},
         {"allow-none", NULL, OPTION_FLAG, &allow_none, "frames without volumes are no error"},
         OPTION_WEDGE(&wedge),
     };
@@ -268,6 +293,12 @@ status cli_aov(int argc, char **argv)
     job_destroy(&s.job);
     TRY(job_load(path.text, c.sets.word, c.sets.n, &s.job));
     TRY(choose_cameras(&s, &cameras));
+    if (2 * c.sets.n + 3 > PRODUCT_WORDS) {
+        st = fail(E_USAGE, "--set is given %zu times; at most %d are recorded with a picture", c.sets.n,
+                  (PRODUCT_WORDS - 3) / 2);
+        goto done;
+    }
+    s.sets = &c.sets;
     st = volume_frames(s.root.text, s.name, c.frames, &frames, &n);
     if (st == E_INPUT && allow_none)
         st = OK;

@@ -5,6 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "cli/cli.h"
 #include "frame/meshes.h"
 #include "job/job.h"
@@ -25,7 +26,9 @@ status cli_mesh(int argc, char **argv)
     struct progress progress = {0};
     struct path root;
     int wedge = 0;
-    bool help = false, missing = false, allow_none = false;
+    bool help = false, missing = false, allow_none = false, done = false;
+    const char *word[5] = {"mesh", "--missing"};
+    char adaptivity[64], smooth[32], number[32];
     const struct option options[] = {
         OPTION_FRAMES(&c),
         {"adaptivity", "VOXELS", OPTION_NUMBER, &meshes.adaptivity,
@@ -35,7 +38,7 @@ status cli_mesh(int argc, char **argv)
          "edges (default 0)"},
         {"no-rocks", NULL, OPTION_FLAG, &no_rocks, "without NAME.rocks.FRAME, the rocks of piles"},
         {"missing", NULL, OPTION_FLAG, &missing,
-         "only meshes that are not there, or older than their volumes"},
+         "only meshes that are not there, are damaged, or were made otherwise or of another frame"},
         {"allow-none", NULL, OPTION_FLAG, &allow_none, "frames without volumes are no error"},
         OPTION_WEDGE(&wedge),
         OPTION_PROGRESS(&c),
@@ -58,7 +61,17 @@ status cli_mesh(int argc, char **argv)
     TRY(path_join(&path, root.text, "mesh"));
     TRY(folder_make(path.text));
     TRY(folder_frames(root.text, job->name, &frames, &n));
-    meshes.root = root.text;
+    meshes.recipe = (struct recipe){.root = root.text, .word = word, .n_words = 2};
+    if (meshes.adaptivity > 0) {
+        snprintf(adaptivity, sizeof adaptivity, "--adaptivity=%s", number_text(meshes.adaptivity, number));
+        word[meshes.recipe.n_words++] = adaptivity;
+    }
+    if (meshes.smooth > 0) {
+        snprintf(smooth, sizeof smooth, "--smooth=%d", meshes.smooth);
+        word[meshes.recipe.n_words++] = smooth;
+    }
+    if (no_rocks)
+        word[meshes.recipe.n_words++] = "--no-rocks";
     meshes.job = job;
     meshes.rocks = !no_rocks;
     progress_begin_notes(&progress, (enum progress_style)c.progress);
@@ -70,7 +83,9 @@ status cli_mesh(int argc, char **argv)
         if (access(path.text, R_OK) != 0)
             continue;
         n_found++;
-        if (missing && meshes_current(&meshes, frames[i]))
+        if (missing)
+            TRY(meshes_done(&meshes, frames[i], &done));
+        if (done)
             continue;
         TRY(meshes_write(&meshes, frames[i]));
         snprintf(line, sizeof line, "mesh of frame %d", frames[i]);

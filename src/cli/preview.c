@@ -12,7 +12,7 @@
 #include "base/progress.h"
 #include "base/signals.h"
 #include "cli/cli.h"
-#include "output/folder.h"
+#include "output/product.h"
 #include "render/picture.h"
 #include "render/turntable.h"
 
@@ -27,7 +27,37 @@ struct wanted {
     int views, preset, only, jobs, wedge, show;
     const char *camera, *resolution, *range;
     struct frame_range which; /* views */
+    char word[5][128], views_word[32], frames_word[64];
 };
+
+/* Its words, which live in `w`, say what is made. */
+static void take_options(struct wanted *w, struct preview *p)
+{
+    static const char *const presets[] = {CHOICE_LIST(PRESET_CHOICE)};
+    struct option_text {
+        const char *name, *value;
+    } text[] = {
+        {"show", picture_part(p)},     {"range", w->range},
+        {"camera", w->camera},         {"preset", w->preset == PRESET_PREVIEW ? NULL : presets[w->preset]},
+        {"resolution", w->resolution},
+    };
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++)
+        if (text[i].value) {
+            snprintf(w->word[i], sizeof w->word[i], "--%s=%.100s", text[i].name, text[i].value);
+            p->option[p->n_options++] = w->word[i];
+        }
+    if (w->no_slate)
+        p->option[p->n_options++] = "--no-slate";
+    if (w->turntable) {
+        snprintf(w->views_word, sizeof w->views_word, "--views=%d", w->views);
+        p->option[p->n_options++] = w->views_word;
+    }
+    if (w->common.frames.step) {
+        char frames[48];
+        snprintf(w->frames_word, sizeof w->frames_word, "--frames=%s", range_text(w->common.frames, frames));
+        p->sheet_frames = w->frames_word;
+    }
+}
 
 static status check(struct wanted *w, struct preview *p)
 {
@@ -59,6 +89,7 @@ static status check(struct wanted *w, struct preview *p)
     p->no_slate = w->no_slate;
     p->show = show_of_word(w->show);
     p->range = show_job_range(p->show, p->job);
+    take_options(w, p);
     if (w->range && strcmp(w->range, "job") != 0 && strcmp(w->range, "data") != 0)
         return show_parse_range(p->show, w->range, &p->range);
     return OK;
@@ -102,18 +133,32 @@ done:
     return st;
 }
 
+/* Is there a sound sheet of stills? */
+static status is_stills_sheet(const struct preview *p, const char *path, bool *out)
+{
+    struct product sheet;
+    status st = product_read(p->root, path, &sheet);
+    if (st == OK)
+        st = product_check(p->root, p->job->name, &sheet, true);
+    *out = st == OK && sheet.frame == ALL_FRAMES;
+    product_free(&sheet);
+    return st == E_INPUT ? OK : st;
+}
+
 static status turntable(struct preview *p, const struct wanted *w, const int *frames, size_t n)
 {
     status st = OK;
     struct path path;
+    bool of_stills;
     if (w->only != ONLY_VIDEO)
         TRY(picture_orbit(p, frames[n - 1], w->views, w->which));
     if (w->only == ONLY_VIEWS)
         goto done;
     TRY(turntable_video(p, frames[n - 1], w->views));
     /* A sheet of stills says more than one of views, if there is one. */
-    TRY(folder_path(&path, p->root, p->job->name, FILE_SHEET, 0, picture_part(p)));
-    if (access(path.text, R_OK) != 0)
+    TRY(folder_name(&path, p->job->name, FILE_SHEET, 0, picture_part(p)));
+    TRY(is_stills_sheet(p, path.text, &of_stills));
+    if (!of_stills)
         TRY(turntable_contact(p, frames, n, w->views));
 done:
     return st;

@@ -8,12 +8,18 @@
 #include "render/report.h"
 #include "render/report_wedges.h"
 
-static status put_page(const char *root, const struct text *page)
+static status put_page(const char *root, bool pictures, const struct text *page)
 {
+    static const char *const without[] = {"report", "--no-pictures"};
     struct path path;
+    struct recipe recipe = report_recipe(root);
     status st = OK;
+    if (!pictures) {
+        recipe.word = without;
+        recipe.n_words = 2;
+    }
     TRY(path_join(&path, root, "report/index.html"));
-    TRY(atomic_file_write(path.text, page->data, page->size));
+    TRY(product_write(&recipe, "report/index.html", page->data, page->size));
     printf("%s\n", path.text);
 done:
     return st;
@@ -24,7 +30,7 @@ static status of_wedges(const char *root, struct text *page)
     status st = OK;
     bool sound = false;
     TRY(report_wedges(root, page, &sound));
-    TRY(put_page(root, page));
+    TRY(put_page(root, true, page));
     if (!sound)
         st = fail(E_INPUT, "%s: no wedge has a sound frame yet; the page says what each has", root);
 done:
@@ -43,7 +49,7 @@ static status of_run(const char *root, bool pictures, struct text *page)
     if (pictures)
         TRY(report_pictures(&r));
     TRY(report_page(&r, page));
-    TRY(put_page(root, page));
+    TRY(put_page(root, pictures, page));
     if (r.n_sound == 0)
         st = fail(
             E_INPUT,

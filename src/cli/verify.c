@@ -1,5 +1,5 @@
-/* hoodoo verify OUT: reads every file there is, against its manifest and with the reader of its kind. All is
- * well only when every frame of the job (or of --frames) is there and whole. */
+/* hoodoo verify OUT: reads every file there is, against its manifest or record and with the reader of its kind. All is
+ * well only when every frame of the job (or of --frames) is there and whole, and so is all that was made of them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,24 +9,22 @@
 #include "base/log.h"
 #include "checkpoint/checkpoint.h"
 #include "cli/cli.h"
+#include "cli/verify.h"
 #include "cli/words.h"
 #include "output/exr.h"
-#include "output/folder.h"
 #include "output/vdb.h"
 #include "run/branch.h"
 
-struct search {
-    const char *root;
-    char name[256];
-    struct frame_range frames;
-    bool json, only_frames; /* --frames: checkpoints are not asked for */
-    uint64_t job_hash;      /* of the frames' job */
-    size_t n_frames, n_files, n_checkpoints, n_bad_checkpoints, n_damaged, n_missing;
-    struct text answer; /* where json is set: so far up to the list of problems */
-};
+static void print_line(const char *line)
+{
+    /* Paths are texts of a file that may be anyone's, and farm managers obey lines of stdout. */
+    for (const char *c = line; *c; c++)
+        putchar((unsigned char)*c < 0x20 || *c == 0x7f ? ' ' : *c);
+    putchar('\n');
+    fflush(stdout);
+}
 
-/* A line now, in words, since reading everything takes long; or a member of the list. */
-static void found(struct search *s, bool missing, const char *path, const char *what)
+void found(struct search *s, bool missing, const char *path, const char *what)
 {
     *(missing ? &s->n_missing : &s->n_damaged) += 1;
     const char *kind = missing ? "missing" : "damaged";
@@ -43,14 +41,9 @@ static void found(struct search *s, bool missing, const char *path, const char *
         json_end_object(&s->answer);
         return;
     }
-    /* Paths are texts of a file that may be anyone's, and farm managers obey lines of stdout. */
     char line[1400];
     snprintf(line, sizeof line, "%s %s%s%s", kind, path, *what ? ": " : "", what);
-    for (char *c = line; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = ' ';
-    puts(line);
-    fflush(stdout);
+    print_line(line);
 }
 
 static bool ends_with(const char *path, const char *end)
@@ -133,7 +126,14 @@ static status verify_job(struct search *s)
     uint64_t hash;
     TRY(folder_job_hash(s->root, &s->job_hash));
     TRY(path_join(&path, s->root, "job.yaml"));
-    TRY(job_load(path.text, NULL, 0, &job));
+    st = job_load(path.text, NULL, 0, &job);
+    if (st != OK && st != E_MEMORY) {
+        found(s, false, "job.yaml", status_message());
+        s->bad_job = true;
+        st = OK;
+        goto done;
+    }
+    TRY(st);
     if (!s->only_frames)
         s->frames = job->frames;
     st = job_hash(job, &hash);
@@ -142,6 +142,7 @@ static status verify_job(struct search *s)
         st = OK;
     } else if (st == OK && hash != s->job_hash) {
         found(s, false, "job.yaml", "it is not the frames' job");
+        s->bad_job = true;
     }
 done:
     job_destroy(&job);
@@ -154,12 +155,12 @@ static status verify_frames(struct search *s)
     status st = OK;
     int *there = NULL;
     size_t n = 0;
-    for (size_t i = 0; i < range_count(s->frames); i++)
+    for (size_t i = 0; s->frames.step && i < range_count(s->frames); i++)
         TRY(verify_frame(s, s->frames.first + (int)i * s->frames.step));
     if (!s->only_frames)
         TRY(folder_frames(s->root, s->name, &there, &n));
     for (size_t i = 0; i < n; i++)
-        if (!range_holds(s->frames, there[i]))
+        if (!s->frames.step || !range_holds(s->frames, there[i]))
             TRY(verify_frame(s, there[i]));
 done:
     free(there);
@@ -204,25 +205,35 @@ done:
 static status report(struct search *s)
 {
     status st = OK;
+    struct text how = {0};
+    const size_t n_run = s->n_damaged + s->n_missing - s->n_others;
+    if (n_run)
+        TRY(remake_run(s, s->n_bad_checkpoints > 0));
+    TRY(remake_text(s, &how));
     if (s->json) {
         json_end_array(&s->answer);
+        TRY(remake_json(s));
         json_integer(&s->answer, "frames", (int64_t)s->n_frames);
         json_integer(&s->answer, "files", (int64_t)s->n_files);
+        json_integer(&s->answer, "products", (int64_t)s->n_products);
         json_integer(&s->answer, "checkpoints", (int64_t)s->n_checkpoints);
         json_integer(&s->answer, "damaged", (int64_t)s->n_damaged);
         json_integer(&s->answer, "missing", (int64_t)s->n_missing);
         json_end_object(&s->answer);
         TRY(words_print(&s->answer, true));
     } else {
-        printf("%zu frames, %zu files, %zu checkpoints: %zu damaged, %zu missing\n", s->n_frames, s->n_files,
-               s->n_checkpoints, s->n_damaged, s->n_missing);
+        char line[200];
+        snprintf(line, sizeof line,
+                 "%zu frames, %zu files, %zu products, %zu checkpoints: %zu damaged, %zu missing",
+                 s->n_frames, s->n_files, s->n_products, s->n_checkpoints, s->n_damaged, s->n_missing);
+        print_line(line);
     }
     if (s->n_damaged + s->n_missing)
-        st = fail(E_INPUT,
-                  "%s: of %zu files %zu are damaged, %zu missing; 'hoodoo run%s' makes what is damaged or "
-                  "missing anew",
-                  s->root, s->n_files, s->n_damaged, s->n_missing, s->n_bad_checkpoints ? " --repair" : "");
+        st =
+            fail(E_INPUT, "%s: of %zu files %zu are damaged, %zu missing; %s what is damaged or missing anew",
+                 s->root, s->n_files, s->n_damaged, s->n_missing, how.data);
 done:
+    text_free(&how);
     return st;
 }
 
@@ -253,9 +264,11 @@ status cli_verify(int argc, char **argv)
     TRY(verify_frames(&s));
     if (!s.only_frames)
         TRY(verify_checkpoints(&s));
+    TRY(verify_products(&s));
     TRY(report(&s));
 done:
     text_free(&s.answer);
+    remakes_free(&s);
     words_free(&operands);
     return st;
 }

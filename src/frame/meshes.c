@@ -4,17 +4,15 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/version.h"
 #include "frame/rocks.h"
 #include "job/palette.h"
 #include "mesh/trimesh.h"
-#include "output/folder.h"
 #include "output/mesh_file.h"
+#include "output/product.h"
 #include "output/vdb.h"
 #include "particles/layers.h"
 #include "stacks/material.h"
@@ -100,20 +98,22 @@ static status write_both(const struct meshes *m, bool rocks, int frame, struct m
     struct path path;
     char comment[400];
     struct text text = {0};
+    struct recipe recipe = m->recipe;
+    TRY(recipe_of_frame(&recipe, m->job->name, frame));
     snprintf(comment, sizeof comment, "hoodoo %s: %.255s, frame %d; metres, %s up", hoodoo_version,
              m->job->name, frame, m->job->output.up == OUTPUT_UP_Y ? "y" : "z");
     file->name = m->job->name;
     file->comment = comment;
     file->up = m->job->output.up;
-    TRY(folder_path(&path, m->root, m->job->name, FILE_MESH, frame, part(rocks)));
+    TRY(folder_name(&path, m->job->name, FILE_MESH, frame, part(rocks)));
     mesh_file_ply(file, &text);
     TRY(text_status(&text));
-    TRY(atomic_file_write(path.text, text.data, text.size));
+    TRY(product_write(&recipe, path.text, text.data, text.size));
     text_free(&text);
-    TRY(folder_path(&path, m->root, m->job->name, FILE_OBJ, frame, part(rocks)));
+    TRY(folder_name(&path, m->job->name, FILE_OBJ, frame, part(rocks)));
     mesh_file_obj(file, &text);
     TRY(text_status(&text));
-    TRY(atomic_file_write(path.text, text.data, text.size));
+    TRY(product_write(&recipe, path.text, text.data, text.size));
 done:
     text_free(&text);
     return st;
@@ -129,7 +129,7 @@ static status write_surface(const struct meshes *m, int frame)
     struct vdb_mesh mesh = {0};
     float(*color)[3] = NULL;
     const struct carried carried = carried_by(m->job);
-    TRY(folder_path(&path, m->root, m->job->name, FILE_POINTS, frame, NULL));
+    TRY(folder_path(&path, m->recipe.root, m->job->name, FILE_POINTS, frame, NULL));
     if (access(path.text, R_OK) == 0) {
         TRY(vdb_points_read(path.text, &rock));
         if (rock.layer) {
@@ -144,7 +144,7 @@ static status write_surface(const struct meshes *m, int frame)
                                              .n_optional = carried.n_optional,
                                              .label = set_labels,
                                              .user = &labels};
-    TRY(folder_path(&path, m->root, m->job->name, FILE_VOLUMES, frame, NULL));
+    TRY(folder_path(&path, m->recipe.root, m->job->name, FILE_VOLUMES, frame, NULL));
     TRY(vdb_mesh_make(path.text, &options, &mesh));
     TRY(memory_alloc(mesh.n_vertices, sizeof *color, "colours", &color));
 #pragma omp parallel for
@@ -239,7 +239,7 @@ static status write_rocks(const struct meshes *m, int frame)
     struct trimesh *shape = NULL, all = {0};
     float *normal = NULL, (*color)[3] = NULL;
     uint32_t *layer = NULL;
-    TRY(folder_path(&path, m->root, m->job->name, FILE_ROCKS, frame, NULL));
+    TRY(folder_path(&path, m->recipe.root, m->job->name, FILE_ROCKS, frame, NULL));
     TRY(vdb_points_read(path.text, &at));
     TRY(rocks_tile(m->job, &tile));
     TRY(memory_alloc(tile.n, sizeof *shape, "rocks", &shape));
@@ -290,18 +290,19 @@ done:
     return st;
 }
 
-bool meshes_current(const struct meshes *m, int frame)
+status meshes_done(const struct meshes *m, int frame, bool *done)
 {
     static const enum folder_file both[] = {FILE_MESH, FILE_OBJ};
+    status st = OK;
     struct path path;
-    struct stat from, made;
-    if (folder_path(&path, m->root, m->job->name, FILE_VOLUMES, frame, NULL) != OK ||
-        stat(path.text, &from) != 0)
-        return false;
+    struct recipe recipe = m->recipe;
+    *done = true;
+    TRY(recipe_of_frame(&recipe, m->job->name, frame));
     for (int rocks = 0; rocks <= has_rocks(m); rocks++)
-        for (int e = 0; e < 2; e++)
-            if (folder_path(&path, m->root, m->job->name, both[e], frame, part(rocks)) != OK ||
-                stat(path.text, &made) != 0 || made.st_mtim.tv_sec < from.st_mtim.tv_sec)
-                return false;
-    return true;
+        for (int e = 0; e < 2 && *done; e++) {
+            TRY(folder_name(&path, m->job->name, both[e], frame, part(rocks)));
+            TRY(product_done(&recipe, path.text, true, done));
+        }
+done:
+    return st;
 }

@@ -12,9 +12,10 @@
 #include <stdbool.h>
 
 #include "job/job.h"
+#include "output/product.h"
 
 struct meshes {
-    const char *root; /* the output folder */
+    struct recipe recipe; /* of no frame yet */
     const struct job *job;
     double adaptivity; /* 0..1 voxels: how far the surface may move for fewer triangles */
     int smooth;        /* passes */
@@ -25,7 +26,7 @@ struct meshes {
  * frame has no points. */
 MUST_USE status meshes_write(const struct meshes *m, int frame);
 
-/* Are they there, no older than what they are made from? */
-bool meshes_current(const struct meshes *m, int frame);
+/* Are they there, whole, made by this command of the frame that is there? E_MEMORY. */
+MUST_USE status meshes_done(const struct meshes *m, int frame, bool *done);
 
 #endif

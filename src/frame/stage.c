@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
@@ -13,7 +12,7 @@
 #include "frame/rocks.h"
 #include "job/palette.h"
 #include "output/axes.h"
-#include "output/folder.h"
+#include "output/product.h"
 #include "output/usd.h"
 
 enum { MAX_FIELDS = VALUES };
@@ -21,6 +20,7 @@ enum { MAX_FIELDS = VALUES };
 struct stage {
     const struct job *job;
     const char *root;
+    bool last; /* it is not written again after this */
     struct usd_sequence sequence;
     struct usd_field field[MAX_FIELDS];
     int *volumes, *points, *rocks; /* frames */
@@ -28,6 +28,15 @@ struct stage {
 };
 
 /* ---- frames */
+
+/* A run does not fail of a file that was sound once, and at its end everything is read again. */
+static void left_out(const struct stage *s, int frame, const char *why)
+{
+    if (s->last)
+        log_warn("frame %d is not in %s.usda: %s", frame, s->job->name, why);
+    else
+        log_info("frame %d is not in %s.usda yet: %s", frame, s->job->name, why);
+}
 
 /* *sound: the frame is done, and of this job. */
 static status read_frame(const struct stage *s, uint64_t job_hash, int number, struct stage_frame *out,
@@ -38,9 +47,15 @@ static status read_frame(const struct stage *s, uint64_t job_hash, int number, s
     struct manifest m = {0};
     *sound = false;
     st = manifest_read(s->root, s->job->name, number, &m);
-    if (st != OK)
-        return st == E_MEMORY ? st : OK; /* a damaged frame is not in the stage */
+    if (st != OK && st != E_MEMORY) {
+        left_out(s, number, status_message());
+        st = OK;
+        goto done;
+    }
+    TRY(st);
     TRY(manifest_check(s->root, &m, false, &bad));
+    if (*bad)
+        left_out(s, number, status_message());
     *sound = !*bad && m.job_hash == job_hash && range_holds(s->job->frames, number);
     *out = (struct stage_frame){.number = number,
                                 .volumes = manifest_lists(&m, "volumes/", ".vdb"),
@@ -246,11 +261,13 @@ done:
 
 /* ---- files */
 
-static status put(const char *path, struct text *t)
+static status put(const struct stage *s, const char *path, struct text *t)
 {
+    static const char *const command[] = {"run"};
+    const struct recipe recipe = {.root = s->root, .word = command, .n_words = 1, .frame = ALL_FRAMES};
     status st = text_status(t);
     if (st == OK)
-        st = atomic_file_write(path, t->data, t->size);
+        st = product_write(&recipe, path, t->data, t->size);
     text_free(t);
     return st;
 }
@@ -260,9 +277,9 @@ static status put_clips(const struct stage *s, const struct usd_prim *prim)
     status st = OK;
     struct path path;
     struct text t = {0};
-    TRY(path_format(&path, "%s/%s/%s.clips.usda", s->root, prim->folder, s->job->name));
+    TRY(path_format(&path, "%s/%s.clips.usda", prim->folder, s->job->name));
     usd_clips(&s->sequence, prim, &t);
-    TRY(put(path.text, &t));
+    TRY(put(s, path.text, &t));
 done:
     return st;
 }
@@ -286,9 +303,9 @@ static status put_shapes(struct stage *s)
                                 .triangle = tile.triangle};
     palette_color(s->job, rocks_layer(s->job), shapes.color);
     s->sequence.n_shapes = tile.n;
-    TRY(path_format(&path, "%s/rocks/%s.shapes.usda", s->root, s->job->name));
+    TRY(path_format(&path, "rocks/%s.shapes.usda", s->job->name));
     usd_shapes(&shapes, &t);
-    TRY(put(path.text, &t));
+    TRY(put(s, path.text, &t));
 done:
     free(shape);
     pile_tile_destroy(&tile);
@@ -303,6 +320,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
     struct text t = {0};
     struct stage s = {.job = job,
                       .root = root,
+                      .last = !known,
                       .sequence = {.name = job->name,
                                    .first = job->frames.first,
                                    .last = job->frames.last,
@@ -326,9 +344,9 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
         TRY(put_clips(&s, &usd_rocks_prim));
         TRY(put_shapes(&s));
     }
-    TRY(folder_path(&path, root, job->name, FILE_STAGE, 0, NULL));
+    TRY(folder_name(&path, job->name, FILE_STAGE, 0, NULL));
     usd_stage(&s.sequence, &t);
-    TRY(put(path.text, &t));
+    TRY(put(&s, path.text, &t));
 done:
     stage_frames_free(&all);
     free(s.volumes);

@@ -10,6 +10,7 @@
 #include "base/atomic_file.h"
 #include "base/json.h"
 #include "base/memory.h"
+#include "output/product.h"
 
 #define ORBITS "turntable"
 static const char FIRST_VIEW[] = "000.png";
@@ -107,6 +108,7 @@ status folder_prepare(const char *root)
         TRY(folder_make(path.text));
         atomic_file_sweep(path.text);
     }
+    product_sweep(root);
     TRY(path_join(&path, root, "log"));
     TRY(folder_make(path.text));
 done:

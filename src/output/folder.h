@@ -95,6 +95,13 @@ bool manifest_lists(const struct manifest *manifest, const char *folder, const c
 MUST_USE status manifest_check(const char *root, const struct manifest *manifest, bool deep,
                                const char **bad);
 
+/* Does one file stand there as listed? E_INPUT says why not. */
+MUST_USE status listed_check(const char *root, const struct manifest_file *file, bool deep);
+
+/* A hash of what is derived from a frame is made of: its points, volumes and rocks, as its manifest lists them. E_INPUT as
+ * manifest_read(). */
+MUST_USE status manifest_source(const char *root, const char *name, int frame, uint64_t *hash);
+
 /* The frames of `name` that have a file of this kind (named as folder_name() does, with no part), ascending;
  * *frames freed with free(). A folder that is not there has none. */
 MUST_USE status folder_list(const char *root, const char *name, enum folder_file kind, int **frames,

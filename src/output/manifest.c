@@ -5,21 +5,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/json.h"
 #include "base/memory.h"
 #include "output/folder.h"
+#include "output/sealed.h"
 
-/* The last member is the hash of all text before it, so that damage to the manifest itself shows. */
-static const char SELF[] = "\n  \"self_xxh3\": \"", END[] = "\"\n}\n";
-enum { HASH_DIGITS = 16, LARGEST = 16 << 20, MOST_FILES = 4096 };
-
-static void write_hash(struct text *t, const char *key, uint64_t hash)
-{
-    char text[17];
-    json_text(t, key, hash_text(hash, text));
-}
+enum { MOST_FILES = 4096 };
 
 status manifest_write(const char *root, const char *name, const struct manifest *m)
 {
@@ -31,14 +23,14 @@ status manifest_write(const char *root, const char *name, const struct manifest 
     json_text(&t, "kind", "hoodoo frame");
     json_integer(&t, "format", 1);
     json_integer(&t, "frame", m->frame);
-    write_hash(&t, "job_xxh3", m->job_hash);
+    sealed_put_hash(&t, "job_xxh3", m->job_hash);
     json_number(&t, "years", m->years);
     json_array(&t, "files");
     for (size_t i = 0; i < m->n_files; i++) {
         json_object(&t, NULL);
         json_text(&t, "path", m->file[i].path);
         json_integer(&t, "size", (int64_t)m->file[i].size);
-        write_hash(&t, "xxh3", m->file[i].hash);
+        sealed_put_hash(&t, "xxh3", m->file[i].hash);
         json_end_object(&t);
     }
     json_end_array(&t);
@@ -60,23 +52,10 @@ status manifest_write(const char *root, const char *name, const struct manifest 
             json_number(&t, m->change[i].process, m->change[i].m3);
         json_end_object(&t);
     }
-    TRY(text_status(&t));
-    write_hash(&t, "self_xxh3", hash_bytes(t.data, t.size));
-    json_end_object(&t);
-    TRY(text_status(&t));
-    TRY(atomic_file_write(path.text, t.data, t.size));
+    TRY(sealed_write(path.text, &t));
 done:
     text_free(&t);
     return st;
-}
-
-static bool to_hash(const struct json *json, uint64_t *out)
-{
-    const char *text = json_to_text(json);
-    if (!text || strlen(text) != HASH_DIGITS || strspn(text, "0123456789abcdef") != HASH_DIGITS)
-        return false;
-    *out = strtoull(text, NULL, 16);
-    return true;
 }
 
 /* null is what a number that is not finite was written as. */
@@ -88,22 +67,6 @@ static bool to_number(const struct json *json, double *out)
     return true;
 }
 
-/* Relative, within the folder, and printable. */
-static bool is_inside(const char *path)
-{
-    if (*path == '/' || *path == '\0')
-        return false;
-    for (const char *part = path; part; part = strchr(part, '/') ? strchr(part, '/') + 1 : NULL) {
-        const size_t n = strcspn(part, "/");
-        if (n == 0 || (n == 1 && part[0] == '.') || (n == 2 && part[0] == '.' && part[1] == '.'))
-            return false;
-    }
-    for (const char *c = path; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f || *c == '\\')
-            return false;
-    return true;
-}
-
 static bool to_files(const struct json *files, struct manifest *out)
 {
     if (!files || files->kind != JSON_ARRAY)
@@ -111,9 +74,9 @@ static bool to_files(const struct json *files, struct manifest *out)
     for (const struct json *item = files->first; item; item = item->next) {
         struct manifest_file *f = &out->file[out->n_files];
         const char *path = json_to_text(json_member(item, "path"));
-        if (!path || strlen(path) >= sizeof f->path || !is_inside(path) ||
+        if (!path || strlen(path) >= sizeof f->path || !sealed_is_inside(path) ||
             !json_to_uint64(json_member(item, "size"), &f->size) ||
-            !to_hash(json_member(item, "xxh3"), &f->hash))
+            !sealed_to_hash(json_member(item, "xxh3"), &f->hash))
             return false;
         snprintf(f->path, sizeof f->path, "%s", path);
         out->n_files++;
@@ -148,7 +111,7 @@ static const char *to_manifest(const struct json *json, struct manifest *out)
     if (format != 1)
         return "its format is a later one; use a newer hoodoo";
     if (!json_to_int(json_member(json, "frame"), &out->frame) ||
-        !to_hash(json_member(json, "job_xxh3"), &out->job_hash) ||
+        !sealed_to_hash(json_member(json, "job_xxh3"), &out->job_hash) ||
         !to_number(json_member(json, "years"), &out->years))
         return "its frame, job_xxh3 or years is missing or wrong";
     if (!to_files(json_member(json, "files"), out))
@@ -168,34 +131,16 @@ static const char *to_manifest(const struct json *json, struct manifest *out)
     return "";
 }
 
-static status check_self(const char *path, const char *bytes, size_t size)
-{
-    char text[17];
-    const char *self = memmem(bytes, size, SELF, sizeof SELF - 1);
-    /* The comma before SELF was written together with it; after the digits comes END and nothing else. */
-    if (!self || self == bytes ||
-        size - (size_t)(self - bytes) != sizeof SELF - 1 + HASH_DIGITS + sizeof END - 1 ||
-        memcmp(self + sizeof SELF - 1, hash_text(hash_bytes(bytes, (size_t)(self - bytes) - 1), text),
-               HASH_DIGITS) != 0 ||
-        memcmp(bytes + size - (sizeof END - 1), END, sizeof END - 1) != 0)
-        return fail(E_INPUT, "%s: damaged, or not a frame's manifest: its own hash does not match", path);
-    return OK;
-}
-
 status manifest_read(const char *root, const char *name, int frame, struct manifest *out)
 {
     status st = OK;
     struct path path;
-    char *bytes = NULL;
-    size_t size = 0;
     struct json *json = NULL;
     struct manifest m = {0};
     const struct json *files;
     const char *wrong;
     TRY(folder_path(&path, root, name, FILE_MANIFEST, frame, NULL));
-    TRY(file_read(path.text, LARGEST, &bytes, &size));
-    TRY(json_read(path.text, bytes, size, &json));
-    TRY(check_self(path.text, bytes, size));
+    TRY(sealed_read(path.text, "a frame's manifest", &json));
     files = json_member(json, "files");
     if (files && files->n > MOST_FILES) {
         st = fail(E_INPUT, "%s: it lists %zu files, more than the %d allowed", path.text, files->n,
@@ -216,7 +161,6 @@ done:
     manifest_free(&m);
     if (json)
         json_free(&json);
-    free(bytes);
     return st;
 }
 
@@ -236,8 +180,7 @@ void manifest_free(struct manifest *manifest)
     *manifest = (struct manifest){0};
 }
 
-/* OK if the file stands there as listed; E_INPUT says why not. */
-static status check_file(const char *root, const struct manifest_file *f, bool deep)
+status listed_check(const char *root, const struct manifest_file *f, bool deep)
 {
     struct path path;
     struct stat info;
@@ -261,11 +204,30 @@ status manifest_check(const char *root, const struct manifest *manifest, bool de
 {
     *bad = "";
     for (size_t i = 0; i < manifest->n_files && !**bad; i++) {
-        status st = check_file(root, &manifest->file[i], deep);
+        status st = listed_check(root, &manifest->file[i], deep);
         if (st == E_MEMORY)
             return st;
         if (st != OK)
             *bad = manifest->file[i].path;
     }
     return OK;
+}
+
+status manifest_source(const char *root, const char *name, int frame, uint64_t *hash)
+{
+    static const char *const sources[] = {"points/", "volumes/", "rocks/"};
+    status st = OK;
+    struct manifest m = {0};
+    uint64_t seen[2] = {0};
+    TRY(manifest_read(root, name, frame, &m));
+    for (size_t i = 0; i < m.n_files; i++)
+        for (size_t k = 0; k < sizeof sources / sizeof *sources; k++)
+            if (strncmp(m.file[i].path, sources[k], strlen(sources[k])) == 0) {
+                seen[1] = m.file[i].hash;
+                seen[0] = hash_bytes(seen, sizeof seen);
+            }
+    *hash = seen[0];
+done:
+    manifest_free(&m);
+    return st;
 }

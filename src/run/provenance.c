@@ -12,7 +12,7 @@
 #include "base/memory.h"
 #include "base/path.h"
 #include "base/version.h"
-#include "output/folder.h"
+#include "output/product.h"
 
 enum { RUN_JSON_MAX = 16 << 20 };
 
@@ -237,14 +237,19 @@ done:
     return st;
 }
 
+static status put(const char *root, const char *path, const struct text *t)
+{
+    static const char *const command[] = {"run"};
+    const struct recipe recipe = {.root = root, .word = command, .n_words = 1, .frame = ALL_FRAMES};
+    return product_write(&recipe, path, t->data, t->size);
+}
+
 static status write_job(const struct job *job, const char *root)
 {
     status st = OK;
-    struct path path;
     struct text t = {0};
     TRY(job_resolved(job, &t));
-    TRY(path_join(&path, root, "job.yaml"));
-    TRY(atomic_file_write(path.text, t.data, t.size));
+    TRY(put(root, "job.yaml", &t));
 done:
     text_free(&t);
     return st;
@@ -254,7 +259,6 @@ static status write_run(const struct provenance *p, const struct gpu *gpu, const
                         uint64_t job_hash, const char *root)
 {
     status st = OK;
-    struct path path;
     struct text t = {0};
     json_object(&t, NULL);
     json_text(&t, "name", job->name);
@@ -269,8 +273,7 @@ static status write_run(const struct provenance *p, const struct gpu *gpu, const
     TRY(put_inputs(&t, job));
     json_end_object(&t);
     TRY(text_status(&t));
-    TRY(path_join(&path, root, "run.json"));
-    TRY(atomic_file_write(path.text, t.data, t.size));
+    TRY(put(root, "run.json", &t));
 done:
     text_free(&t);
     return st;
@@ -308,16 +311,53 @@ done:
     return st;
 }
 
+/* Is it there as its record says? *recorded: it has a sound record. */
+static status look(const char *root, const char *path, bool *recorded, bool *whole)
+{
+    struct product p = {0};
+    status st = product_read(root, path, &p);
+    *recorded = st == OK;
+    if (st == OK)
+        st = listed_check(root, &p.file, true);
+    *whole = st == OK;
+    product_free(&p);
+    return st == E_INPUT ? OK : st;
+}
+
+status provenance_whole(const char *root, bool *whole)
+{
+    bool recorded;
+    const status st = look(root, "job.yaml", &recorded, whole);
+    return st == OK && *whole ? look(root, "run.json", &recorded, whole) : st;
+}
+
+/* The file as it is, with a record. */
+static status record_again(const char *root, const char *path)
+{
+    status st = OK;
+    struct path full;
+    struct text t = {0};
+    TRY(path_join(&full, root, path));
+    TRY(file_read(full.text, RUN_JSON_MAX, &t.data, &t.size));
+    TRY(put(root, path, &t));
+done:
+    text_free(&t);
+    return st;
+}
+
 status provenance_restore(const struct job *job, uint64_t job_hash, const char *root)
 {
     status st = OK;
     struct provenance p = {0};
     uint64_t hash;
+    bool recorded, whole;
     TRY(write_job(job, root));
-    if (folder_job_hash(root, &hash) == OK && hash == job_hash)
-        return OK;
+    TRY(look(root, "run.json", &recorded, &whole));
+    if ((whole || !recorded) && folder_job_hash(root, &hash) == OK && hash == job_hash)
+        return whole ? OK : record_again(root, "run.json");
     log_warn("%s/run.json is lost, damaged or another job's; it is written anew", root);
-    TRY(read_run(root, &p));
+    if (!recorded || whole)
+        TRY(read_run(root, &p));
     if (p.known)
         p.here = p.maker;
     else

@@ -46,8 +46,11 @@ MUST_USE status provenance_restart(struct provenance *p, int first, const char *
 MUST_USE status provenance_write(const struct provenance *p, const struct gpu *gpu, const struct job *job,
                                  uint64_t job_hash, const char *root);
 
+/* Are both there, as their records say? E_MEMORY. */
+MUST_USE status provenance_whole(const char *root, bool *whole);
+
 /* The same for a folder whose frames are done and which has lost or damaged one of the two: job.yaml is the job; run.json stays
- * unless it is damaged or another job's, and then says what the newest checkpoint says of who made it. E_OUTPUT, E_MEMORY. */
+ * unless its record says that it is damaged, or it is another job's, and then says what the newest checkpoint says of who made it. E_OUTPUT, E_MEMORY. */
 MUST_USE status provenance_restore(const struct job *job, uint64_t job_hash, const char *root);
 
 #endif

@@ -12,7 +12,7 @@
 #include "base/memory.h"
 #include "frame/stage.h"
 #include "model/model.h"
-#include "output/folder.h"
+#include "output/product.h"
 #include "run/branch.h"
 #include "run/provenance.h"
 #include "run/room.h"
@@ -157,7 +157,11 @@ static status check_owner(struct run *r)
         st = job_hash(theirs, &hash);
     if (st == E_MEMORY)
         goto done;
-    if (st != OK) {
+    if (st != OK && frames_are_ours(r)) {
+        log_warn("%s; it is written anew, for the frames are this job's", status_message());
+        r->papers = true;
+        st = OK;
+    } else if (st != OK) {
         st = fail(E_CHECKPOINT,
                   "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
                   "--resume never to start over",
@@ -189,6 +193,7 @@ static status forget(const struct run *r)
         TRY(folder_path(&path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
         unlink(path.text);
     }
+    TRY(product_forget(r->options->root));
     free(frames);
     frames = NULL;
     TRY(folder_frames(r->options->root, r->job->name, &frames, &n));
@@ -416,7 +421,9 @@ static status complete(struct run *r)
     status st = OK;
     struct path path;
     struct job *theirs = NULL;
-    if (r->papers || !frames_are_ours(r)) {
+    bool whole;
+    TRY(provenance_whole(r->options->root, &whole));
+    if (r->papers || !whole || !frames_are_ours(r)) {
         if (!r->lock)
             TRY(own_folder(r));
         TRY(provenance_restore(r->job, r->job_hash, r->options->root));

@@ -130,7 +130,7 @@ for kind in ("frames", "points", "volumes", "aov"):
         if ".1004." in name:
             shutil.copy2(os.path.join("edited", kind, name), os.path.join("run", kind, name))
 code, said = verify("run")
-ok(code == 3 and "damaged frames/twelve.1004.json: it is a frame of another job" in said and "1 damaged" in said and "'hoodoo run' makes" in said,
+ok(code == 3 and "damaged frames/twelve.1004.json: it is a frame of another job" in said and "1 damaged" in said and '"hoodoo run" makes' in said,
    "verify: a frame of another job is named", code, said)
 code, said = run("run")
 same("and the next run makes it anew", code, said)
@@ -146,7 +146,13 @@ ok(code == 0 and "continuing" in said, "what changes no simulation may change: i
 fresh()
 with open("run/job.yaml", "w") as file:
     file.write("hoodoo: 1\nname: [\n")
+code, said = run("run")
+same("a job.yaml that cannot be read is written anew, for run.json says that the frames are this job's", code, said)
+fresh()
+with open("run/job.yaml", "w") as file:
+    file.write("hoodoo: 1\nname: [\n")
+os.remove("run/run.json")
 before = tree("run")
 code, said = run("run")
-ok(code == CHECKPOINT and len(errors(said)) == 1 and tree("run") == before, "a job.yaml that cannot be read: 7, and nothing is touched", code, said)
+ok(code == CHECKPOINT and len(errors(said)) == 1 and tree("run") == before, "neither can be read: 7, and nothing is touched", code, said)
 finish()

@@ -32,9 +32,9 @@ for share in 1 2 8 22 43 74 94; do
     cp errors "errors.$kb"
     tree disk/out >part.sums
     # Whatever has its final name is what it is in the whole run, or a checkpoint that the whole run has removed since,
-    # or the stage of the frames so far, down to its last brace.
+    # or the stage of the frames so far, down to its last brace, or its record.
     check "$kb kB: nothing half-written" [ -z "$(grep -vxFf whole.sums part.sums | grep -v -e ' ./checkpoint/twelve\.10[01][0-9]\.ckpt$' \
-        -e ' ./twelve\.usda$')" ]
+        -e ' ./\(records/\)\{0,1\}twelve\.usda\(\.json\)\{0,1\}$')" ]
     [ ! -e disk/out/twelve.usda ] || check "$kb kB: the stage is whole" [ "$(tail -n 1 disk/out/twelve.usda)" = "}" ]
     for c in disk/out/checkpoint/*.ckpt; do
         [ ! -e "$c" ] || check "$kb kB: $(basename "$c") is sound" sh -c '"$1" inspect "$2" >/dev/null 2>err' - "$HOODOO" "$c"

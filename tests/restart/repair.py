@@ -55,7 +55,7 @@ def repaired(name, damage, frames, *options):
     code, said = run("out", *options)
     after = inodes()
     # Papers of the whole sequence are written anew by every run, to the same bytes.
-    again = {path for path in after if before.get(path) != after[path] and not path.startswith(("job", "run", "checkpoint/"))
+    again = {path for path in after if before.get(path) != after[path] and not path.startswith(("job", "run", "checkpoint/", "records/"))
              and not path.endswith(".usda")}
     strangers = {path for path in again if not any(f".{frame}." in path for frame in frames)}
     ok(found == 3 and code == 0 and truth.differences("out") == "" and not strangers and verify() == 0, name, found, code,
@@ -92,12 +92,15 @@ def content(path):
 def papers(name, path, damage):
     """run.json or job.yaml is damaged; a run writes it anew, from which the folder is known again."""
     before = content(path)
+    record = f"records/{path}.json"
     shutil.copy(os.path.join("out", path), "before")
+    shutil.copy(os.path.join("out", record), "record")
     damage(os.path.join("out", path))
     found = verify()
     code, said = run("out")
     after, healed = content(path), verify()
     shutil.copy("before", os.path.join("out", path))
+    shutil.copy("record", os.path.join("out", record))
     ok(found == 3 and code == 0 and after == before and healed == 0 and truth.differences("out") == "", name, found, code, before, after,
        healed, truth.differences("out"), said)
 

@@ -9,10 +9,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "farm/command.h"
 #include "farm/farm.h"
+#include "output/product.h"
 
 enum { JOBS = 500, WEDGES = 4 };
 
@@ -295,20 +297,34 @@ static void kinds_say_what_is_needed(void **state)
 
 /* ---- what is done, as files tell */
 
-static void put_file(const char *root, const char *name, int64_t seconds)
+static void set_time(const char *path, int64_t seconds)
 {
-    char path[600], *slash;
-    snprintf(path, sizeof path, "%s/%s", root, name);
-    for (slash = strchr(path + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        mkdir(path, 0777);
-        *slash = '/';
-    }
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fclose(file);
     const struct timespec times[2] = {{seconds, 0}, {seconds, 0}};
     assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+}
+
+/* A frame's manifest, whose volumes have this hash. */
+static void put_frame(const char *root, int frame, uint64_t hash)
+{
+    struct manifest_file file = {.size = 1, .hash = hash};
+    const struct manifest m = {.frame = frame, .n_files = 1, .file = &file};
+    char path[300];
+    snprintf(file.path, sizeof file.path, "volumes/sample.%04d.vdb", frame);
+    snprintf(path, sizeof path, "%s/frames", root);
+    assert_ok(folder_make(path));
+    assert_ok(manifest_write(root, "sample", &m));
+}
+
+/* Made of a frame, or of ALL_FRAMES. */
+static void put_product(const char *root, const char *name, int frame, int64_t seconds)
+{
+    char path[600];
+    struct recipe recipe = {.root = root, .frame = ALL_FRAMES};
+    if (frame != ALL_FRAMES)
+        assert_ok(recipe_of_frame(&recipe, "sample", frame));
+    assert_ok(product_write(&recipe, name, "made", 4));
+    snprintf(path, sizeof path, "%s/%s", root, name);
+    set_time(path, seconds);
 }
 
 /* By kind, a file that its task makes and the one that is made of, in a job of frames 0007 and 0008. */
@@ -357,18 +373,27 @@ static void tasks_are_done_when_their_files_are_there_and_new(void **state)
     assert_ok(path_format(&f.root, "%s", root));
     assert_ok(graph_make(&wedge, 1, &f.graph));
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        put_file(root, "volumes/sample.0007.vdb", 1000);
-        put_file(root, "volumes/sample.0008.vdb", 1000);
+        put_frame(root, 7, 1);
+        put_frame(root, 8, 1);
         for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-            put_file(root, all[i], 2000);
-        put_file(root, "sample.contact.png", 3000);
-        put_file(root, "sample.turntable.mp4", 3000);
-        for (int what = 0; what < 3; what++) {
+            put_product(root, all[i], strstr(all[i], "0007") ? 7 : 8, 2000);
+        put_product(root, "sample.contact.png", ALL_FRAMES, 3000);
+        put_product(root, "sample.turntable.mp4", 8, 3000);
+        for (int what = 0; what < 4; what++) {
             char path[300];
             snprintf(path, sizeof path, "%s/%s", root, cases[c].made);
-            if (what == 1)
-                put_file(root, cases[c].from, 5000); /* made anew since */
-            if (what == 2)
+            if (what == 1) { /* made anew since */
+                if (strncmp(cases[c].from, "volumes", 7) == 0)
+                    put_frame(root, strstr(cases[c].from, "0007") ? 7 : 8, 2);
+                else
+                    put_product(root, cases[c].from, 7, 5000);
+            }
+            if (what == 2) { /* it again, of what is there */
+                put_frame(root, 7, 1);
+                put_frame(root, 8, 1);
+                assert_int_equal(truncate(path, 3), 0);
+            }
+            if (what == 3)
                 assert_int_equal(unlink(path), 0);
             for (size_t i = 0; i < f.graph.n; i++) {
                 bool done, about = f.graph.task[i].kind == cases[c].kind;

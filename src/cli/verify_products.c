@@ -1,0 +1,276 @@
+/* What was made of the frames is as its records say, or which command makes it anew. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+#include "cli/cli.h"
+#include "cli/verify.h"
+
+/* ---- commands */
+
+static status add_remake(struct search *s, size_t n, const char *const *word, struct remake **out)
+{
+    status st = OK;
+    TRY(memory_grow(&s->remake, &s->remake_capacity, s->n_remakes + 1, sizeof *s->remake, "the commands"));
+    struct remake *r = &s->remake[s->n_remakes];
+    *r = (struct remake){.first = ALL_FRAMES, .last = ALL_FRAMES};
+    TRY(memory_alloc(n, sizeof *r->word, "the commands", &r->word));
+    s->n_remakes++;
+    for (; r->n_words < n; r->n_words++)
+        if (!(r->word[r->n_words] = strdup(word[r->n_words]))) {
+            st = fail(E_MEMORY, "no memory for the commands");
+            goto done;
+        }
+    *out = r;
+done:
+    return st;
+}
+
+void remakes_free(struct search *s)
+{
+    for (size_t i = 0; i < s->n_remakes; i++) {
+        for (size_t k = 0; k < s->remake[i].n_words; k++)
+            free(s->remake[i].word[k]);
+        free(s->remake[i].word);
+    }
+    free(s->remake);
+}
+
+static bool same_command(const struct remake *r, size_t n, const char *const *word, bool framed)
+{
+    bool same = r->n_words == n && framed == (r->first != ALL_FRAMES);
+    for (size_t i = 0; same && i < n; i++)
+        same = strcmp(r->word[i], word[i]) == 0;
+    return same;
+}
+
+static bool is_run(const char *verb)
+{
+    return strcmp(verb, "run") == 0;
+}
+
+/* This command is to make a product of this frame, or of ALL_FRAMES. `run` is added once for all it makes (remake_run()). */
+static status note(struct search *s, size_t n, const char *const *word, int frame, const char *path)
+{
+    status st = OK;
+    struct remake *r = NULL;
+    if (is_run(word[0]))
+        return OK;
+    s->n_others++;
+    for (size_t i = 0; i < s->n_remakes && !r; i++)
+        if (same_command(&s->remake[i], n, word, frame != ALL_FRAMES))
+            r = &s->remake[i];
+    if (!r) {
+        TRY(add_remake(s, n, word, &r));
+        r->first = r->last = frame;
+        r->late = !strchr(path, '/') || strcmp(word[0], "report") == 0;
+    }
+    r->first = frame < r->first ? frame : r->first;
+    r->last = frame > r->last ? frame : r->last;
+done:
+    return st;
+}
+
+status remake_run(struct search *s, bool repair)
+{
+    static const char *const command[] = {"run", "--repair"};
+    status st = OK;
+    struct remake *r = NULL;
+    TRY(add_remake(s, repair ? 2 : 1, command, &r));
+done:
+    return st;
+}
+
+/* run before all that reads frames; pictures before sheets and videos of them; reports last. */
+static int rank(const struct remake *r)
+{
+    return is_run(r->word[0]) ? 0 : !r->late ? 1 : strcmp(r->word[0], "report") != 0 ? 2 : 3;
+}
+
+/* As a shell takes it. */
+static void add_word(struct text *t, const char *word)
+{
+    if (*word && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@") ==
+                     strlen(word)) {
+        text_add(t, " %s", word);
+        return;
+    }
+    text_add(t, " '");
+    for (const char *c = word; *c; c++)
+        text_add(t, *c == '\'' ? "'\\''" : "%c", *c);
+    text_add(t, "'");
+}
+
+static void add_command(const struct search *s, const struct remake *r, struct text *t)
+{
+    char frames[48];
+    text_add(t, "hoodoo");
+    add_word(t, r->word[0]);
+    if (!is_run(r->word[0])) /* which takes a job */
+        add_word(t, s->root);
+    for (size_t i = 1; i < r->n_words; i++)
+        add_word(t, r->word[i]);
+    if (r->first != ALL_FRAMES)
+        text_add(t, " --frames=%s", range_text((struct frame_range){r->first, r->last, 1}, frames));
+}
+
+status remake_text(const struct search *s, struct text *out)
+{
+    size_t n = 0;
+    for (int k = 0; k <= 3; k++)
+        for (size_t i = 0; i < s->n_remakes; i++)
+            if (rank(&s->remake[i]) == k) {
+                text_add(out, n++ ? " and then \"" : "\"");
+                add_command(s, &s->remake[i], out);
+                text_add(out, "\"");
+            }
+    text_add(out, n == 1 ? " makes" : " make");
+    return text_status(out);
+}
+
+status remake_json(struct search *s)
+{
+    status st = OK;
+    struct text t = {0};
+    json_array(&s->answer, "commands");
+    for (int k = 0; k <= 3; k++)
+        for (size_t i = 0; i < s->n_remakes; i++) {
+            if (rank(&s->remake[i]) != k)
+                continue;
+            add_command(s, &s->remake[i], &t);
+            TRY(text_status(&t));
+            json_text(&s->answer, NULL, t.data);
+            text_free(&t);
+        }
+    json_end_array(&s->answer);
+done:
+    text_free(&t);
+    return st;
+}
+
+/* ---- products whose record is damaged: how it was made is known of one like it, or guessed */
+
+/* The same path but for its numbers? */
+static bool alike(const char *a, const char *b)
+{
+    static const char digits[] = "0123456789";
+    for (;;) {
+        a += strspn(a, digits);
+        b += strspn(b, digits);
+        if (*a != *b)
+            return false;
+        if (!*a)
+            return true;
+        a++;
+        b++;
+    }
+}
+
+/* NAME.[PART.]FRAME.ENDING, or ALL_FRAMES. */
+static int frame_in(const char *path)
+{
+    int frame;
+    for (const char *dot = strchr(path_last(path), '.'); dot; dot = strchr(dot + 1, '.')) {
+        const size_t n = strcspn(dot + 1, ".");
+        if (dot[1 + n] == '.' && frame_parse(dot + 1, n, &frame))
+            return frame;
+    }
+    return ALL_FRAMES;
+}
+
+static status note_unknown(struct search *s, const struct product_list *all, const char *path)
+{
+    static const struct {
+        const char *begin;
+        size_t n;
+        const char *word[3];
+    } guess[] = {{"mesh/", 2, {"mesh", "--missing"}},
+                 {"aov/", 2, {"aov", "--missing"}},
+                 {"preview/", 2, {"preview", "--only=stills"}},
+                 {"turntable/", 3, {"preview", "--only=views", "--turntable"}},
+                 {"report/", 1, {"report"}}};
+    status st = OK;
+    struct product p = {0};
+    const int frame = frame_in(path);
+    bool known = false;
+    for (size_t i = 0; i < all->n && !known; i++) {
+        if (strcmp(all->path[i], path) == 0 || !alike(all->path[i], path))
+            continue;
+        product_free(&p);
+        st = product_read(s->root, all->path[i], &p);
+        known = st == OK && p.n_words > 0;
+        if (st == E_MEMORY)
+            goto done;
+    }
+    st = OK;
+    if (known) {
+        TRY(note(s, p.n_words, p.word, p.frame == ALL_FRAMES ? ALL_FRAMES : frame, path));
+        goto done;
+    }
+    for (size_t i = 0; i < sizeof guess / sizeof *guess; i++)
+        if (strncmp(path, guess[i].begin, strlen(guess[i].begin)) == 0) {
+            return note(s, guess[i].n, guess[i].word,
+                        strcmp(guess[i].begin, "report/") == 0 ? ALL_FRAMES : frame, path);
+        }
+    if (strstr(path, ".png") || strstr(path, ".mp4")) {
+        static const char *const sheet[] = {"preview", "--only=sheet"}, *const video[] = {"preview",
+                                                                                          "--only=video"};
+        TRY(note(s, 2, strstr(path, ".png") ? sheet : video, ALL_FRAMES, path));
+    }
+done:
+    product_free(&p);
+    return st;
+}
+
+/* ---- each */
+
+static status verify_product(struct search *s, const struct product_list *all, const char *path)
+{
+    struct product p;
+    struct path full, record;
+    status st = product_read(s->root, path, &p);
+    if (st == E_MEMORY)
+        return st;
+    s->n_files++;
+    s->n_products++;
+    if (st != OK || p.n_words == 0) {
+        char why[600];
+        snprintf(why, sizeof why, "%s", st != OK ? status_message() : "it names no command");
+        TRY(product_record(&record, path));
+        found(s, false, record.text, why);
+        TRY(note_unknown(s, all, path));
+        goto done;
+    }
+    if (s->only_frames && (p.frame == ALL_FRAMES || !range_holds(s->frames, p.frame)))
+        goto done;
+    st = product_check(s->root, s->name, &p, true);
+    if (st == E_MEMORY || st == OK)
+        goto done;
+    if (s->bad_job && strcmp(path, "job.yaml") == 0) {
+        st = OK;
+        goto done;
+    }
+    char why[600];
+    snprintf(why, sizeof why, "%s", status_message());
+    TRY(path_join(&full, s->root, path));
+    const bool missing = access(full.text, F_OK) != 0;
+    found(s, missing, path, missing ? "" : why);
+    TRY(note(s, p.n_words, p.word, p.frame, path));
+done:
+    product_free(&p);
+    return st;
+}
+
+status verify_products(struct search *s)
+{
+    status st = OK;
+    struct product_list list = {0};
+    TRY(product_list(s->root, &list));
+    for (size_t i = 0; i < list.n; i++)
+        TRY(verify_product(s, &list, list.path[i]));
+done:
+    product_list_free(&list);
+    return st;
+}

@@ -1,0 +1,149 @@
+"""Whatever is made beside the frames has a record: cut, flipped or gone, `verify` names it and the commands it gives make it anew, byte
+for byte, in one round. And two runs of all commands leave the same bytes, with no file that others watch for under a temporary name."""
+
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import threading
+import time
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from script import *
+
+# A slab with loose rocks: stage, clips and shapes of points and rocks. Half a second a frame.
+JOB = {"hoodoo": 1, "name": "made", "frames": "1001-1002", "clock": {"years_per_frame": 2000}, "seed": 3,
+       "domain": {"size_m": [8, 8, 8], "spacing_m": 0.5},
+       "scene": {"union": [{"box": {"min_m": [1, 1, 3], "max_m": [7, 7, 6]}}, {"box": {"min_m": [2, 2, 0], "max_m": [6, 6, 3], "inert": True}}]},
+       "strata": [{"weak_m_per_kyr": 0.1, "strong_m_per_kyr": 0.01, "interlock_MPa": 0.2}],
+       "cameras": {"main": {"orbit": {"target_m": [4, 4, 3], "distance_m": 20}, "resolution": [64, 36]}},
+       "output": {"aov": {"cameras": ["main"]}, "usd": {"points": "surface"}}}
+PICTURES = ("--preset=draft", "--resolution=64x36")
+COMMANDS = (("mesh", "--adaptivity=0.2"), ("aov", "--set", "cameras.side={position_m: [-9, 4, 5], target_m: [4, 4, 3], resolution: [32, 18]}",
+                                           "--camera", "side"),
+            ("preview", *PICTURES, "--frames=1001-1002"), ("preview", "--show=stress", "--only=stills", "--frames=1002", *PICTURES),
+            ("preview", "--turntable", "--views=2", *PICTURES), ("report",))
+with open("made.json", "w") as file:
+    json.dump(JOB, file)
+draw = random.Random(int(os.environ.get("SEED", "1")))
+seen, watching = set(), True
+
+
+def watch():
+    """Names that a program would take for finished files."""
+    while watching:
+        time.sleep(0.005)
+        for folder, _, names in os.walk("out"):
+            seen.update(os.path.join(folder, name) for name in names if name.endswith((".png", ".exr", ".vdb", ".usda", ".mp4")))
+
+
+def make(out):
+    codes = [hoodoo("run", "made.json", "--out", out, "--progress", "none")]
+    codes += [hoodoo(words[0], out, *words[1:]) for words in COMMANDS]
+    return codes
+
+
+def everything(path):
+    return not path.startswith(("log", "checkpoint"))
+
+
+def verify():
+    done = subprocess.run([HOODOO, "verify", "out", "--json"], capture_output=True, text=True)
+    return done.returncode, json.loads(done.stdout)
+
+
+watcher = threading.Thread(target=watch)
+watcher.start()
+codes = make("out")
+watching = False
+watcher.join()
+ok(all(code == 0 for code, _ in codes), "frames, meshes, other cameras, previews and a report are made", codes)
+whole = tree("out", everything)
+ok(seen <= {os.path.join("out", path) for path in whole}, "nothing half done has a name that is waited for", seen - {os.path.join("out", path) for path in whole})
+records = [path for path in whole if path.startswith("records/")]
+listed = {file["path"] for frame in (1001, 1002) for file in json.load(open(f"out/frames/made.{frame}.json"))["files"]}
+without = {path for path in whole if not path.startswith(("records/", "frames/")) and path not in listed and f"records/{path}.json" not in whole}
+ok(not without and len(records) > 20, "every file has a record or is in a manifest", without, len(records))
+code, said = verify()
+ok(code == 0 and said["products"] == len(records) and not said["commands"], "all is well", code, said)
+shutil.copytree("out", "again")
+for path in list(whole):
+    if "report" not in path and ("preview/" in path or "turntable" in path or "contact" in path):
+        os.remove(os.path.join("again", path))
+codes = [hoodoo(words[0], "again", *words[1:]) for words in COMMANDS if words[0] == "preview"]
+ok(all(code == 0 for code, _ in codes) and tree("again", everything) == whole, "made again, pictures, sheets and videos are the same bytes", codes)
+
+
+def kind(path):
+    """Products that only differ by a number are alike."""
+    return "".join(c for c in path if not c.isdigit())
+
+
+def cut(path):
+    os.truncate(path, os.path.getsize(path) // 2)
+
+
+def flip(path):
+    info = os.stat(path)
+    with open(path, "r+b") as file:
+        at = draw.randrange(info.st_size)
+        file.seek(at)
+        byte = file.read(1)[0]
+        file.seek(at)
+        file.write(bytes([byte ^ 1 << draw.randrange(8)]))
+    os.utime(path, ns=(info.st_atime_ns, info.st_mtime_ns))
+
+
+def shell(command):
+    """As a person would paste it; `hoodoo run` is of a job that only they know."""
+    if command.startswith("hoodoo run"):
+        return hoodoo("run", "made.json", "--out", "out", "--progress", "none")
+    return ask("sh", "-c", '"$HOODOO"' + command[len("hoodoo"):])
+
+
+def healed(name, damage, paths, named=lambda path: path):
+    """All of these at once: each is named, and the commands make it as it was."""
+    for path in paths:
+        damage(os.path.join("out", path))
+    code, said = verify()
+    found = {problem["file"] for problem in said["problems"]}
+    made = [shell(command) for command in said["commands"]]
+    after, healthy = tree("out", everything), verify()
+    # The page tells times, and what a lost run.json said of the device's number nobody knows.
+    unlike = {path for path in whole if after.get(path) != whole[path] and not path.endswith(("run.json", "run.json.json", "index.html", "index.html.json"))}
+    ok(code == 3 and found == {named(path) for path in paths} and all(code == 0 for code, _ in made) and healthy[0] == 0 and not unlike,
+       f"{name}: {len(paths)} kinds of files", code, found ^ {named(path) for path in paths}, said["commands"], made, healthy, unlike)
+
+
+def one_of_each(paths, least=1):
+    """Of each kind that has so many."""
+    kinds = {}
+    for path in sorted(paths):
+        kinds.setdefault(kind(path), []).append(path)
+    return [draw.choice(alike) for alike in kinds.values() if len(alike) >= least]
+
+
+def any_of(*damages):
+    return lambda path: draw.choice(damages)(path)
+
+
+products = [path[len("records/"):-len(".json")] for path in records]
+# Without run.json and job.yaml nobody knows what the folder is: repair.py loses those.
+once = [path for path in one_of_each(products) if path not in ("run.json", "job.yaml")]
+thorough = float(os.environ.get("HOODOO_TEST_EFFORT", "1")) > 1
+if thorough:
+    for damage in (cut, flip, os.remove):
+        healed(damage.__name__, damage, once)
+else:
+    healed("cut, flipped or gone", any_of(cut, flip, os.remove), once)
+# How a product without a record was made is known from others like it.
+if thorough:
+    healed("records cut or flipped", any_of(cut, flip), one_of_each(records, least=2))
+healed("papers and records flipped", flip, ["job.yaml"] + [f"records/{path}.json" for path in ("run.json", "made.usda", "mesh/made.1001.ply")])
+code, said = hoodoo("run", "made.json", "--out", "out", "--progress", "none", "--resume", "never", "--set", "seed=4")
+code, said = verify()
+ok(code == 0 and said["products"] < 10, "another run in this folder forgets what was made of the one before", code, said)
+finish()
