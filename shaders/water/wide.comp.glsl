@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How wide the water of each span is, and what it is spread over: the sum of the weights of the floors around, by which what
+// How wide the water of each span is, where its middle is, and what it is spread over: the sum of the weights of the floors around, by which what
 // each of them has of it is divided.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -14,6 +14,8 @@ READ_U(5, rain)
 READ_U(6, spring)
 WRITE_V(7, stream) // radius in cells; 1 / sum of weights; m3/yr of rain and of springs
 WRITE_F(8, width)  // m
+READ_U(9, receiver)
+WRITE_U(10, middle) // cells: where the stream's middle is, from the span's, as packSnorm2x16
 PARAMS(water_stream_params)
 #include "water/cell_of.glsl"
 #include "water/columns.glsl"
@@ -21,6 +23,23 @@ PARAMS(water_stream_params)
 
 // Of a disc whose weights fall to 0 at its rim as 1 - r^2: what a line through its middle is as wide as.
 const float RADIUS = 0.84882636; // 8 / 3 pi
+
+// A spring's stream steps along the grid about the line that it follows: how far that is beside a span, by its next steps.
+vec2 beside_line(uint i, ivec2 c)
+{
+    const int HALF = 4;
+    vec2 sum[2] = vec2[2](vec2(0.0), vec2(0.0));
+    for (int step = 0; step < 2 * HALF; step++) {
+        if (i >= k.n)
+            return vec2(0.0);
+        sum[step / HALF] += vec2(ivec2(cell_of(LOAD_U(cell, i)).xy) - c) / float(HALF);
+        i = LOAD_U(receiver, i);
+    }
+    vec2 ahead = sum[1] - sum[0], middle = 0.5 * (sum[0] + sum[1]);
+    float far = dot(ahead, ahead);
+    vec2 off = far > 0.0 ? middle - ahead * dot(ahead, middle) / far : vec2(0.0);
+    return off / max(length(off), 1.0);
+}
 
 void main()
 {
@@ -31,21 +50,27 @@ void main()
     float q = rains + springs, own = max(k.least, q > 0.0 ? k.width * pow(q, k.power) : 0.0);
     float radius = RADIUS * clamp(own, k.narrowest, k.widest) / k.h, sum = 0.0;
     AT(width, i) = own;
+    uint where = 0u;
     if (q > 0.0) {
         ivec3 c = ivec3(cell_of(LOAD_U(cell, i)));
         uint stands = LOAD_U(level, i);
-        int reach = int(radius);
+        int reach = int(radius + 1.0);
+        if (springs > 0.0)
+            where = packSnorm2x16(beside_line(i, c.xy));
+        vec2 line = unpackSnorm2x16(where);
         for (int y = c.y - reach; y <= c.y + reach; y++)
             for (int x = c.x - reach; x <= c.x + reach; x++) {
-                float r = length(vec2(ivec2(x, y) - c.xy));
+                vec2 to = vec2(ivec2(x, y) - c.xy);
+                float r = length(to - line);
                 vec2 flip;
                 uint column = column_seen(ivec2(x, y), flip);
                 if (r >= radius || column == NONE)
                     continue;
-                uint m = r == 0.0 ? i : node_near(column, c.z, r);
+                uint m = to == vec2(0.0) ? i : node_near(column, c.z, length(to));
                 if (m != NONE)
                     sum += spread(stands, LOAD_U(level, m), r, radius);
             }
     }
+    AT(middle, i) = where;
     AT(stream, i) = vec4(radius, sum > 0.0 ? 1.0 / sum : 0.0, rains, springs);
 }

@@ -122,7 +122,7 @@ static struct water_stream_params stream_params(const struct water *w, const str
     const double narrowest = 1.5 * h, widest = REACH * h / disc, window = fmax(rain->slope_m / 2, 1.5 * h);
     const double width =
         fmax(fmax(rain->width_m * pow(q, rain->width_power), rain->least_width_m), narrowest);
-    const double reach = fmax(disc * fmin(width, widest), fmin(window, REACH * h) + h / 2) / h;
+    const double reach = fmax(disc * fmin(width, widest) + h, fmin(window, REACH * h) + h / 2) / h;
     return (struct water_stream_params){.n = (uint)w->n_nodes,
                                         .cx = (uint)w->cells[0],
                                         .cy = (uint)w->cells[1],
@@ -148,12 +148,12 @@ static struct water_stream_params stream_params(const struct water *w, const str
 
 static void gather_streams(struct gpu *gpu, struct water *w, const struct job *job, int frame, double h)
 {
-    struct gpu_buffer **node = w->node, *width = node[WATER_NEXT];
+    struct gpu_buffer **node = w->node, *width = node[WATER_NEXT], *middle = node[WATER_PICK];
     const struct water_stream_params k = stream_params(w, job, frame, h);
     GPU_RUN(gpu, water_wide, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_LEVEL],
-            node[WATER_RAIN], node[WATER_SPRING], w->stream, width);
+            node[WATER_RAIN], node[WATER_SPRING], w->stream, width, node[WATER_FINAL], middle);
     GPU_RUN(gpu, water_pull, k.n, k, w->occupied, w->floors, w->first, node[WATER_CELL], node[WATER_Z],
-            node[WATER_LEVEL], w->heading, w->stream, width, w->pull, node[WATER_DROP]);
+            node[WATER_LEVEL], w->heading, w->stream, width, w->pull, node[WATER_DROP], middle);
 }
 
 status water_discharge(struct gpu *gpu, struct gpu_work *work, struct water *w, const struct job *job,

@@ -24,7 +24,7 @@
  *            pits, up to their pass, it follows the receivers too.
  * Streams    What runs over a floor is spread over the width of a stream of that discharge, W = width_m Q^width_power and at
  *            least least_width_m, as far as the ground beside it is no steeper than a bank; several streams add up. Where a
- *            spring's stream is narrower than cells, it pulls as hard as it is narrow, on its share of the cells. Its slope is
+ *            spring's stream, which is about the line that its steps follow, is narrower than cells, it pulls as hard as it is narrow, on its share of the cells. Its slope is
  *            from the water abreast down to the water below, within half of slope_m.
  */
 #ifndef HOODOO_WATER_H

@@ -13,6 +13,7 @@ struct source {
     double radius, weights, width; /* cells, their sum, m */
     double rain[2], spring[2];     /* m3/yr times their way */
     double rains, springs, sheet;  /* the last along its way */
+    double line[2];                /* cells: from here to the stream's middle */
 };
 
 struct all {
@@ -145,6 +146,34 @@ static void ways_of(const struct all *a, size_t c, bool leak, double rain[2], do
     rain[1] = sum > 0 ? (drop[1] - drop[3]) / sum : spring[1];
 }
 
+/* How far a spring's stream is beside a cell, by a line through this one and its next steps. */
+static void beside_line(const struct flow_ref *f, size_t c, double line[2])
+{
+    enum { HALF = 4 };
+    double sum[2][2] = {{0}}, far = 0, along = 0;
+    int from[3], at[3];
+    place_of(f, c, from);
+    line[0] = line[1] = 0;
+    for (int step = 0; step < 2 * HALF; step++) {
+        place_of(f, c, at);
+        for (int k = 0; k < 2; k++)
+            sum[step / HALF][k] += (double)(at[k] - from[k]) / HALF;
+        if (f->tag[c] & WATER_OUT && step + 1 < 2 * HALF)
+            return;
+        c = f->receiver[c];
+    }
+    for (int k = 0; k < 2; k++) {
+        const double ahead = sum[1][k] - sum[0][k];
+        far += ahead * ahead;
+        along += ahead * (sum[0][k] + sum[1][k]) / 2;
+    }
+    for (int k = 0; k < 2 && far > 0; k++)
+        line[k] = (sum[0][k] + sum[1][k]) / 2 - (sum[1][k] - sum[0][k]) * along / far;
+    const double off = fmax(1, hypot(line[0], line[1]));
+    for (int k = 0; k < 2; k++)
+        line[k] = round(line[k] / off * 32767) / 32767; /* as it is kept */
+}
+
 static struct source source_of(const struct all *a, size_t c, bool leak, double rain, double spring)
 {
     const double q = rain + spring;
@@ -159,8 +188,11 @@ static struct source source_of(const struct all *a, size_t c, bool leak, double 
         s.rain[k] *= rain;
         s.spring[k] *= spring;
     }
+    if (spring > 0)
+        beside_line(a->f, c, s.line);
     if (q > 0)
-        EACH_FLOOR(a, c, (int)s.radius, { s.weights += spread(a, c, m, r, s.radius); });
+        EACH_FLOOR(a, c, (int)(s.radius + 1),
+                   { s.weights += spread(a, c, m, hypot(dx - s.line[0], dy - s.line[1]), s.radius); });
     return s;
 }
 
@@ -174,11 +206,10 @@ static double weight_in(double r, double window)
 }
 
 /* The slope along a way, from the water abreast to the water below, or from that above where the domain ends below; *far, cells,
- * is how far it is there. */
-static double slope_along(const struct all *a, size_t c, const double way[2], double *far)
+ * is how far it is there. `own`: m3/yr of the streams that run here. */
+static double slope_along(const struct all *a, size_t c, const double way[2], double own, double *far)
 {
     const double window = fmax(a->how->slope_m / 2, 1.5 * a->h) / a->h, steepest = a->how->steepest;
-    const double own = a->source[c].rains + a->source[c].springs;
     double abreast[3] = {0}, below[3] = {0}; /* weights, and those of places and of rises */
     EACH_FLOOR(a, c, (int)(window + 0.5), {
         const double along = dx * way[0] + dy * way[1];
@@ -228,10 +259,11 @@ static double shear(const struct all *a, double q, double slope)
 static struct stream_ref pull_of(const struct all *a, size_t c, int reach)
 {
     struct stream_ref result = {.share = 1};
-    double rain[2] = {0}, spring[2] = {0}, springs = 0, sheet = 0, narrow = 0, wide = 0, all = 0;
+    double rain[2] = {0}, spring[2] = {0}, springs = 0, sheet = 0, narrow = 0, wide = 0, all = 0, squares = 0;
     EACH_FLOOR(a, c, reach, {
         const struct source *s = &a->source[m];
-        const double weight = s->weights > 0 ? spread(a, m, c, r, s->radius) / s->weights / a->h : 0;
+        const double off = hypot(dx + flip[0] * s->line[0], dy + flip[1] * s->line[1]);
+        const double weight = s->weights > 0 ? spread(a, m, c, off, s->radius) / s->weights / a->h : 0;
         const double shown = fmax(s->width, a->narrowest);
         for (int k = 0; k < 2; k++) {
             rain[k] += weight * flip[k] * s->rain[k];
@@ -242,6 +274,7 @@ static struct stream_ref pull_of(const struct all *a, size_t c, int reach)
         narrow += weight * s->springs * fmin(1, s->width / shown);
         wide += weight * (s->rains + s->springs) * shown;
         all += weight * (s->rains + s->springs);
+        squares += weight * pow(s->rains + s->springs, 2);
     });
     const double flows = hypot(rain[0] + spring[0], rain[1] + spring[1]);
     if (!(flows > 0))
@@ -250,7 +283,7 @@ static struct stream_ref pull_of(const struct all *a, size_t c, int reach)
     const double depth = ((double)level_of(a, c) - (double)a->f->altitude[c]) / 65536 / a->deep;
     const double together = sheet > 0 ? fmin(hypot(rain[0], rain[1]) / sheet, 1) : 1;
     double far;
-    const double along = slope_along(a, c, way, &far), run = hypot(spring[0], spring[1]);
+    const double along = slope_along(a, c, way, squares / all, &far), run = hypot(spring[0], spring[1]);
     const double slope = springs > 0 ? along : together * along + (1 - together) * slope_of_falls(a, c);
     result.drop = slope * far * a->h;
     result.share = springs > 0 ? narrow / springs : 1;
@@ -280,7 +313,7 @@ struct stream_ref *stream_ref_pull(const struct flow_ref *f, const struct job_ra
         }
     for (size_t c = 0; c < f->n; c++)
         if (is_floor(f, c))
-            result[c] = pull_of(&a, c, (int)ceil(widest));
+            result[c] = pull_of(&a, c, (int)ceil(widest) + 1);
     free(a.source);
     return result;
 }
