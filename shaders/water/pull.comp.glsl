@@ -45,12 +45,12 @@ float rise(uint there, uint stands, float r)
 
 // The slope along a way, from the water abreast down to that below it, and how far it is there in cells: what runs where
 // counts, for banks fall to all sides. Nothing is asked of the ground above: slopes run upstream as the rock goes, and a floor that hears of
-// them from there swings. Where the domain ends, it goes on as it comes; and on bare ground, where the water is gone, as it falls:
-// what runs here, of `stream_here` m3/yr.
-vec2 downstream(uint i, ivec3 c, uint stands, vec2 way, float stream_here)
+// them from there swings. Where the domain ends, it goes on as it comes; and on bare ground, where the water is gone, as it falls.
+vec2 downstream(uint i, ivec3 c, uint stands, vec2 way)
 {
     vec3 abreast = vec3(0.0), below = vec3(0.0); // weights, and those of places and heights
     vec2 flip;
+    vec2 here = LOAD_V(stream, i).zw;
     int reach = int(k.window / k.h + 0.5);
     for (int y = -reach; y <= reach; y++)
         for (int x = -reach; x <= reach; x++) {
@@ -65,7 +65,7 @@ vec2 downstream(uint i, ivec3 c, uint stands, vec2 way, float stream_here)
                 continue;
             vec2 s = LOAD_V(stream, m).zw;
             bool ground = LOAD_U(cell, m) < k.cx * k.cy && !is_occupied(column, 0u);
-            vec3 at = near * (ground ? max(s.x + s.y, stream_here) : s.x + s.y) * vec3(1.0, along, rise(LOAD_U(level, m), stands, r));
+            vec3 at = near * (ground ? max(s.x + s.y, here.x + here.y) : s.x + s.y) * vec3(1.0, along, rise(LOAD_U(level, m), stands, r));
             abreast += level_with * at;
             if (along > 0.0)
                 below += along * at;
@@ -86,7 +86,7 @@ void main()
     ivec3 c = ivec3(cell_of(LOAD_U(cell, i)));
     uint stands = LOAD_U(level, i);
     int reach = int(k.reach);
-    float sheet = 0.0, springs = 0.0, narrow = 0.0, all = 0.0, wide = 0.0, squares = 0.0;
+    float sheet = 0.0, springs = 0.0, narrow = 0.0, all = 0.0, wide = 0.0;
     vec2 rain = vec2(0.0), spring = vec2(0.0);
     vec2 falls = vec2(0.0); // squares of falls, and of how far they are
     for (int y = c.y - reach; y <= c.y + reach; y++)
@@ -116,7 +116,6 @@ void main()
                 narrow += weight * s.w * min(own / shown, 1.0);
                 all += weight * (s.z + s.w);
                 wide += weight * (s.z + s.w) * shown;
-                squares += weight * (s.z + s.w) * (s.z + s.w);
             }
         }
     vec4 result = vec4(0.0, 0.0, 1.0, 0.0);
@@ -124,7 +123,7 @@ void main()
     float flows = length(q);
     if (flows > 0.0) {
         vec2 way = q / flows;
-        vec2 fall = downstream(i, c, stands, way, squares / all);
+        vec2 fall = downstream(i, c, stands, way);
         float slope = fall.x;
         float together = sheet > 0.0 ? min(length(rain) / sheet, 1.0) : 1.0, around = falls.y > 0.0 ? sqrt(falls.x / falls.y) : 0.0;
         if (springs == 0.0)

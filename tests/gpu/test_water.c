@@ -461,12 +461,12 @@ static void threads_and_variants_do_not_show(void **state)
 
 /* ---- the surface */
 
-/* A valley that bends, with a hollow in it. */
+/* A valley that bends, with a hollow in it; its upper end falls to bare ground. */
 static float valley(const struct scene *s, int i, int j, int k)
 {
     double x = i + 0.5, y = j + 0.5, hollow = 4 * exp(-(pow(x - 20, 2) + pow(y - 17, 2)) / 20);
     double height = 6 + 0.2 * x + 0.5 * fabs(y - 20 - 4 * sin(x / 9)) - hollow;
-    return (float)fmin(1, fmax(0, fmin(height, s->n[2] - 2) - k));
+    return x < 45 ? (float)fmin(1, fmax(0, fmin(height, s->n[2] - 2) - k)) : 0;
 }
 
 /* m3/yr through every cell. */

@@ -206,10 +206,11 @@ static double weight_in(double r, double window)
 }
 
 /* The slope along a way, from the water abreast to the water below, or from that above where the domain ends below; *far, cells,
- * is how far it is there. `own`: m3/yr of the streams that run here. */
-static double slope_along(const struct all *a, size_t c, const double way[2], double own, double *far)
+ * is how far it is there. */
+static double slope_along(const struct all *a, size_t c, const double way[2], double *far)
 {
     const double window = fmax(a->how->slope_m / 2, 1.5 * a->h) / a->h, steepest = a->how->steepest;
+    const double own = a->source[c].rains + a->source[c].springs;
     double abreast[3] = {0}, below[3] = {0}; /* weights, and those of places and of rises */
     EACH_FLOOR(a, c, (int)(window + 0.5), {
         const double along = dx * way[0] + dy * way[1];
@@ -259,7 +260,7 @@ static double shear(const struct all *a, double q, double slope)
 static struct stream_ref pull_of(const struct all *a, size_t c, int reach)
 {
     struct stream_ref result = {.share = 1};
-    double rain[2] = {0}, spring[2] = {0}, springs = 0, sheet = 0, narrow = 0, wide = 0, all = 0, squares = 0;
+    double rain[2] = {0}, spring[2] = {0}, springs = 0, sheet = 0, narrow = 0, wide = 0, all = 0;
     EACH_FLOOR(a, c, reach, {
         const struct source *s = &a->source[m];
         const double off = hypot(dx + flip[0] * s->line[0], dy + flip[1] * s->line[1]);
@@ -274,7 +275,6 @@ static struct stream_ref pull_of(const struct all *a, size_t c, int reach)
         narrow += weight * s->springs * fmin(1, s->width / shown);
         wide += weight * (s->rains + s->springs) * shown;
         all += weight * (s->rains + s->springs);
-        squares += weight * pow(s->rains + s->springs, 2);
     });
     const double flows = hypot(rain[0] + spring[0], rain[1] + spring[1]);
     if (!(flows > 0))
@@ -283,7 +283,7 @@ static struct stream_ref pull_of(const struct all *a, size_t c, int reach)
     const double depth = ((double)level_of(a, c) - (double)a->f->altitude[c]) / 65536 / a->deep;
     const double together = sheet > 0 ? fmin(hypot(rain[0], rain[1]) / sheet, 1) : 1;
     double far;
-    const double along = slope_along(a, c, way, squares / all, &far), run = hypot(spring[0], spring[1]);
+    const double along = slope_along(a, c, way, &far), run = hypot(spring[0], spring[1]);
     const double slope = springs > 0 ? along : together * along + (1 - together) * slope_of_falls(a, c);
     result.drop = slope * far * a->h;
     result.share = springs > 0 ? narrow / springs : 1;
