@@ -1,4 +1,5 @@
-/* A coarse run shows the rock that the fine one makes: the demo at spacings of 1 and 0.5 m. Minutes. */
+/* A coarse run shows the rock that the fine one makes: the demo at spacings of 1 and 0.5 m, dry and in the rain, at the same share
+ * left. Minutes. */
 #include "physics/model_help.h"
 
 #include <math.h>
@@ -6,38 +7,46 @@
 
 struct course {
     double frames_to_80, frames_to_50; /* until that share of the volume is left, interpolated */
-    struct frame_grids half;           /* of the first frame with no more than half of it */
+    double share;                      /* that is left in the frame nearest to the wanted one */
+    struct frame_grids grids;          /* of that */
 };
 
-static struct course erode(const char *spacing)
+static void keep(struct course *c, struct frame *frame, double share)
+{
+    frame_free(&(struct frame){.grids = c->grids});
+    c->share = share;
+    c->grids = frame->grids;
+    memset(&frame->grids, 0, sizeof frame->grids);
+}
+
+/* Until less than `wanted` is left, and half. */
+static struct course erode(const char *spacing, const char *rain, double wanted)
 {
     struct course out = {0};
     char path[4096], set[64];
     const char *top = getenv("HOODOO_TOP");
     snprintf(path, sizeof path, "%s/jobs/demo.yaml", top ? top : ".");
     snprintf(set, sizeof set, "domain.spacing_m=%s", spacing);
-    struct sim s = sim_open(path, (const char *[]){set, "output.aov.cameras=[]"}, 2);
+    struct sim s = sim_open(path, (const char *[]){set, rain, "output.aov.cameras=[]"}, 3);
     double before = 1;
-    for (;;) {
+    for (bool done = false; !done;) {
         struct frame frame = sim_output(&s);
-        double share = frame.volume_m3 / frame.start_volume_m3, number = frame.number - s.job->frames.first;
-        bool done = frame.number >= s.job->frames.last;
+        const double share = frame.volume_m3 / frame.start_volume_m3,
+                     number = frame.number - s.job->frames.first;
+        done = (share <= 0.5 && share <= wanted) || frame.number >= s.job->frames.last;
         if (share <= 0.8 && before > 0.8)
             out.frames_to_80 = number - (0.8 - share) / (before - share);
-        if (share <= 0.5) {
+        if (share <= 0.5 && before > 0.5)
             out.frames_to_50 = number - (0.5 - share) / (before - share);
-            out.half = frame.grids;
-            memset(&frame.grids, 0, sizeof frame.grids);
-            done = true;
-        }
+        if (fabs(share - wanted) < fabs(out.share - wanted))
+            keep(&out, &frame, share);
         before = share;
         frame_free(&frame);
-        if (done)
-            break;
-        assert_ok(model_step(s.model));
+        if (!done)
+            assert_ok(model_step(s.model));
     }
     sim_end(&s);
-    assert_true(out.half.n_grids > 0);
+    assert_true(out.grids.n_grids > 0);
     return out;
 }
 
@@ -89,27 +98,40 @@ static void overlap(const struct frame_grids *coarse, const struct frame_grids *
     *density = least / most;
 }
 
-static void coarse_and_fine_are_the_same_rock(void **state)
+static void compare(const char *coarser, const char *finer, const char *rain)
 {
     double surface, density;
-    (void)state;
-    struct course coarse = erode("1"), fine = erode("0.5");
-    overlap(&coarse.half, &fine.half, &surface, &density);
+    struct course coarse = erode(coarser, rain, 0.5), fine = erode(finer, rain, coarse.share);
+    overlap(&coarse.grids, &fine.grids, &surface, &density);
     print_message("# frames until 80 %% is left: %.2f and %.2f; until 50 %%: %.2f and %.2f\n",
                   coarse.frames_to_80, fine.frames_to_80, coarse.frames_to_50, fine.frames_to_50);
-    print_message("# at half: the surfaces enclose the same for %.1f %%, the densities for %.1f %%\n",
-                  100 * surface, 100 * density);
+    print_message(
+        "# at %.3f and %.3f: the surfaces enclose the same for %.1f %%, the densities for %.1f %%\n",
+        coarse.share, fine.share, 100 * surface, 100 * density);
     assert_true(fabs(coarse.frames_to_80 / fine.frames_to_80 - 1) < 0.15);
     assert_true(fabs(coarse.frames_to_50 / fine.frames_to_50 - 1) < 0.15);
     assert_true(surface >= 0.85);
-    frame_free(&(struct frame){.grids = coarse.half});
-    frame_free(&(struct frame){.grids = fine.half});
+    frame_free(&(struct frame){.grids = coarse.grids});
+    frame_free(&(struct frame){.grids = fine.grids});
+}
+
+static void coarse_and_fine_are_the_same_rock(void **state)
+{
+    (void)state;
+    compare("1", "0.5", "rain.m_per_yr=0");
+}
+
+static void in_the_rain_too(void **state)
+{
+    (void)state;
+    compare("1", "0.5", "rain={m_per_yr: 1, threshold_Pa: 0.5}");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(coarse_and_fine_are_the_same_rock),
+        cmocka_unit_test(in_the_rain_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
