@@ -17,6 +17,17 @@ struct count_params {
 };
 SHARED_SIZE(count_params, 4)
 
+/* ---- numbers */
+
+/* Into found[slot] goes the least number of an item that is not finite or greater than `most`. Each of so many threads looks at every
+ * so many'th item: where the device is a CPU, starting a thread takes longer than looking at a number. */
+#define NUMBERS_THREADS 8192u
+struct numbers_params {
+    uint n, slot;
+    float most;
+};
+SHARED_SIZE(numbers_params, 12)
+
 /* ---- gpu: scan, sort, reduce */
 
 #define SCAN_RUN 64u

@@ -97,6 +97,10 @@ struct gpu_time {
     uint64_t ns, dispatches;
 };
 void gpu_stage(struct gpu *gpu, const char *name);
+
+/* From now on `ended` is called when a stage ends, which is where another begins (a part of it, named "STAGE PART", is none); NULL: no more. It may use the device; its time is that of a stage "numbers". An error of
+ * its sticks like the device's own. */
+void gpu_watch(struct gpu *gpu, status (*ended)(void *user, const char *stage, const char *next), void *user);
 size_t gpu_stage_times(const struct gpu *gpu, const struct gpu_time **times);
 const struct gpu_time *gpu_kernel_time(const struct gpu *gpu, enum gpu_kernel kernel);
 void gpu_times_reset(struct gpu *gpu);

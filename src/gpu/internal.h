@@ -77,6 +77,8 @@ struct gpu {
     char message[1024];
     struct gpu_time stage[STAGES_MAX], kernel[KERNELS];
     int n_stages, current_stage;
+    status (*ended)(void *user, const char *stage, const char *next); /* gpu_watch() */
+    void *ended_user;
 };
 
 enum { STAGING_BYTES = 16 << 20 };

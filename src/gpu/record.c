@@ -1,5 +1,6 @@
 /* Recording: commands into slots, barriers between those that touch the same buffer, submission, timers. */
 #include <assert.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "gpu/internal.h"
@@ -157,16 +158,46 @@ status gpu_wait(struct gpu *gpu)
     return gpu_status(gpu);
 }
 
-void gpu_stage(struct gpu *gpu, const char *name)
+void gpu_watch(struct gpu *gpu, status (*ended)(void *user, const char *stage, const char *next), void *user)
+{
+    gpu->ended = ended;
+    gpu->ended_user = user;
+}
+
+/* "stress level 1" is a part of "stress". */
+static bool same_stage(const char *a, const char *b)
+{
+    const size_t n = strcspn(a, " ");
+    return n == strcspn(b, " ") && strncmp(a, b, n) == 0;
+}
+
+static int stage_index(struct gpu *gpu, const char *name)
 {
     for (int i = 0; i < gpu->n_stages; i++)
-        if (strcmp(gpu->stage[i].name, name) == 0) {
-            gpu->current_stage = i;
-            return;
-        }
+        if (strcmp(gpu->stage[i].name, name) == 0)
+            return i;
     assert(gpu->n_stages < STAGES_MAX);
-    gpu->current_stage = gpu->n_stages++;
-    gpu->stage[gpu->current_stage] = (struct gpu_time){.name = name};
+    gpu->stage[gpu->n_stages] = (struct gpu_time){.name = name};
+    return gpu->n_stages++;
+}
+
+static void end_stage(struct gpu *gpu, const char *next)
+{
+    const char *last = gpu->n_stages ? gpu->stage[gpu->current_stage].name : next;
+    if (!gpu->ended || gpu->st != OK || same_stage(last, next))
+        return;
+    gpu->current_stage = stage_index(gpu, "numbers");
+    const status st = gpu->ended(gpu->ended_user, last, next);
+    if (st != OK && gpu->st == OK) {
+        gpu->st = st;
+        snprintf(gpu->message, sizeof gpu->message, "%s", status_message());
+    }
+}
+
+void gpu_stage(struct gpu *gpu, const char *name)
+{
+    end_stage(gpu, name);
+    gpu->current_stage = stage_index(gpu, name);
 }
 
 size_t gpu_stage_times(const struct gpu *gpu, const struct gpu_time **times)

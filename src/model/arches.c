@@ -170,6 +170,7 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
     TRY(terrain_look(&v));
     TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, m->voxels, m->h, &p));
     p.walls = job_walls(m->job);
+    m->shown = &p;
     rock_free(&v.rock);
     gpu_stage(m->gpu, "field");
     const struct field_share known = {v.bricks.count, v.bricks.number, v.bricks.slot, v.share};
@@ -187,6 +188,7 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
         TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &p, NULL, out));
     }
 done:
+    m->shown = NULL;
     particles_destroy(m->gpu, &p);
     terrain_view_free(&v);
     return st;

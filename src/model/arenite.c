@@ -570,6 +570,7 @@ const struct model_type arenite_type = {
     .restore = arenite_restore,
     .destroy = arenite_destroy,
     .step = step,
+    .watch = arenite_watch,
     .output = output,
     .save = arenite_save,
 };

@@ -96,6 +96,8 @@ MUST_USE status arenite_create(struct model *m);
 MUST_USE status arenite_begin(struct model *m);
 MUST_USE status arenite_restore(struct model *m, const struct checkpoint *from);
 MUST_USE status arenite_save(struct model *m, struct checkpoint *out);
+
+void arenite_watch(const struct model *m, struct watch_list *list);
 void arenite_destroy(struct model *m);
 
 /* Which values frames have (HAS_* of values.h) with these. The wind adds its own. */

@@ -297,6 +297,7 @@ status arenite_create(struct model *m)
 {
     status st = OK;
     struct arenite *a = arenite_of(m);
+    m->shown = &a->particles;
     a->plants = plants_wanted(m->whole) || edits_plant(m->whole);
     a->deposits = arenite_ever(m->whole, deposit_wanted);
     TRY(arenite_create_parts(a, LASTS_RUN));

@@ -182,14 +182,26 @@ static status output(struct model *m, struct frame *out)
     TRY(rock_of(g, share, factor, &rock));
     TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels, m->h, &p));
     p.walls = job_walls(m->job);
+    m->shown = &p;
     TRY(gpu_upload(m->gpu, p.field[ROCK_erodibility], 0, rock.erodibility, rock.n));
     TRY(show(g, wants, &p, out));
 done:
     free(share);
     free(factor);
     rock_free(&rock);
+    m->shown = NULL;
     particles_destroy(m->gpu, &p);
     return st;
+}
+
+static void watch(const struct model *m, struct watch_list *list)
+{
+    const struct goblins *g = (const struct goblins *)m;
+    const struct elastic *e = &g->elastic;
+    watch_add(list, "what is left of voxels", g->voxels.left,
+              g->voxels.left ? gpu_buffer_count(g->voxels.left) : 0);
+    if (e->u && watch_between(list, "stress", "stress"))
+        watch_add(list, "displacement", e->u, gpu_buffer_count(e->u));
 }
 
 /* ---- the state */
@@ -342,6 +354,7 @@ const struct model_type goblins_type = {
     .restore = restore,
     .destroy = destroy,
     .step = step,
+    .watch = watch,
     .output = output,
     .save = save,
 };

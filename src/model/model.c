@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "frame/host.h"
 #include "model/sections.h"
+#include "particles/grids.h"
 #include "particles/particles.h"
 #include "scene/scene.h"
 
@@ -92,6 +93,7 @@ static status create_shared(struct model *m)
 {
     status st = OK;
     TRY(scene_voxels(m->job, m->voxels));
+    TRY(numbers_create(m->gpu, &m->found));
     TRY(gpu_work_create(m->gpu, m->type->work_items(m->job, m->voxels), &m->work));
     if (job_has_processes(m->job))
         TRY(budget_create(m->gpu, &m->budget));
@@ -100,6 +102,36 @@ static status create_shared(struct model *m)
         TRY(aov_create(m->gpu, m->whole, aov_pixels(m->whole), &m->aov));
 done:
     return st;
+}
+
+static bool is_one_of(const char *name, const char *const *names, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (strcmp(name, names[i]) == 0)
+            return true;
+    return false;
+}
+
+bool watch_between(const struct watch_list *list, const char *by, const char *before)
+{
+    const char *const next[] = {before, "checkpoint", "field"};
+    return strcmp(list->stage, by) == 0 || is_one_of(list->next, next, sizeof next / sizeof *next);
+}
+
+static status stage_ended(void *user, const char *stage, const char *next)
+{
+    const struct model *m = user;
+    struct watch_list list = {.stage = stage, .next = next};
+    const size_t samples = m->field.n_bricks * BRICK_SAMPLES;
+    watch_particles(&list, m->shown);
+    if (strcmp(stage, "field") == 0) {
+        watch_add(&list, "the rock's share", m->field.share, samples);
+        watch_add(&list, "the field's means", m->field.means, samples);
+        watch_add(&list, "the surface's distance", m->field.distance, samples);
+    }
+    if (m->type->watch)
+        m->type->watch(m, &list);
+    return numbers_check(m->gpu, m->found, &list, m->frame);
 }
 
 status model_create(struct gpu *gpu, const struct job *job, const struct checkpoint *from, struct model **out)
@@ -121,6 +153,7 @@ status model_create(struct gpu *gpu, const struct job *job, const struct checkpo
     if (from)
         TRY(restore_counts(m, from));
     TRY(from ? type->restore(m, from) : type->begin(m));
+    gpu_watch(gpu, stage_ended, m);
     *out = m;
     m = NULL;
 done:
@@ -133,7 +166,9 @@ void model_destroy(struct model **handle)
     struct model *m = *handle;
     if (!m)
         return;
+    gpu_watch(m->gpu, NULL, NULL);
     m->type->destroy(m);
+    gpu_buffer_destroy(m->gpu, &m->found);
     aov_destroy(m->gpu, &m->aov);
     field_destroy(m->gpu, &m->field);
     budget_destroy(m->gpu, &m->budget);

@@ -7,6 +7,7 @@
 #include "field/aov.h"
 #include "field/field.h"
 #include "model/model.h"
+#include "model/numbers.h"
 
 struct model_type;
 
@@ -27,6 +28,9 @@ struct model {
     struct gpu_work *work;
     struct field field;
     struct aov aov; /* where the job has pictures */
+    const struct particles
+        *shown;               /* the rock as particles, as long as it is on the device; NULL: it is not */
+    struct gpu_buffer *found; /* numbers.h */
 };
 
 /* What is written of a frame: a model makes nothing else of it for output(). */
@@ -75,6 +79,9 @@ struct model_type {
     /* One frame. Its number, its years and its job are set, and its budget is empty. */
     MUST_USE status (*step)(struct model *m);
 
+    /* Adds what of its own lasts longer than the stage that has ended; NULL: nothing. `shown` and the surface field are there. */
+    void (*watch)(const struct model *m, struct watch_list *list);
+
     /* Adds to a frame that has its number, years, ledger, start volume and changes: its measures, and of the rest what
      * model_wants() says. */
     MUST_USE status (*output)(struct model *m, struct frame *out);
@@ -82,6 +89,9 @@ struct model_type {
     /* Adds its sections behind that of the domain, those of sections_add_counts() among them. */
     MUST_USE status (*save)(struct model *m, struct checkpoint *out);
 };
+
+/* Is it to be looked at here, what stage `by` makes and `before` begins with? Also before it is saved or shown. */
+bool watch_between(const struct watch_list *list, const char *by, const char *before);
 
 /* What is left of n voxels or particles, as so many whole ones. */
 double model_sum(const float *left, size_t n);

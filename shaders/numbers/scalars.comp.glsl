@@ -1,0 +1,20 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The first of these numbers that is not finite, or beyond what it may be.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_F(0, value)
+WRITE_U(1, found)
+PARAMS(numbers_params)
+
+void main()
+{
+    uint first = 0xffffffffu;
+    // Not "> most": that is false of what is no number.
+    for (uint i = THREAD; i < k.n; i += NUMBERS_THREADS)
+        if (!(abs(LOAD_F(value, i)) <= k.most))
+            first = min(first, i);
+    if (first != 0xffffffffu)
+        atomicMin(AT(found, k.slot), first);
+}
