@@ -1,5 +1,7 @@
 #include "field/field.h"
 
+#include <math.h>
+
 #include "particles/deep.h"
 
 static struct field geometry(const int voxels[3], double h)
@@ -172,7 +174,25 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
         GPU_RUN(gpu, field_cut, k.n, k, f->list, f->distance, f->share, f->means);
 }
 
-status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p)
+/* The share, with the surface of heaps at rest. */
+static void share_heaps(struct gpu *gpu, struct field *f, struct particles *p, struct field_params k)
+{
+    struct gpu_buffer *loose = f->other, *base = f->means;
+    GPU_RUN(gpu, field_loose, k.n, k, f->list, p->held.words, p->start, p->fill, p->field[ROCK_phase], loose);
+    GPU_RUN(gpu, field_heap_begin, k.n, k, f->list, f->slot, loose, f->distance, base);
+    for (int sweep = 0; sweep < HEAP_SWEEPS / 2; sweep++) {
+        GPU_RUN(gpu, field_heap_slide, k.n, k, f->list, f->slot, f->distance, base, f->share);
+        GPU_RUN(gpu, field_heap_slide, k.n, k, f->list, f->slot, f->share, base, f->distance);
+    }
+    GPU_RUN(gpu, field_heap_fill, k.n, k, f->list, f->slot, loose, f->distance, f->share);
+    GPU_RUN(gpu, field_share_heap, k.n, k, f->list, f->slot, f->share, f->other);
+    struct gpu_buffer *swap = f->share;
+    f->share = f->other;
+    f->other = swap;
+}
+
+status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p,
+                   double repose_deg)
 {
     status st = OK;
     particles_fill(gpu, p);
@@ -181,8 +201,11 @@ status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, stru
     if (f->whole)
         gpu_fill(gpu, f->list, EXTENT_ALL);
     TRY(choose(gpu, work, f));
-    const struct field_params k = params_of(f, p);
-    if (k.n)
+    struct field_params k = params_of(f, p);
+    k.repose = (float)tan(repose_deg * 3.14159265358979323846 / 180);
+    if (k.n && repose_deg > 0)
+        share_heaps(gpu, f, p, k);
+    else if (k.n)
         GPU_RUN(gpu, field_share, k.n, k, f->list, p->held.words, p->fill, f->share);
     finish(gpu, f, p);
 done:

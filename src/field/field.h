@@ -31,15 +31,19 @@ struct field {
     struct gpu_buffer *distance, *other; /* float [n_bricks * 512]: m, negative inside, at most 3 voxels */
 };
 
-enum { FIELD_MARGIN = 4, FIELD_BAND = GRID_BAND, FIELD_MEANS = 4 };
+/* HEAP_SWEEPS: over the columns of heaps, an even number. A voxel more or less spreads over a few of its neighbours. */
+enum { FIELD_MARGIN = 4, FIELD_BAND = GRID_BAND, FIELD_MEANS = 4, HEAP_SWEEPS = 24 };
 
 /* Bytes on the device, with so many samples kept. */
 uint64_t field_bytes(const int voxels[3], uint64_t samples);
 MUST_USE status field_create(struct gpu *gpu, const int voxels[3], double h, struct field *out);
 void field_destroy(struct gpu *gpu, struct field *f);
 
-/* From the particles, whose stress must be current. Waits, to know how many bricks there are. */
-MUST_USE status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p);
+/* From the particles, whose stress must be current. `repose_deg`: where there are deposits, the angle at which they lie. Their
+ * heaps are shown smooth and no steeper, whatever the voxels of their particles (shaders/field/heap.glsl); 0: there are none.
+ * Waits, to know how many bricks there are. */
+MUST_USE status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p,
+                            double repose_deg);
 
 /* A rock's share that is known (host memory): 0..1, 1/2 on the surface. Kept are all bricks with samples that differ from a
  * neighbour, or are within 3 voxels of one that does. */

@@ -532,7 +532,8 @@ static status output(struct model *m, struct frame *out)
     gpu_stage(m->gpu, "field");
     m->field.whole = !arenite_rests(m->job);
     if (wants.volumes || wants.pictures)
-        TRY(field_build(m->gpu, m->work, &m->field, &a->particles));
+        TRY(field_build(m->gpu, m->work, &m->field, &a->particles,
+                        m->ledger.deposit ? m->job->deposition.repose_deg : 0));
     if (wants.points || (wants.volumes && a->tile.n)) {
         TRY(particles_download(m->gpu, &a->particles, DERIVED, &out->rock));
         if (wants.points && m->whole->output.vdb.points == VDB_POINTS_ALL)

@@ -148,7 +148,7 @@ static status show(struct goblins *g, struct frame_wants wants, struct particles
     }
     gpu_stage(g->m.gpu, "field");
     if (wants.volumes || wants.pictures)
-        TRY(field_build(g->m.gpu, g->m.work, &g->m.field, p));
+        TRY(field_build(g->m.gpu, g->m.work, &g->m.field, p, 0));
     if (wants.points)
         TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
     if (wants.volumes) {

@@ -89,7 +89,7 @@ static status output(struct model *m, struct frame *out)
     struct particles p = {0};
     TRY(particles_create(m->gpu, m->work, &of(m)->rock, STATE, m->voxels, m->h, &p));
     TRY(particles_surface(m->gpu, m->work, &p));
-    TRY(field_build(m->gpu, m->work, &m->field, &p));
+    TRY(field_build(m->gpu, m->work, &m->field, &p, 0));
     TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
     TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
     TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &p, NULL, out));

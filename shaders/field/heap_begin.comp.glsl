@@ -1,0 +1,47 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The heads of columns: their heights, as particles have them, and how far down their deposits go.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_U(1, slot)
+READ_F(2, loose)
+WRITE_F(3, height)
+WRITE_V(4, base)
+PARAMS(field_params)
+#include "field/lattice.glsl"
+#include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/sides.glsl"
+#include "field/heap.glsl"
+
+// What fills a voxel; below the ground is rock.
+float filled(ivec3 v)
+{
+    uint s = voxel_sample(v);
+    return v.z < 0 ? -1.0 : s == SAMPLE_NONE ? 0.0 : LOAD_F(loose, s);
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    ivec3 v = brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES) - int(k.margin), down = ivec3(0, 0, 1);
+    float own = LOAD_F(loose, i), below = filled(v - down), top = HEAP_NONE, bottom = 0.0;
+    if (!voxel_inside(v) || own < 0.0) {
+        ;
+    } else if (own > 0.0) {
+        if (filled(v + down) == 0.0) {
+            top = float(v.z) + own;
+            bottom = float(v.z);
+            for (int d = 1; d <= HEAP_REACH && filled(v - d * down) > 0.0; d++)
+                bottom = float(v.z - d);
+        }
+    } else if (below < 0.0) {
+        top = bottom = float(v.z) - 1.0 - below;
+    }
+    AT(height, i) = top;
+    AT(base, i) = vec4(bottom, 0.0, 0.0, 0.0);
+}

@@ -1,0 +1,39 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How much of each sample's voxel is filled: by deposits, or below 0 by rock. A deposit takes its room until water has taken all of
+// it: its viability is what is left of that.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_U(0, list)
+READ_U(1, words)
+READ_U(2, start)
+READ_F(3, fill)
+READ_U(4, phase)
+WRITE_F(5, loose)
+PARAMS(field_params)
+#include "field/lattice.glsl"
+#include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
+
+float filled(ivec3 v)
+{
+    if (!voxel_inside(v))
+        return 0.0;
+    uint s = voxel_slot(v);
+    if (s == NOT_HELD)
+        return voxel_deep(v) ? -1.0 : 0.0;
+    bool rock = false;
+    for (uint j = LOAD_U(start, s); j < LOAD_U(start, s + 1u); j++)
+        rock = rock || LOAD_U(phase, j) != PHASE_DEPOSIT;
+    return rock ? -LOAD_F(fill, s) : 1.0;
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n)
+        AT(loose, i) = filled(brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES) - int(k.margin));
+}
