@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Crumbs become deposits where they have landed, jittered in their voxels as the first particles are
-// (scene/sample.c), or go. A crumb of which nothing was left begins anew, bare, less what the rest of the step takes of it; one
-// that slid keeps what is left of it. Plants grow through what buries them, by its thickness.
+// (scene/sample.c), or go. A crumb of which nothing was left begins anew, bare; one that slid keeps what is left of it. Plants
+// grow through what buries them, by its thickness.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -27,7 +27,7 @@ PARAMS(deposit_params)
 #include "shared/random.glsl"
 
 const float JITTER = 0.25;
-const float LEAST = 1.0 / 64.0; // of a crumb that would be gone again before the step is over
+const float STILL_TO_COME = -1.0 / 4096.0;
 
 float jitter(uint hash, uint axis)
 {
@@ -55,7 +55,7 @@ void main()
     uint j = LOAD_U(particle, i), p = LOAD_U(place, i);
     if (p == DEPOSIT_HELD) {
         if (AT(viability, j) <= 0.0)
-            AT(viability, j) = min(AT(viability, j), -LEAST * LEAST); // negative: it is still to come
+            AT(viability, j) = min(AT(viability, j), STILL_TO_COME);
         atomicAdd(AT(counts, COUNT_WAITING), 1u);
         return;
     }
@@ -69,7 +69,7 @@ void main()
     AT(position, j) = vec4(k.h * (vec3(corner) + vec3(jitter(hash, 0u), jitter(hash, 1u), jitter(hash, 2u))), 0.0);
     bool is_new = AT(phase, j) != 1u;
     if (AT(viability, j) <= 0.0) {
-        AT(viability, j) = max(1.0 + AT(viability, j) * (is_new ? k.quicker : 1.0), LEAST);
+        AT(viability, j) = 1.0;
         AT(vegetation, j) = 0.0;
     }
     AT(vegetation, j) = max(AT(vegetation, j), cover_below(corner));

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Each crumb's id, and the cell it sets out from: its own, or where that one lies in the rock, one across a face
-// that does not, the upper first; failing that, its own, and it leaves. Its voxel is free from now on.
+// that does not, the upper first; failing that, its own, and it leaves. The wind takes some of those that were rock. Its voxel is
+// free from now on.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -16,11 +17,13 @@ WRITE_U(7, cell)
 WRITE_U(8, place)
 WRITE_U(9, bits)
 READ_U(10, words)
+READ_U(11, phase)
 PARAMS(deposit_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
 #include "particles/within.glsl"
+#include "shared/random.glsl"
 #include "deposit/grid.glsl"
 
 bool open(ivec3 c)
@@ -40,9 +43,11 @@ void main()
     for (int s = 6; s >= 0; s--)
         if (open(c + step[s]))
             from = c + step[s];
-    AT(crumb_id, i) = LOAD_U(id, j);
+    uint own = LOAD_U(id, j);
+    bool dust = LOAD_U(phase, j) != PHASE_DEPOSIT && random_float(random_hash(k.dust, own, 0u, 0u)) >= k.bulk;
+    AT(crumb_id, i) = own;
     AT(cell, i) = cell_index(from);
-    AT(place, i) = open(from) ? DEPOSIT_WAITS : DEPOSIT_LEFT;
+    AT(place, i) = open(from) && !dust ? DEPOSIT_WAITS : DEPOSIT_LEFT;
 
     uvec2 in_voxel = voxel_particles(v);
     bool empty = true;

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A deposit on ground steeper than the angle at which deposits begin to slide, by the slope half way through its
-// leaving, slides on: the one on the highest column of the cell becomes a crumb. That angle is larger than the
-// one at which they come to rest, as it is for sand, so that what has landed does not slide at once; and what
-// slides comes to rest lower.
+// Of a cell's deposits that lie too steep to stay, the one on the highest column becomes a crumb. That angle is larger than the one
+// at which they come to rest, as it is for sand, so that what has landed does not slide at once; and what slides comes to rest lower.
+// It is measured around the deposit's own column, wherever the routing's cells lie, so that what lies still goes on doing so until
+// something near it changes.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -21,21 +21,51 @@ PARAMS(deposit_params)
 #include "particles/within.glsl"
 #include "deposit/grid.glsl"
 #include "deposit/column.glsl"
-#include "deposit/slope.glsl"
 
-// The deposit on top of a column of the cell, if it is higher than those before.
+const float STEEP = 0.25;         // tangent beyond that of repose at which deposits begin to slide: 8 degrees for scree at 34
+const int STEEP_REACH = 2;        // columns to each side whose heights the slope is fitted to
+const float STEEP_SQUARES = 50.0; // the sum of the squares of their distances along an axis
+const int STEEP_DROP = 3;         // voxels: beside a higher step nothing lies, and no cliff counts for more
+
+// The slope's part along an offset, from the drops to both of its ends: the mean drop per step, or where one end stands on a wall,
+// that to the other.
+float along(int a, int b, float far)
+{
+    float down = float(min(max(a, b), STEEP_DROP)), up = -float(min(a, b));
+    float drop = up > 2.0 * k.repose * far + 0.5 ? max(down, 0.0) : 0.5 * (down + up);
+    return a > b ? drop : -drop;
+}
+
+// Does a deposit that lies under the free voxel z of a column lie too steep?
+bool steep(int x, int y, int z)
+{
+    vec2 gradient = vec2(0.0);
+    for (int dy = 0; dy <= STEEP_REACH; dy++)
+        for (int dx = dy == 0 ? 1 : -STEEP_REACH; dx <= STEEP_REACH; dx++) {
+            int a = -floor_near(x + dx, y + dy, z), b = -floor_near(x - dx, y - dy, z);
+            if (max(a, b) >= STEEP_DROP && max(abs(dx), dy) == 1)
+                return true;
+            gradient += 2.0 * vec2(dx, dy) * along(a, b, length(vec2(dx, dy)));
+        }
+    return length(gradient) / STEEP_SQUARES > k.repose + STEEP;
+}
+
+// The deposit on top of a column of the cell, if it lies too steep, and higher than those before.
 void look(ivec3 base, int x, int y, inout int highest, inout uint found)
 {
     int z = floor_in(base.x + x, base.y + y, base.z) - 1;
     ivec3 v = ivec3(base.x + x, base.y + y, z);
     if (z <= highest || z < base.z || z > base.z + 1 || !voxel_inside(v))
         return;
+    uint on_top = 0xffffffffu;
     uvec2 in_voxel = voxel_particles(v);
     for (uint j = in_voxel.x; j < in_voxel.y; j++)
-        if (LOAD_U(phase, j) == 1u && AT(crumb, j) == 0u) {
-            highest = z;
-            found = j;
-        }
+        if (LOAD_U(phase, j) == PHASE_DEPOSIT && AT(crumb, j) == 0u)
+            on_top = j;
+    if (on_top != 0xffffffffu && steep(v.x, v.y, z + 1)) {
+        highest = z;
+        found = on_top;
+    }
 }
 
 void main()
@@ -44,8 +74,6 @@ void main()
     if (i >= k.n)
         return;
     ivec3 base = cell_base(cell_at(LOAD_U(list, i)));
-    if (stable(slope_of(base, cell_top(base)), -0.5, k.repose + SLOPE_SLIDE))
-        return;
     int highest = -1;
     uint found = 0xffffffffu;
     look(base, 0, 0, highest, found);

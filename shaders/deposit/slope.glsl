@@ -10,7 +10,6 @@
 const float SLOPE_ARM = 2.5;                // voxels between the means
 const float SLOPE_GRAIN = 0.25 / SLOPE_ARM; // what one more particle adds to the tip
 const float SLOPE_TIP = 1.15;               // tips may be steeper by this factor; an ideal cone's is, by 1.41
-const float SLOPE_SLIDE = 0.15;             // tangent beyond that of repose at which deposits begin to slide
 
 // The free voxel over the highest column of the cell with this base.
 int cell_top(ivec3 base)

@@ -1,10 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What erosion took of particles, off the rows of the processes that did it: by their share in the intensity. The
-// first two have theirs in `parts`, the third has the rest, so that nothing is lost.
+// What erosion took of particles, off the rows of the processes that did it: by their share in the intensity. Deflation and water
+// have theirs in `parts`, abrasion has the rest, so that nothing is lost. What water took of deposits
+// has a row of its own.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "erosion/budget.glsl"
+#include "erosion/parts.glsl"
 
 READ_U(0, spent)
 READ_U(1, parts)
@@ -29,7 +31,7 @@ void main()
     uint lane = THREAD;
     if (lane >= k.n)
         return;
-    uvec2 deflation = uvec2(0u), water = uvec2(0u), abrasion = uvec2(0u);
+    uvec2 deflation = uvec2(0u), water = uvec2(0u), abrasion = uvec2(0u), reworking = uvec2(0u);
     for (uint i = lane; i < k.n_values; i += BUDGET_LANES) {
         uint whole = LOAD_U(spent, i);
         if (whole == 0u)
@@ -38,7 +40,11 @@ void main()
             abrasion = minus(abrasion, 0u - whole);
             continue;
         }
-        vec2 share = unpackUnorm2x16(LOAD_U(parts, i));
+        vec2 share = shares_in(LOAD_U(parts, i));
+        if ((LOAD_U(parts, i) & PARTS_LOOSE) != 0u) {
+            reworking = plus(reworking, whole);
+            continue;
+        }
         uint first = share_of(whole, share.x), rest = whole - first;
         uint second = share.x + share.y >= 0.99999 ? rest : min(share_of(whole, share.y), rest);
         deflation = plus(deflation, first);
@@ -48,4 +54,5 @@ void main()
     take(k.deflation, lane, deflation);
     take(k.water, lane, water);
     take(k.abrasion, lane, abrasion);
+    take(k.reworking, lane, reworking);
 }

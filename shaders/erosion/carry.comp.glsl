@@ -27,6 +27,7 @@ PARAMS(carry_params)
 #include "particles/held.glsl"
 #include "particles/within.glsl"
 #include "erosion/budget.glsl"
+#include "erosion/parts.glsl"
 
 // What comes through faces: the step times their area, and the parts that processes have in it; their area, all of it and what
 // plants cover; and the normals, by their step.
@@ -47,7 +48,7 @@ void through(ivec3 v, int axis, inout incoming sum)
             continue;
         vec3 n = AT(normal, j).xyz;
         float face = abs(n[axis]);
-        sum.step += left * face * vec3(1.0, unpackUnorm2x16(AT(shares, j)));
+        sum.step += left * face * vec3(1.0, shares_in(AT(shares, j)));
         sum.area += face;
         sum.cover += face * AT(vegetation, j);
         sum.normal += left * face * n;
@@ -78,9 +79,14 @@ void main()
     float rate = LOAD_F(erodibility, i), taken = rate * sum.step.x;
     if (taken <= 0.0)
         return;
+    vec2 share = sum.step.yz / sum.step.x;
+    AT(parts, i) = parts_of(share.x, share.y);
+    if (LOAD_U(phase, i) == PHASE_DEPOSIT) {
+        taken *= share.y;
+        AT(parts, i) = PARTS_LOOSE;
+    }
     float after = before - taken;
-    AT(parts, i) = packUnorm2x16(sum.step.yz / sum.step.x);
-    if (after <= 0.0) {
+    if (after <= 0.0 && taken > 0.0) {
         float left = sum.step.x / sum.area * (-after / taken);
         AT(next, i) = left;
         AT(shares, i) = AT(parts, i);

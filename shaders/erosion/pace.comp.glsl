@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How fast the surface retreats, m/kyr: rock, and deposits.
+// How fast the surface retreats, m/kyr: rock, and deposits, of which only water takes any.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -8,9 +8,11 @@ READ_U(0, list)
 READ_F(1, intensity) // by place in the list
 READ_F(2, erodibility)
 READ_U(3, phase)
-WRITE_F(4, rock)
-WRITE_F(5, loose)
+READ_U(4, parts) // by place in the list
+WRITE_F(5, rock)
+WRITE_F(6, loose)
 PARAMS(count_params)
+#include "erosion/parts.glsl"
 
 void main()
 {
@@ -19,7 +21,7 @@ void main()
         return;
     uint self = LOAD_U(list, i);
     float speed = LOAD_F(intensity, i) * LOAD_F(erodibility, self);
-    bool is_loose = LOAD_U(phase, self) == 1u;
+    bool is_loose = LOAD_U(phase, self) == PHASE_DEPOSIT;
     AT(rock, i) = is_loose ? 0.0 : speed;
-    AT(loose, i) = is_loose ? speed : 0.0;
+    AT(loose, i) = is_loose ? speed * shares_in(LOAD_U(parts, i)).y : 0.0;
 }

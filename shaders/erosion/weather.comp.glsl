@@ -7,7 +7,8 @@
 // axis: over any plane these add up to its area, so that a front loses its rate times its area whatever its
 // direction and however rough the voxels make it. What was left of the step when a particle was gone goes to
 // `unspent`, for its neighbours (erosion/carry). Its own viability becomes what that would have taken of it, negative: so much
-// is gone of it already where it comes to rest (deposit/apply).
+// would go of it if it did not come to rest (erosion/beyond). Of deposits only water takes any: what wind can take has not come to
+// rest among them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -20,15 +21,17 @@ READ_U(5, words)
 WRITE_F(6, viability)
 WRITE_F(7, unspent)
 WRITE_U(8, counts)
-READ_U(9, parts)    // by place in the list
+WRITE_U(9, parts)   // by place in the list
 WRITE_U(10, spent)  // likewise: quanta
 WRITE_U(11, shares) // of those that are gone: their parts
+READ_U(12, phase)
 PARAMS(erosion_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/empty.glsl"
 #include "erosion/bare.glsl"
 #include "erosion/budget.glsl"
+#include "erosion/parts.glsl"
 
 void main()
 {
@@ -42,11 +45,16 @@ void main()
         return;
     vec3 x = LOAD_V(position, self).xyz, n = LOAD_V(normal, self).xyz;
     float step = LOAD_F(intensity, i) * k.dt / k.h;
-    float before = AT(viability, self), after = before - rate * step * bare_area(voxel_of(x), n);
-    if (after <= 0.0) {
-        float left = max(step * (-after / (before - after)), 1e-30); // its neighbours are to know that it went
+    float before = AT(viability, self), taken = rate * step * bare_area(voxel_of(x), n);
+    if (LOAD_U(phase, self) == PHASE_DEPOSIT) {
+        taken *= shares_in(AT(parts, i)).y;
+        AT(parts, i) = PARTS_LOOSE;
+    }
+    float after = before - taken;
+    if (after <= 0.0 && taken > 0.0) {
+        float left = max(step * (-after / taken), 1e-30); // its neighbours are to know that it went
         AT(unspent, self) = left;
-        AT(shares, self) = LOAD_U(parts, i);
+        AT(shares, self) = AT(parts, i);
         atomicAdd(AT(counts, COUNT_ERODED), 1u);
         after = -rate * left;
     }

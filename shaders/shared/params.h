@@ -247,9 +247,9 @@ SHARED_SIZE(budget_params, 16)
 struct budget_split_params {
     uint n; /* lanes */
     uint n_values;
-    uint deflation, water, abrasion; /* their rows */
+    uint deflation, water, abrasion, reworking; /* their rows */
 };
-SHARED_SIZE(budget_split_params, 20)
+SHARED_SIZE(budget_split_params, 24)
 
 /* ---- wind */
 
@@ -377,9 +377,10 @@ struct water_surface_params {
     uint words;                    /* of a column */
     uint size, sx, sy, sz, cx, cy; /* of the crumbs' cells */
     float rate, threshold;         /* k_t (1/Pa), tau_c (Pa) */
+    float carry;                   /* Pa: deposits do not lie where water pulls harder */
     uint walls;
 };
-SHARED_SIZE(water_surface_params, 60)
+SHARED_SIZE(water_surface_params, 64)
 
 /* ---- deposits: voxels as bits of columns, 32 to a word; routing cells of 2^3 voxels, on a shifted grid */
 
@@ -402,8 +403,10 @@ struct deposit_params {
     float quicker; /* how many times faster than rock it was deposits erode */
     uint walls;
     float through; /* the share of a cover that comes through one voxel of deposits */
+    uint dust;     /* hash of the job's seed */
+    float bulk;    /* the share of eroded rock that comes to rest */
 };
-SHARED_SIZE(deposit_params, 76)
+SHARED_SIZE(deposit_params, 84)
 
 /* Words the deposition counts into. */
 #define COUNT_LANDED 0u
@@ -497,8 +500,9 @@ struct field_params {
     uint fx, fy, fz; /* samples of the field: the voxels and a margin */
     uint margin;     /* voxels */
     uint walls;
+    float repose; /* tangent of the angle at which heaps lie */
 };
-SHARED_SIZE(field_params, 40)
+SHARED_SIZE(field_params, 44)
 
 /* In a slot: all of the brick is inside, and none of its samples are kept. */
 #define SLOT_INSIDE 0xffffffffu

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What running water adds to the intensity on each particle of the surface (Arenite eq. 14): shear above the threshold. Water lowers the floors it runs over, each column by as much as its shear says: what the particle's
+// What running water adds to the intensity on each particle of the surface (Arenite eq. 14): shear above the threshold. Deposits it
+// takes where they would not come to rest either. Water lowers the floors it runs over, each column by as much as its shear says: what the particle's
 // other bare faces would make of that (erosion/weather) is divided out.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -19,12 +20,14 @@ WRITE_F(10, intensity)
 WRITE_U(11, parts)    // deflation's and water's share in it
 READ_F(12, drop)
 WRITE_F(13, slopes) // 1/kyr, by place in the list, 0 before: how fast the floor's slope follows its height
+READ_U(14, phase)
 PARAMS(water_surface_params)
 #include "particles/voxel.glsl"
 #include "water/columns.glsl"
 #include "water/floor.glsl"
 #include "erosion/bare.glsl"
 #include "erosion/layer.glsl"
+#include "erosion/parts.glsl"
 
 void main()
 {
@@ -39,6 +42,8 @@ void main()
         return;
     vec4 p = LOAD_V(pull, node), own = layer_weather(LOAD_U(layer, self));
     float threshold = own.w < 0.0 ? k.threshold : own.w;
+    if (LOAD_U(phase, self) == PHASE_DEPOSIT)
+        threshold = max(threshold, k.carry);
     float k_t = own.z < 0.0 ? k.rate : own.z;
     vec2 above = max(p.xy - threshold, vec2(0.0));
     float cut = k_t * mix(above.y, above.x, p.z);
@@ -50,5 +55,5 @@ void main()
     cut /= area;
     float sum = AT(intensity, i) + cut;
     AT(intensity, i) = sum;
-    AT(parts, i) = packUnorm2x16(vec2(unpackUnorm2x16(AT(parts, i)).x * (1.0 - cut / sum), cut / sum));
+    AT(parts, i) = parts_of(shares_in(AT(parts, i)).x * (1.0 - cut / sum), cut / sum);
 }

@@ -23,7 +23,7 @@ void main()
         return;
     ivec3 v = voxel_of(LOAD_V(position, LOAD_U(list, i)).xyz);
     uint node = floor_at(v);
-    if (node == NONE || LOAD_V(pull, node).x <= k.threshold)
+    if (node == NONE || LOAD_V(pull, node).x <= k.carry)
         return;
     uvec3 at = (uvec3(v) + uvec3(k.sx, k.sy, k.sz)) / k.size;
     atomicOr(AT(tag, (at.z * k.cy + at.y) * k.cx + at.x), WATER_SWEPT);

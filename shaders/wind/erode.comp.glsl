@@ -19,6 +19,7 @@ PARAMS(wind_params)
 #include "particles/bits.glsl"
 #include "particles/empty.glsl"
 #include "erosion/layer.glsl"
+#include "erosion/parts.glsl"
 #include "wind/deflation.glsl"
 
 // 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
@@ -52,5 +53,5 @@ void main()
     if (rubbed > 0.0 && against > 0.0)
         sum += rubbed * against * reached_by_wind(x, n);
     AT(intensity, i) = sum;
-    AT(parts, i) = packUnorm2x16(vec2(sum > 0.0 ? plucked / sum : 0.0, 0.0));
+    AT(parts, i) = parts_of(sum > 0.0 ? plucked / sum : 0.0, 0.0);
 }

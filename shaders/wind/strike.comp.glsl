@@ -25,6 +25,7 @@ PARAMS(wind_params)
 #include "particles/bits.glsl"
 #include "particles/empty.glsl"
 #include "erosion/layer.glsl"
+#include "erosion/parts.glsl"
 #include "wind/deflation.glsl"
 
 vec3 air_at(ivec3 c)
@@ -65,5 +66,5 @@ void main()
     vec4 own = layer_weather(LOAD_U(layer, self));
     float plucked = deflation(LOAD_F(stress, self), own), sum = plucked + abrasion(own) * length(v) * max(0.0, -dot(n, v));
     AT(intensity, i) = sum;
-    AT(parts, i) = packUnorm2x16(vec2(sum > 0.0 ? plucked / sum : 0.0, 0.0));
+    AT(parts, i) = parts_of(sum > 0.0 ? plucked / sum : 0.0, 0.0);
 }

@@ -22,6 +22,11 @@ bool deposit_wanted(const struct job *job)
     return curve_max(&job->deposition.viability) > 0;
 }
 
+double deposit_bulk(const struct job *job)
+{
+    return (1 - job->deposition.fines) * job->deposition.bulking;
+}
+
 uint64_t deposit_bytes(const int voxels[3])
 {
     return 4 * ((uint64_t)bit_words(voxels) + 6 * (uint64_t)cells_max(voxels));
@@ -105,6 +110,8 @@ static struct deposit_params params(const struct job *job, int frame, int step,
         .seed = random_hash((uint32_t)job->seed, (uint32_t)frame, (uint32_t)step, RANDOM_DEPOSIT),
         .quicker = (float)(viability > 0 ? 1 / viability : 1),
         .walls = p->walls,
+        .dust = random_hash((uint32_t)job->seed, 0, 1, RANDOM_DEPOSIT),
+        .bulk = (float)deposit_bulk(job),
         .through = (float)exp(-p->h / job->vegetation.burial_m),
     };
 }
@@ -191,7 +198,7 @@ status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, c
     TRY(reserve(gpu, d, n_crumbs));
     k.n = (uint)n_crumbs;
     GPU_RUN(gpu, deposit_begin, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_id], routing->tag,
-            p->start, p->flags, d->id, d->cell, d->place, d->bits, p->held.words);
+            p->start, p->flags, d->id, d->cell, d->place, d->bits, p->held.words, p->field[ROCK_phase]);
     for (k.round = 0; k.round < ROUNDS && waiting > 0; k.round++) {
         k.last = k.round + 1 < ROUNDS ? 0 : last ? 2 : 1;
         TRY(advance(gpu, work, d, routing, k, p, n_crumbs, &waiting));

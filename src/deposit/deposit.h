@@ -1,8 +1,11 @@
 /* Where eroded rock comes to rest (Arenite section 7).
  *
  * Crumbs     are particles of which erosion left nothing; deposits with nothing below them; and deposits on ground
- *            that has become too steep: those slide on, one of a routing cell in a landing. The model lands them again, on a new
- *            routing, until none slides.
+ *            that has become too steep around them: those slide on, one of a routing cell in a landing. The model lands them again,
+ *            on a new routing, until none slides. Wind takes nothing of deposits, so that what has come to rest stays until
+ *            water takes it up (erosion/weather, above deposition.carry_Pa), or something near it changes.
+ * Dust       As many crumbs of rock as deposition.fines and bulking say, by a hash of their ids, leave with the wind: a particle
+ *            stands for a voxel, of rock or of the looser deposits.
  * Way        From where it broke off from cell to cell, to one of the lower cells beside it, by a hash of the crumb's id and as
  *            likely as it is lower now, to the first where there is room; if that is far, along the routing's receivers
  *            (pointer doubling). Out of the domain: the crumb has left.
@@ -13,11 +16,11 @@
  *            has risen: a heap does not depend on how many come at once, and so not on the step. After the last round what slid
  *            stays where it was, and the rest waits for the next landing.
  * Landing    In a free voxel on top of a column, one particle a voxel, jittered in it. A deposit has phase 1,
- *            keeps its id and layer, and is whole (viability 1) but for what the rest of the step takes of it, as its negative
- *            viability says (erosion.h): viability is how much of a voxel it fills.
- *            deposition.viability, the paper's lower initial b, says how long it lasts: its rate_factor is
+ *            keeps its id and layer, and fills its voxel (viability 1).
+ *            deposition.viability, the paper's lower initial b, says how easily water takes it up: its rate_factor is
  *            divided by that when it first lands. Deposits never interlock (erosion/interlock). Of plants that it buries,
  *            a share comes through, by its thickness.
+ * Surface    of a heap: shown smooth, and no steeper than repose (field/field.h).
  * Same bits  Crumbs of a cell are ordered by id; all else is gathers and integer sums.
  */
 #ifndef HOODOO_DEPOSIT_H
@@ -55,6 +58,10 @@ struct deposit_counts {
 
 /* Does the job ever deposit anything? If not, deposit_create() need not be called. */
 bool deposit_wanted(const struct job *job);
+
+/* The share of eroded rock that comes to rest, by volume: less the fines, which the wind carries off, but looser. At most 1
+ * (job/check.c). */
+double deposit_bulk(const struct job *job);
 
 uint64_t deposit_bytes(const int voxels[3]);
 MUST_USE status deposit_create(struct gpu *gpu, const int voxels[3], struct deposit *out);

@@ -39,7 +39,8 @@ void budget_split(struct gpu *gpu, struct budget *b, struct gpu_buffer *spent, s
                                     .n_values = (uint)n,
                                     .deflation = PROCESS_DEFLATION,
                                     .water = PROCESS_WATER,
-                                    .abrasion = PROCESS_ABRASION};
+                                    .abrasion = PROCESS_ABRASION,
+                                    .reworking = PROCESS_REWORKING};
     GPU_RUN(gpu, erosion_budget_split, k.n, k, spent, parts, b->sums);
 }
 

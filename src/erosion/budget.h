@@ -29,7 +29,7 @@ void budget_sum(struct gpu *gpu, struct budget *b, enum process process, bool af
                 struct gpu_buffer *viability, size_t n);
 
 /* Takes spent[i] quanta (uint [n]) off the rows of deflation, water and abrasion. parts[i]: the shares of the
- * first two, as packUnorm2x16() packs them. */
+ * first two (erosion/parts.glsl); where it is a deposit's, off that of reworking. */
 void budget_split(struct gpu *gpu, struct budget *b, struct gpu_buffer *spent, struct gpu_buffer *parts,
                   size_t n);
 

@@ -81,7 +81,7 @@ status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, s
     struct count_params k = {(uint)p->n_surface};
     struct gpu_buffer *words = gpu_work_words(work);
     GPU_RUN(gpu, erosion_pace, k.n, k, p->surface, e->intensity, p->field[ROCK_erodibility],
-            p->field[ROCK_phase], p->flags, p->place);
+            p->field[ROCK_phase], e->parts, p->flags, p->place);
     gpu_max(gpu, work, p->flags, p->n_surface, words, COUNT_FASTEST_ROCK);
     gpu_max(gpu, work, p->place, p->n_surface, words, COUNT_FASTEST_LOOSE);
     gpu_max(gpu, work, slopes, p->n_surface, words, COUNT_FASTEST_SLOPE);
@@ -160,7 +160,7 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
     gpu_fill(gpu, unspent, 0);
     GPU_RUN(gpu, erosion_weather, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N],
             e->intensity, p->field[ROCK_erodibility], p->held.words, p->field[ROCK_viability], unspent,
-            counts, e->parts, spent, shares);
+            counts, e->parts, spent, shares, p->field[ROCK_phase]);
     budget_split(gpu, budget, spent, e->parts, p->n_surface);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
     if (*n_eroded > 0)

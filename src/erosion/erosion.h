@@ -14,7 +14,7 @@ struct erosion {
      * processes fill it before erosion_weather(). */
     struct gpu_buffer *intensity;
     struct gpu_buffer
-        *parts; /* uint [n_max], likewise: deflation's and water's share in it (packUnorm2x16) */
+        *parts; /* uint [n_max], likewise: deflation's and water's share in it (erosion/parts.glsl) */
     struct gpu_buffer *layers; /* vec4 [2 n_layers], of this frame: weak, strong (m/kyr), I (Pa), 0; and the
                                 * layer's own k_d, k_a, k_t (1/Pa), tau_c (Pa), negative where they are the job's */
     size_t n_layers;
@@ -32,8 +32,8 @@ int erosion_steps(const struct job *job, double m_per_kyr);
 MUST_USE status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame,
                                   struct particles *p);
 
-/* The retreat of the fastest spots of the surface, m/kyr: of rock, and of deposits. And how fast water's slopes change, 1/kyr: in
- * a longer step than its inverse floors pass by those below them, and swing. */
+/* The retreat of the fastest spots of the surface, m/kyr: of rock, and of deposits where water takes them. And how fast water's
+ * slopes change, 1/kyr: in a longer step than its inverse floors pass by those below them, and swing. */
 struct erosion_pace {
     double rock, loose, slopes;
 };

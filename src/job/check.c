@@ -311,6 +311,18 @@ static status check_walls(const struct yaml *root, const struct job *job)
         sides[first]);
 }
 
+/* A particle cannot take more than its voxel. */
+static status check_deposition(const struct yaml *root, const struct job *job)
+{
+    const struct job_deposition *d = &job->deposition;
+    const struct yaml *map = yaml_get(root, "deposition");
+    if ((1 - d->fines) * d->bulking <= 1)
+        return OK;
+    return yaml_fail(map ? place(map, "bulking") : root, NULL,
+                     "%g times what fines leave (1 - %g) is more room than the rock took; at most %g here",
+                     d->bulking, d->fines, 1 / (1 - d->fines));
+}
+
 static status check_sources(const struct yaml *root, const struct job *job)
 {
     const struct yaml *list = yaml_get(root, "sources");
@@ -379,6 +391,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_aov_cameras(root, job));
     TRY(check_sources(root, job));
     TRY(check_walls(root, job));
+    TRY(check_deposition(root, job));
     TRY(check_edits(root, job));
     TRY(check_wedge(root, &job->wedge));
     TRY(check_aov_layers(root, job));

@@ -31,7 +31,7 @@ void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct
     k.sz = (uint)ways->shift[2];
     k.cx = (uint)ways->cells[0];
     k.cy = (uint)ways->cells[1];
-    k.threshold = (float)job->deposition.carry_Pa;
+    k.carry = (float)job->deposition.carry_Pa;
     GPU_RUN(gpu, water_sweep, p->n_surface, k, p->surface, p->field[ROCK_P], w->occupied, w->floors, w->first,
             w->pull, ways->tag);
 }
@@ -43,7 +43,8 @@ void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int fr
     struct water_surface_params k = surface_params(w, p);
     k.rate = (float)curve_at(&job->rain.erosion, frame);
     k.threshold = (float)curve_at(&job->rain.threshold_Pa, frame);
+    k.carry = (float)job->deposition.carry_Pa;
     GPU_RUN(gpu, water_erode, p->n_surface, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], w->occupied,
             w->floors, w->first, w->pull, p->field[ROCK_erodibility], p->field[ROCK_layer], layers, intensity,
-            parts, w->node[WATER_DROP], slopes);
+            parts, w->node[WATER_DROP], slopes, p->field[ROCK_phase]);
 }

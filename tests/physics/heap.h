@@ -36,6 +36,7 @@ static inline struct heap heap_begin(const int n[3], double h, double repose_deg
     struct heap p = {.n = {n[0], n[1], n[2]}, .h = h};
     p.job.seed = 7;
     p.job.deposition.repose_deg = repose_deg;
+    p.job.deposition.bulking = 1;
     p.job.deposition.viability.n = 1;
     p.job.deposition.viability.frame = &frame;
     p.job.deposition.viability.value = &one;
