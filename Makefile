@@ -178,6 +178,11 @@ test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers $(BUILD)/venv-usd/.done
 test-long: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) long
 
+FAULTS = physics/test_numbers restart/products.py restart/full_disk.sh
+## faults: run the campaigns of faults and write their table into tests/README.md
+faults: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/physics/test_numbers
+	$(Q)HOODOO_FAULTS=write sh tests/run.sh $(BUILD) $(FAULTS)
+
 ## bench: speed: ratios against plain C in the same run, and a paper's own times
 bench: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BENCH_BIN)
 	$(Q)for b in $(BENCH_BIN); do $$b $(BUILD)/hoodoo || exit 1; done
@@ -229,7 +234,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-dev deps-peers demo test test-later test-peers test-long bench reference format lint test-asan test-tsan test-sanitized install clean help
+.PHONY: all deps deps-test deps-dev deps-peers demo test test-later test-peers test-long faults bench reference format lint test-asan test-tsan test-sanitized install clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

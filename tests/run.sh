@@ -3,7 +3,7 @@
 # named, as unit/test_job or cli/aov.py. Each prints TAP lines ("ok ...", "not ok ...", either with "# skip ..."); the last
 # line here is "N passed, N failed". What is skipped counts as neither; the names of those that skipped something go to
 # BUILD/skipped, for root may be able to run them. A program that dies without saying "not ok" counts as one failure. As
-# many run side by side as there are cores.
+# many run side by side as there are cores. What campaigns of faults say ("# fault | ...") must be what tests/README.md has (faults.sh).
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
 
@@ -30,6 +30,7 @@ if [ "$1" = --one ]; then
     } >"$log.said"
     cat "$log.said" # at once, so that the lines of two programs stay apart
     echo "$ok $bad $skipped $name $cpu" >"$log.count"
+    sed -n "s!^# fault \(.*\)!\1 \`sh tests/run.sh build $name\` |!p" "$log" >"$log.faults"
     cd "$top" && rm -rf "${HOODOO_SCRATCH:?}/$name"
     exit 0
 fi
@@ -64,6 +65,8 @@ list "$@" | wanted | awk -F '\t' 'NR == FNR { rank[$1] = NR; next } { print ($2 
     sort -s -n -k 1,1 | cut -f 2- | tr '\t' '\n' | xargs -d '\n' -r -n 2 -P "$at_once" sh "$top/tests/run.sh" --one
 find "$HOODOO_SCRATCH" -name '*.count' -exec cat {} + >"$HOODOO_SCRATCH/counts"
 awk '$3 > 0 { print $4 }' "$HOODOO_SCRATCH/counts" >"$build/skipped"
+find "$HOODOO_SCRATCH" -name '*.faults' -exec cat {} + | sort >"$HOODOO_SCRATCH/faults"
+sh "$top/tests/faults.sh" "$HOODOO_SCRATCH/faults" >>"$HOODOO_SCRATCH/counts"
 echo "of CPU took most, in seconds:$(sort -k 5nr "$HOODOO_SCRATCH/counts" | head -n 10 | awk '{ printf " %s %s", $4, $5 }')"
 awk '{ passed += $1; failed += $2; skipped += $3 }
     END {

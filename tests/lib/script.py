@@ -21,6 +21,11 @@ def ok(good, name, *notes):
     return good
 
 
+def fault(kind, tried, what):
+    """A row of the table in tests/README.md: what was done to hoodoo how often, and what came of it. Failures so far are what was lost."""
+    print(f"# fault | {kind} | {tried} | {what} | {failures} |", flush=True)
+
+
 def finish():
     sys.exit(1 if failures else 0)
 

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 
-from script import finish, ok
+from script import fault, finish, ok
 
 HOODOO = os.environ["HOODOO"]
 JOB = os.path.join(os.environ["HOODOO_TOP"], "tests/restart/twelve.yaml")
