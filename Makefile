@@ -178,7 +178,7 @@ test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers $(BUILD)/venv-usd/.done
 test-long: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) long
 
-FAULTS = physics/test_numbers restart/products.py restart/full_disk.sh
+FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/killed.py restart/full_disk.sh
 ## faults: run the campaigns of faults and write their table into tests/README.md
 faults: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/physics/test_numbers
 	$(Q)HOODOO_FAULTS=write sh tests/run.sh $(BUILD) $(FAULTS)

@@ -46,8 +46,13 @@ def verify():
     return subprocess.run([HOODOO, "verify", "out"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode
 
 
+damaged = 0
+
+
 def repaired(name, damage, frames, *options):
     """`damage` is done; after a run all is as it was, and files of other frames were not written again."""
+    global damaged
+    damaged += len(damage)
     before = inodes()
     for what, path in damage:
         what(path)
@@ -91,6 +96,8 @@ def content(path):
 
 def papers(name, path, damage):
     """run.json or job.yaml is damaged; a run writes it anew, from which the folder is known again."""
+    global damaged
+    damaged += 1
     before = content(path)
     record = f"records/{path}.json"
     shutil.copy(os.path.join("out", path), "before")
@@ -117,4 +124,5 @@ papers("job.yaml is lost", "job.yaml", os.remove)
 papers("job.yaml was edited", "job.yaml", edit)
 papers("run.json is lost", "run.json", os.remove)
 papers("run.json is cut", "run.json", lambda path: os.truncate(path, 10))
+fault("files of frames, checkpoints and papers cut, flipped, edited or gone", damaged, "named by `verify`; `run` makes exactly these anew, the same bytes")
 finish()
