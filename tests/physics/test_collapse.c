@@ -283,7 +283,8 @@ static const char CRUMB[] = "hoodoo: 1\nname: crumb\nframes: 1001-1100\nclock: {
 
 static void small_blocks_crumble(void **state)
 {
-    static const char *const deposition[] = {"deposition: {viability: 1}\n", "deposition: {viability: 0}\n"};
+    static const char *const deposition[] = {"deposition: {viability: 1, fines: 0, bulking: 1}\n",
+                                             "deposition: {viability: 0}\n"};
     (void)state;
     for (int laid = 1; laid >= 0; laid--) {
         char text[1024];

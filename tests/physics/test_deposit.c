@@ -255,6 +255,33 @@ static void threads_change_no_bit(void **state)
     rock_free(&first);
 }
 
+/* Of rock that erodes the fines leave, and what is coarse takes more room. Deposits that break off again have no fines. */
+static void the_wind_takes_the_fines(void **state)
+{
+    const int n[3] = {64, 64, 48};
+    (void)state;
+    struct heap p = heap_begin(n, 0.5, 34);
+    p.job.deposition.fines = 0.4;
+    p.job.deposition.bulking = 1.2;
+    heap_box(&p, (int[]){0, 0, 0}, (int[]){64, 64, 2});
+    const size_t rock = p.rock.n;
+    for (int f = 0; f < 20; f++)
+        rain_down(&p, (int[]){24, 24, 40}, (int[]){40, 40, 44}, 200);
+    const double lie = (double)(p.rock.n - rock) / (20 * 200);
+    const uint64_t left = p.left;
+    uint32_t ids[400];
+    size_t n_ids = 0;
+    for (size_t i = 0; i < p.rock.n && n_ids < 400; i++)
+        if (p.rock.phase[i] == PHASE_DEPOSIT)
+            ids[n_ids++] = p.rock.id[i];
+    heap_step(&p, ids, n_ids, 0);
+    print_message("# %.3f of the crumbs came to rest, of 0.72; of %zu deposits that broke off %llu left\n",
+                  lie, n_ids, (unsigned long long)(p.left - left));
+    assert_true(fabs(lie - 0.72) < 0.03); /* four standard deviations */
+    assert_int_equal(p.left, left);
+    heap_end(&p);
+}
+
 /* A cone by the wall of a house, partly weathered. */
 static struct heap beside_a_wall(void)
 {
@@ -483,6 +510,7 @@ int main(void)
         cmocka_unit_test(cells_leave_no_steps),
         cmocka_unit_test(crumbs_fall_over_an_edge_and_lie_on_what_is_below),
         cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(the_wind_takes_the_fines),
         cmocka_unit_test(heaps_are_shown_as_plain_c_finds),
         cmocka_unit_test(what_has_settled_stays),
         cmocka_unit_test(a_resumed_run_has_the_same_deposits),

@@ -72,10 +72,10 @@ def tree(out):
 
 
 def half(whole):
-    """What is neither a file of the whole run, nor a stage of the frames so far."""
+    """What is neither a file of the whole run, nor a stage of the frames so far, nor the record of one."""
     bad = []
     for path, digest in tree("out").items():
-        if path.endswith(".usda") and path in whole:
+        if path.endswith((".usda", ".usda.json")) and path in whole:
             with open(os.path.join("out", path)) as file:
                 if not file.read().endswith("}\n"):
                     bad.append(path)

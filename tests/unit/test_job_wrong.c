@@ -122,6 +122,9 @@ static const struct wrong wrong[] = {
      {"mesh.file: a file name is wanted"}},
     {"domain: {", "arches: {edges: open}\ndomain: {", {"arches.edges: replaced by domain.sides"}},
     {"domain: {", "domain: {sides: {x_min: periodic}, ", {"domain.sides.x_min: 'periodic'"}},
+    {"fps: 25",
+     "fps: 25\ndeposition: {fines: 0.1, bulking: 1.5}",
+     {"deposition.bulking: 1.5 times what fines leave (1 - 0.1)", "at most 1.11111 here"}},
     /* values that must fit each other */
     {"max_m: [56, 20, 46]",
      "max_m: [56, 4, 46]",
