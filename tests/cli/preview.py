@@ -51,7 +51,8 @@ def working_in(folder):
 
 def begin(*words):
     """Starts a preview into an empty o/turntable; returns once its first picture is there."""
-    shutil.rmtree("o/turntable", ignore_errors=True)
+    for folder in ("o/turntable", "o/records/turntable"):
+        shutil.rmtree(folder, ignore_errors=True)
     child = subprocess.Popen([HOODOO, "preview", "o", "--turntable", *words], stderr=subprocess.PIPE, text=True)
     while not os.path.isdir("o/turntable") or not any(name.endswith(".png") and "tmp" not in name for name in os.listdir("o/turntable")):
         time.sleep(0.02)
@@ -152,7 +153,9 @@ for _ in range(100):
     if left:
         time.sleep(0.05)
 check(set(busy) <= {"povray", "oiiotool"} and left == [], f"killed: {busy} were at work, and end with it {left}")
-finished = {name: os.stat(f"o/turntable/{name}").st_mtime_ns for name in os.listdir("o/turntable") if name.count(".") == 3 and "tmp" not in name}
+# A view is done with its record; of one that came just before the kill there is none.
+finished = {name: os.stat(f"o/turntable/{name}").st_mtime_ns for name in os.listdir("o/turntable")
+            if name.count(".") == 3 and "tmp" not in name and os.path.exists(f"o/records/turntable/{name}.json")}
 last = len(finished) + 1
 code, said = hoodoo("preview", "o", "--views", "300", "--only", "views", "--view", f"0-{last}", "--resolution", "320x180")
 kept = sum(os.stat(f"o/turntable/{name}").st_mtime_ns == at for name, at in finished.items())

@@ -269,9 +269,9 @@ static void the_wind_takes_the_fines(void **state)
         rain_down(&p, (int[]){24, 24, 40}, (int[]){40, 40, 44}, 200);
     const double lie = (double)(p.rock.n - rock) / (20 * 200);
     const uint64_t left = p.left;
-    uint32_t ids[400];
+    uint32_t ids[100];
     size_t n_ids = 0;
-    for (size_t i = 0; i < p.rock.n && n_ids < 400; i++)
+    for (size_t i = p.rock.n; i-- > 0 && n_ids < 100;) /* from the top */
         if (p.rock.phase[i] == PHASE_DEPOSIT)
             ids[n_ids++] = p.rock.id[i];
     heap_step(&p, ids, n_ids, 0);

@@ -243,10 +243,9 @@ static void what_erodes_stays_between_walls(void **state)
     uint64_t left[2];
     (void)state;
     for (int k = 0; k < 2; k++) {
-        struct sim s = plateau(
-            side[k],
-            "deposition: {viability: 1, fines: 0, bulking: 1}\npaint:\n  - {shape: {box: {min_m: [-1, -1, -1], max_m: [17, 17, "
-            "5]}}, inert: true}\n");
+        struct sim s = plateau(side[k], "deposition: {viability: 1, fines: 0, bulking: 1}\npaint:\n  - "
+                                        "{shape: {box: {min_m: [-1, -1, -1], max_m: [17, 17, "
+                                        "5]}}, inert: true}\n");
         for (int f = 0; f < 4; f++)
             assert_ok(model_step(s.model));
         struct frame frame = sim_output(&s);

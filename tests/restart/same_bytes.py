@@ -10,7 +10,8 @@ from twelve import *
 
 truth = Truth()
 frames = [path for path in truth.whole if path.startswith("frames/")]
-ok(len(frames) == 12 and len(truth.whole) == 5 * 12 + 2 + 2 + 2, "a run leaves 12 frames of five files, 2 checkpoints, 2 papers and USD's stage in two",
+ok(len(frames) == 12 and len(truth.whole) == 5 * 12 + 2 + 2 + 2 + 4,
+   "a run leaves 12 frames of five files, 2 checkpoints, 2 papers, USD's stage in two, and a record of each of these four",
    sorted(truth.whole))
 ok(len({truth.whole[path] for path in truth.whole if path.startswith("volumes/")}) == 12, "every frame differs from the others")
 ok(len(truth.checkpoint) == 12, "checkpoint.every=1 keeps one of each frame", truth.checkpoint.keys())

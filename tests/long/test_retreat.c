@@ -1,6 +1,6 @@
 /* A face retreats at its rock's rate, whatever the spacing, the step, and the angle to the grid; and by the
  * wind as it stands. */
-#include "model_help.h"
+#include "physics/model_help.h"
 
 #include <math.h>
 #include <string.h>
