@@ -27,7 +27,7 @@ PARAMS(deposit_params)
 #include "shared/random.glsl"
 
 const float JITTER = 0.25;
-const float STILL_TO_COME = -1.0 / 4096.0;
+const float STILL_TO_COME = -1.0 / 4096.0; // the viability of a crumb that waits, at most
 
 float jitter(uint hash, uint axis)
 {

@@ -25,10 +25,11 @@ float filled(ivec3 v)
     uint s = voxel_slot(v);
     if (s == NOT_HELD)
         return voxel_deep(v) ? -1.0 : 0.0;
-    bool rock = false;
-    for (uint j = LOAD_U(start, s); j < LOAD_U(start, s + 1u); j++)
-        rock = rock || LOAD_U(phase, j) != PHASE_DEPOSIT;
-    return rock ? -LOAD_F(fill, s) : 1.0;
+    uint first = LOAD_U(start, s), end = LOAD_U(start, s + 1u);
+    bool deposits = first < end; // a held voxel may have none
+    for (uint j = first; j < end; j++)
+        deposits = deposits && LOAD_U(phase, j) == PHASE_DEPOSIT;
+    return deposits ? 1.0 : -LOAD_F(fill, s);
 }
 
 void main()

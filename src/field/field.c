@@ -203,7 +203,7 @@ status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, stru
     TRY(choose(gpu, work, f));
     struct field_params k = params_of(f, p);
     k.repose = (float)tan(repose_deg * 3.14159265358979323846 / 180);
-    if (k.n && repose_deg > 0)
+    if (k.n && repose_deg > 0 && !p->moving)
         share_heaps(gpu, f, p, k);
     else if (k.n)
         GPU_RUN(gpu, field_share, k.n, k, f->list, p->held.words, p->fill, f->share);

@@ -40,7 +40,8 @@ MUST_USE status field_create(struct gpu *gpu, const int voxels[3], double h, str
 void field_destroy(struct gpu *gpu, struct field *f);
 
 /* From the particles, whose stress must be current. `repose_deg`: where there are deposits, the angle at which they lie. Their
- * heaps are shown smooth and no steeper, whatever the voxels of their particles (shaders/field/heap.glsl); 0: there are none.
+ * heaps are shown smooth and no steeper, whatever the voxels of their particles (shaders/field/heap.glsl); 0: there are none. Where
+ * rock is in motion they are shown as their particles lie.
  * Waits, to know how many bricks there are. */
 MUST_USE status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p,
                             double repose_deg);

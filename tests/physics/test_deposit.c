@@ -315,6 +315,8 @@ static void heaps_are_shown_as_plain_c_finds(void **state)
     assert_ok(particles_create(p.gpu, p.work, &p.rock, STATE, p.n, p.h, &rock));
     assert_ok(field_create(p.gpu, p.n, p.h, &f));
     f.whole = true;
+    assert_ok(particles_hold_around(p.gpu, p.work,
+                                    &rock)); /* voxels without particles, beside those that have some */
     assert_ok(field_build(p.gpu, p.work, &f, &rock, 34));
     uint32_t *list = calloc(f.n_bricks, sizeof *list);
     float *share = calloc(f.n_bricks * BRICK_SAMPLES, sizeof *share);
