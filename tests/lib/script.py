@@ -40,6 +40,22 @@ def hoodoo(*words, **more):
     return ask(HOODOO, *words, **more)
 
 
+def cut_half(path):
+    os.truncate(path, os.path.getsize(path) // 2)
+
+
+def flip_bit(path, draw):
+    """One bit that `draw` (random.Random) chooses, the size and the time as they were."""
+    info = os.stat(path)
+    with open(path, "r+b") as file:
+        at = draw.randrange(info.st_size)
+        file.seek(at)
+        byte = file.read(1)[0]
+        file.seek(at)
+        file.write(bytes([byte ^ 1 << draw.randrange(8)]))
+    os.utime(path, ns=(info.st_atime_ns, info.st_mtime_ns))
+
+
 def tree(root, chosen):
     """{path below root: digest} of the files whose paths are chosen."""
     found = {}

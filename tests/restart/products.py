@@ -82,19 +82,8 @@ def kind(path):
     return "".join(c for c in path if not c.isdigit())
 
 
-def cut(path):
-    os.truncate(path, os.path.getsize(path) // 2)
-
-
 def flip(path):
-    info = os.stat(path)
-    with open(path, "r+b") as file:
-        at = draw.randrange(info.st_size)
-        file.seek(at)
-        byte = file.read(1)[0]
-        file.seek(at)
-        file.write(bytes([byte ^ 1 << draw.randrange(8)]))
-    os.utime(path, ns=(info.st_atime_ns, info.st_mtime_ns))
+    flip_bit(path, draw)
 
 
 def shell(command):
@@ -140,13 +129,13 @@ products = [path[len("records/"):-len(".json")] for path in records]
 once = [path for path in one_of_each(products) if path not in ("run.json", "job.yaml")]
 thorough = float(os.environ.get("HOODOO_TEST_EFFORT", "1")) > 1
 if thorough:
-    for damage in (cut, flip, os.remove):
+    for damage in (cut_half, flip, os.remove):
         healed(damage.__name__, damage, once)
 else:
-    healed("cut, flipped or gone", any_of(cut, flip, os.remove), once)
+    healed("cut, flipped or gone", any_of(cut_half, flip, os.remove), once)
 # How a product without a record was made is known from others like it.
 if thorough:
-    healed("records cut or flipped", any_of(cut, flip), one_of_each(records, least=2))
+    healed("records cut or flipped", any_of(cut_half, flip), one_of_each(records, least=2))
 healed("papers and records flipped", flip, ["job.yaml"] + [f"records/{path}.json" for path in ("run.json", "made.usda", "mesh/made.1001.ply")])
 code, said = hoodoo("run", "made.json", "--out", "out", "--progress", "none", "--resume", "never", "--set", "seed=4")
 code, said = verify()

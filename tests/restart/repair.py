@@ -9,6 +9,7 @@ import sys
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+from script import cut_half, flip_bit
 from twelve import *
 
 truth = Truth()
@@ -17,21 +18,11 @@ run("out")
 
 
 def flip(path):
-    """One bit, the size and the time as they were."""
-    path = os.path.join("out", path)
-    info = os.stat(path)
-    with open(path, "r+b") as file:
-        at = draw.randrange(info.st_size)
-        file.seek(at)
-        byte = file.read(1)[0]
-        file.seek(at)
-        file.write(bytes([byte ^ 1 << draw.randrange(8)]))
-    os.utime(path, ns=(info.st_atime_ns, info.st_mtime_ns))
+    flip_bit(os.path.join("out", path), draw)
 
 
 def cut(path):
-    path = os.path.join("out", path)
-    os.truncate(path, os.path.getsize(path) // 2)
+    cut_half(os.path.join("out", path))
 
 
 def remove(path):
