@@ -150,8 +150,8 @@ status farm_freeze(struct farm *f)
     for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
         TRY(path_format(&path, "%s%s", f->root.text, folders[i]));
         TRY(folder_make(path.text));
-        atomic_file_sweep(path.text);
     }
+    folder_sweep(f->root.text);
     real = realpath(f->root.text, NULL);
     if (!real) {
         st = fail(E_OUTPUT, "%s: %s", f->root.text, strerror(errno));

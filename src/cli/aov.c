@@ -286,6 +286,7 @@ status cli_aov(int argc, char **argv)
         goto done;
     TRY(wedge_folder(operands.word[0], wedge, &s.root));
     TRY(folder_open(s.root.text, s.name));
+    folder_sweep(s.root.text);
     TRY(path_join(&path, s.root.text, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &s.job));
     TRY(branch_prepare_own(s.job, s.root.text));

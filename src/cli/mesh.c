@@ -56,6 +56,7 @@ status cli_mesh(int argc, char **argv)
         goto done;
     }
     TRY(folder_open(root.text, name));
+    folder_sweep(root.text);
     TRY(path_join(&path, root.text, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));
     TRY(path_join(&path, root.text, "mesh"));

@@ -170,7 +170,6 @@ static status make_folder(const char *root, const char *name)
     struct path path;
     TRY(path_join(&path, root, name));
     TRY(folder_make(path.text));
-    atomic_file_sweep(path.text);
 done:
     return st;
 }
@@ -185,7 +184,6 @@ static void sweep_all(const char *root)
             atomic_file_sweep_own(path.text);
 }
 
-/* Those a scheduler left us, not the machine's. */
 /* The sheet across the wedges of a farm's folder. */
 static status wedges(struct preview *p)
 {
@@ -205,6 +203,7 @@ static status wedges(struct preview *p)
     }
     p->job = base;
     signals_install();
+    folder_sweep(p->root);
     TRY(make_folder(p->root, "log"));
     children_begin(&p->children, p->root, "log/preview.log", PICTURE_PACKAGES, 1);
     TRY(turntable_wedges(p, all, n));
@@ -285,6 +284,7 @@ status cli_preview(int argc, char **argv)
     p.job = job;
     TRY(check(&w, &p));
     TRY(volume_frames(p.root, p.job->name, w.common.frames, &frames, &n));
+    folder_sweep(p.root);
     TRY(make_folder(p.root, "log"));
     TRY(make_folder(p.root, w.turntable ? "turntable" : "preview"));
     signals_install();

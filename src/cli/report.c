@@ -45,7 +45,7 @@ static status of_run(const char *root, bool pictures, struct text *page)
     TRY(report_gather(root, &r));
     TRY(path_join(&path, r.root, "report"));
     TRY(folder_make(path.text));
-    atomic_file_sweep(path.text);
+    folder_sweep(r.root);
     if (pictures)
         TRY(report_pictures(&r));
     TRY(report_page(&r, page));

@@ -96,19 +96,38 @@ status folder_room(const char *root)
                       root, n, LONGEST);
 }
 
+/* `depth`: how many folders further down are swept, too. */
+static void sweep(const char *folder, int depth)
+{
+    struct path path;
+    struct stat info;
+    atomic_file_sweep(folder);
+    DIR *d = depth ? opendir(folder) : NULL;
+    for (struct dirent *e; d && (e = readdir(d));)
+        if (e->d_name[0] != '.' && path_join(&path, folder, e->d_name) == OK &&
+            lstat(path.text, &info) == 0 && S_ISDIR(info.st_mode))
+            sweep(path.text, depth - 1);
+    if (d)
+        closedir(d);
+}
+
+void folder_sweep(const char *root)
+{
+    enum { RECORDS_OF_MESHES = 2 }; /* OUT/records/mesh is as deep as files are written */
+    sweep(root, RECORDS_OF_MESHES);
+}
+
 status folder_prepare(const char *root)
 {
     status st = OK;
     struct path path;
     TRY(folder_room(root));
     TRY(folder_make(root));
-    atomic_file_sweep(root);
+    folder_sweep(root);
     for (size_t i = 0; i < sizeof always / sizeof *always; i++) {
         TRY(path_join(&path, root, layout[always[i]].folder));
         TRY(folder_make(path.text));
-        atomic_file_sweep(path.text);
     }
-    product_sweep(root);
     TRY(path_join(&path, root, "log"));
     TRY(folder_make(path.text));
 done:

@@ -53,7 +53,11 @@ MUST_USE status folder_path(struct path *out, const char *root, const char *name
 /* Has the output folder `root` room below it for the longest path of any file there? E_OUTPUT if not. */
 MUST_USE status folder_room(const char *root);
 
-/* Makes root and its subfolders, and sweeps temporary files out of them. */
+/* Removes the temporary files that killed processes left anywhere in the output folder: for who is about to write
+ * there. Those of living processes stay. Never fails. */
+void folder_sweep(const char *root);
+
+/* Makes root and its subfolders, and sweeps them. */
 MUST_USE status folder_prepare(const char *root);
 
 /* A file a manifest vouches for. */

@@ -268,20 +268,6 @@ status product_list(const char *root, struct product_list *out)
     return st;
 }
 
-static status sweep_folder(void *user, const char *folder, const char *below)
-{
-    (void)user;
-    (void)below;
-    atomic_file_sweep(folder);
-    return OK;
-}
-
-void product_sweep(const char *root)
-{
-    if (each_folder(root, sweep_folder, NULL) != OK)
-        log_info("%s", status_message());
-}
-
 status product_forget(const char *root)
 {
     status st = OK;

@@ -71,9 +71,6 @@ void product_list_free(struct product_list *list);
 /* Where the record of `path` is, relative to the output folder. */
 MUST_USE status product_record(struct path *out, const char *path);
 
-/* Removes temporary files from the records' folders. */
-void product_sweep(const char *root);
-
 /* Removes all records: what they speak of was another run's. */
 MUST_USE status product_forget(const char *root);
 
