@@ -1,5 +1,5 @@
-/* The job hash: SIM keys in the table's order, names and values in a form that does not depend on how they
- * were written. Numbers are their eight bytes (little endian, as on every machine this runs on), texts end in
+/* The job hash: SIM keys in the table's order, and LATER ones that are not their defaults, names and values in a form that
+ * does not depend on how they were written. Numbers are their eight bytes (little endian, as on every machine this runs on), texts end in
  * NUL, lists and mappings begin with their length, and a file is its content. */
 #include "base/hash.h"
 
@@ -243,17 +243,44 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
     return OK;
 }
 
+/* Whether what was put from `at` on is what the key's default puts. */
+static status is_default(struct walk *w, enum job_section_id section, const struct job_key *key, size_t at,
+                         bool *out)
+{
+    status st = OK;
+    struct walk preset = {0};
+    void *base = NULL;
+    TRY(memory_alloc(1, job_sections[section].size, key->name, &base));
+    TRY(read_default(key, NULL, key->name, base));
+    TRY(walk_key(&preset, key, base));
+    const size_t n = w->canonical.size - at;
+    *out = preset.canonical.size == n &&
+           (n == 0 || memcmp(preset.canonical.data, w->canonical.data + at, n) == 0);
+done:
+    text_free(&preset.canonical);
+    if (base)
+        free_section(section, base);
+    free(base);
+    return st;
+}
+
 static status walk_section(struct walk *w, enum job_section_id section, const void *base)
 {
     const struct job_section *s = &job_sections[section];
     status st = OK;
     for (size_t i = 0; i < s->n; i++) {
         const struct job_key *key = &s->key[i];
+        bool leave = false;
         if (!key_simulates(key) && !w->only_inputs)
             continue;
-        size_t back = path_add(w, key->name);
+        const size_t back = path_add(w, key->name), before = w->canonical.size;
         put_text(w, key->name);
+        const size_t at = w->canonical.size;
         TRY(walk_key(w, key, base));
+        if (key_later(key))
+            TRY(is_default(w, section, key, at, &leave));
+        if (leave)
+            w->canonical.size = before;
         path_back(w, back);
     }
 done:

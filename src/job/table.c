@@ -24,6 +24,8 @@
     ;
 #define TEXT(s_, key_, use_, preset_, meaning_, source_)                                                     \
     ROW(s_, key_, KEY_TEXT, use_, "", meaning_, source_, .preset = preset_)
+#define WORD(s_, key_, use_, preset_, meaning_, source_)                                                     \
+    ROW(s_, key_, KEY_TEXT, use_, "", meaning_, source_, .preset = preset_, .n = 1)
 #define NAME(s_, key_, use_, preset_, meaning_, source_)                                                     \
     ROW(s_, key_, KEY_NAME, use_, "", meaning_, source_, .preset = preset_)
 #define INPUT(s_, key_, use_, preset_, meaning_, source_)                                                    \
@@ -127,12 +129,23 @@ bool key_required(const struct job_key *key)
 bool key_simulates(const struct job_key *key)
 {
     if (key->type != KEY_SUB && key->type != KEY_MAYBE && key->type != KEY_LIST && key->type != KEY_MAP)
-        return key->use == SIM;
+        return key->use != OUT;
     const struct job_section *child = &job_sections[key->child];
     for (size_t i = 0; i < child->n; i++)
         if (key_simulates(&child->key[i]))
             return true;
     return false;
+}
+
+bool key_later(const struct job_key *key)
+{
+    if (key->type != KEY_SUB && key->type != KEY_MAYBE && key->type != KEY_LIST && key->type != KEY_MAP)
+        return key->use == LATER;
+    const struct job_section *child = &job_sections[key->child];
+    for (size_t i = 0; i < child->n; i++)
+        if (key_simulates(&child->key[i]) && !key_later(&child->key[i]))
+            return false;
+    return key_simulates(key);
 }
 
 bool key_places(const char *name)

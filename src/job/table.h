@@ -42,7 +42,7 @@ enum key_type {
     KEY_TEXTS
 };
 
-enum key_use { OUT, SIM };
+enum key_use { OUT, SIM, LATER };
 
 struct job_key {
     enum key_type type;
@@ -50,7 +50,7 @@ struct job_key {
     const char *name, *unit, *meaning, *source;
     size_t offset;       /* of the member in its struct */
     size_t offset_n;     /* LIST, MAP, POINTS, NAMES, RANGES, TEXTS: of the member n_<key> */
-    size_t n;            /* VEC, TRACK, POINTS: numbers of one; else 0 */
+    size_t n;            /* VEC, TRACK, POINTS: numbers of one; TEXT: 1 if a number may stand there; else 0 */
     const char *preset;  /* TEXT, NAME, INPUT, CHOICE, VEC, TRACK, RANGE; NULL: required */
     double number;       /* NUM, CURVE, INT, BOOL: default; NaN: required */
     double min, max;     /* NUM, CURVE, INT, VEC, TRACK, POINTS */
@@ -80,6 +80,9 @@ bool key_required(const struct job_key *key);
 
 /* Whether the key, or any key inside it, changes the simulation. Cameras, say, do not. */
 bool key_simulates(const struct job_key *key);
+
+/* Whether all of that are keys of a later release, which the hash leaves out where they are their defaults. */
+bool key_later(const struct job_key *key);
 
 /* Whether every node has this key (PLACE in keys.def), whatever its shape. */
 bool key_places(const char *name);

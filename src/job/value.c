@@ -206,11 +206,12 @@ static bool printable(const char *text)
     return true;
 }
 
-static status check_text(const struct yaml *v)
+static status check_text(const struct yaml *v, bool or_number)
 {
     if (v->kind != YAML_SCALAR || yaml_is_null(v))
         return yaml_fail(v, NULL, "%s, but text is wanted (\"\" for none)", yaml_what(v));
-    if (!v->quoted && strcmp(yaml_what(v), "text") != 0)
+    if (!v->quoted && strcmp(yaml_what(v), "text") != 0 &&
+        !(or_number && strcmp(yaml_what(v), "a number") == 0))
         return yaml_fail(v, NULL, "%s, but text is wanted; put it in quotes: \"%.40s\"", yaml_what(v),
                          v->text);
     if (!printable(v->text))
@@ -220,7 +221,7 @@ static status check_text(const struct yaml *v)
 
 static status read_name(const struct yaml *v, char **out)
 {
-    status st = check_text(v);
+    status st = check_text(v, false);
     size_t n = st == OK ? strlen(v->text) : 0;
     if (st != OK)
         return st;
@@ -232,7 +233,7 @@ static status read_name(const struct yaml *v, char **out)
 
 static status read_input(const struct job_key *key, const struct yaml *v, const char *folder, char **out)
 {
-    status st = check_text(v);
+    status st = check_text(v, false);
     if (st != OK)
         return st;
     if (!*v->text && key->preset && !*key->preset)
@@ -356,7 +357,7 @@ status read_value(const struct job_key *key, const struct yaml *v, const char *f
     status st;
     switch (key->type) {
     case KEY_TEXT:
-        st = check_text(v);
+        st = check_text(v, key->n == 1);
         return st == OK ? memory_strdup(v->text, member) : st;
     case KEY_NAME:
         return read_name(v, member);
