@@ -260,6 +260,20 @@ done:
 
 /* ---- the first frame */
 
+/* The foot of the lowest voxel that is at least half rock, m; HUGE_VAL: there is none. */
+static double lowest_of(const struct model *m, const struct rock *rock, const uint32_t *deep)
+{
+    const size_t words = held_words(m->voxels);
+    double lowest = HUGE_VAL;
+    for (size_t i = 0; i < rock->n; i++)
+        if (rock->viability[i] >= 0.5f)
+            lowest = fmin(lowest, floor((double)rock->P[4 * i + 2] / m->h) * m->h);
+    for (size_t w = 0; deep && w < words; w++)
+        if (deep[w])
+            return fmin(lowest, (double)(w / (words / (size_t)m->voxels[2])) * m->h);
+    return lowest;
+}
+
 status arenite_begin(struct model *m)
 {
     status st = OK;
@@ -281,10 +295,11 @@ status arenite_begin(struct model *m)
         TRY(collapse_load(m->gpu, &a->collapse, &a->particles));
     else
         TRY(arenite_unsupported(a));
-    if (!a->blocks.rubble)
-        model_warn_unheld(m);
+    const double lowest = lowest_of(m, &rock, deep);
     rock_free(&rock);
     TRY(particles_download(m->gpu, &a->particles, STATE, &rock));
+    if (!a->blocks.rubble)
+        TRY(model_check_stands(m, lowest, a->particles.n_deep > 0 || lowest_of(m, &rock, NULL) < HUGE_VAL));
     m->start_volume = (model_sum(rock.viability, rock.n) + (double)a->particles.n_deep) * pow(m->h, 3);
     TRY(arrive(a, false));
 done:

@@ -251,6 +251,16 @@ done:
     return st;
 }
 
+/* The foot of the lowest voxel that is at least half rock, m; HUGE_VAL: there is none. */
+static double lowest_of(const struct model *m, const float *share)
+{
+    const size_t slab = (size_t)m->voxels[0] * (size_t)m->voxels[1];
+    for (size_t i = 0; i < voxel_count(m->voxels); i++)
+        if (share[i] >= 0.5f)
+            return (double)(i / slab) * m->h;
+    return HUGE_VAL;
+}
+
 static status begin(struct model *m)
 {
     status st = OK;
@@ -262,9 +272,10 @@ static status begin(struct model *m)
     TRY(scene_grid(m->job, m->job->goblins.floats, share, factor));
     TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &g->voxels));
     m->ledger.start = m->ledger.rock = count(share, n);
+    const double lowest = lowest_of(m, share);
     TRY(remove_unsupported(g));
-    model_warn_unheld(m);
     TRY(voxels_download(m->gpu, &g->voxels, share, NULL));
+    TRY(model_check_stands(m, lowest, lowest_of(m, share) < HUGE_VAL));
     m->start_volume = volume_of(m, share);
 done:
     free(share);

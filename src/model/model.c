@@ -1,6 +1,7 @@
 /* What is the same for all models. */
 #include "model/type.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -250,10 +251,20 @@ void model_weigh(struct model *m, enum process process, bool after, struct gpu_b
     budget_sum(m->gpu, &m->budget, process, after, left, n);
 }
 
-void model_warn_unheld(const struct model *m)
+status model_check_stands(const struct model *m, double lowest, bool whole)
 {
-    if (m->ledger.fallen)
+    const struct ledger *l = &m->ledger;
+    if (l->rock + l->deposit == 0 || (!whole && l->fallen > 0 && lowest < HUGE_VAL)) {
+        if (lowest < HUGE_VAL)
+            return scene_floats(lowest);
+        return fail(
+            E_USAGE,
+            "scene: no voxel of it is half rock, so that nothing stands: lower domain.spacing_m (%.4g m), "
+            "or make the shapes thicker",
+            m->h);
+    }
+    if (l->fallen)
         log_warn("frame %d: %llu of %llu %s have no face path to the ground and were taken out", m->frame,
-                 (unsigned long long)m->ledger.fallen, (unsigned long long)m->ledger.start,
-                 job_model(m->job)->samples);
+                 (unsigned long long)l->fallen, (unsigned long long)l->start, job_model(m->job)->samples);
+    return OK;
 }

@@ -99,8 +99,9 @@ double model_sum(const float *left, size_t n);
 /* Enters all that the rock has, before and after a process, into the frame's budget. */
 void model_weigh(struct model *m, enum process process, bool after, struct gpu_buffer *left, size_t n);
 
-/* Says in the first frame how much was taken out because nothing holds it. */
-void model_warn_unheld(const struct model *m);
+/* Says in the first frame how much was taken out because nothing holds it. `lowest`: the foot of the lowest voxel that was at
+ * least half rock, m; HUGE_VAL: there was none. E_USAGE: nothing is left, or `whole` says that none such is, where there was one. */
+MUST_USE status model_check_stands(const struct model *m, double lowest, bool whole);
 
 /* The ledger; and for a model with processes (keys.def), start volume and changes. */
 MUST_USE status sections_add_counts(struct checkpoint *c, const struct model *m);

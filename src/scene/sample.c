@@ -65,6 +65,14 @@ void sampler_see(const struct sampler *s, const struct rock *rock)
     }
 }
 
+status scene_floats(double lowest)
+{
+    return fail(E_USAGE,
+                "scene: the rock floats in the air: lowest rock is at z = %.4g m, and the ground is z = 0: "
+                "lower it, or add what it stands on",
+                lowest);
+}
+
 static bool slab_has_rock(const struct sampler *s, int k)
 {
     for (int j = 0; j < s->n[1]; j++)
@@ -95,13 +103,7 @@ status sampler_check(const struct sampler *s, bool floats)
         lowest++;
     if (lowest == s->n[2])
         return no_rock(s);
-    if (lowest > 0 && !floats)
-        return fail(E_USAGE,
-                    "scene: the rock floats in the air: lowest rock is at z = %.4g m, and the ground is z = "
-                    "0: lower it, "
-                    "or add what it stands on",
-                    lowest * s->h);
-    return OK;
+    return lowest > 0 && !floats ? scene_floats(lowest * s->h) : OK;
 }
 
 /* The scene without the beds of its rivers. */

@@ -61,6 +61,9 @@ MUST_USE status scene_sample(const struct job *job, struct rock *rock);
  * Errors as scene_sample()'s; rock that `floats` need not touch the ground. */
 MUST_USE status scene_grid(const struct job *job, bool floats, float *share, float *factor);
 
+/* E_USAGE: nothing of the rock, the lowest of which is at z = `lowest` m, stands on the ground. */
+status scene_floats(double lowest);
+
 /* What an edit did to the rock. */
 struct scene_edited {
     size_t added, carved; /* particles */
