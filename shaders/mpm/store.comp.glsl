@@ -37,7 +37,7 @@ void main()
     float mean = (s[0][0] + s[1][1] + s[2][2]) / 3.0;
     mat3 d = s - mat3(mean);
     AT(position, j) = vec4(xh.xyz, 0.0);
-    AT(velocity_out, j) = vec4(v, 0.0);
+    AT(velocity_out, j) = vec4(k.played * v, 0.0);
     AT(viability, j) = mpm_in_domain(xh.xyz) ? LOAD_F(share, i) : 0.0;
     AT(phase, j) = length(v) > k.fastest ? PHASE_FALLING : is_loose(LOAD_F(apart, i), LOAD_U(joint, i)) ? PHASE_DEPOSIT : PHASE_ROCK;
     AT(stress, j) = -3.0 * mean;

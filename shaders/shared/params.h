@@ -454,8 +454,9 @@ struct mpm_params {
     float rebound;               /* share of elastic energy that comes back from an impact */
     float full;                  /* kg: of a node's room full of rock */
     uint walls;
+    float played; /* m/s: what a particle's velocity is for one of its own */
 };
-SHARED_SIZE(mpm_params, 88)
+SHARED_SIZE(mpm_params, 92)
 
 /* 1/s: unloading this fast gives back no more than the rebound's share; slower, more. */
 #define MPM_REBOUND_RATE 0.2f
@@ -500,9 +501,10 @@ struct field_params {
     uint fx, fy, fz; /* samples of the field: the voxels and a margin */
     uint margin;     /* voxels */
     uint walls;
-    float repose; /* tangent of the angle at which heaps lie */
+    float repose;   /* tangent of the angle at which heaps lie */
+    uint component; /* of a vector */
 };
-SHARED_SIZE(field_params, 44)
+SHARED_SIZE(field_params, 48)
 
 /* In a slot: all of the brick is inside, and none of its samples are kept. */
 #define SLOT_INSIDE 0xffffffffu

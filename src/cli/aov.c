@@ -35,6 +35,7 @@ struct shot {
     uint64_t job_hash;
     const struct job_camera **camera;
     size_t n_cameras;
+    bool no_wind; /* it was a flow, and is in no file */
     const struct words *sets;
     int voxels[3];
     struct gpu *gpu;
@@ -46,7 +47,7 @@ struct shot {
 /* ---- a frame, back on the device */
 
 struct loaded {
-    struct frame_grids grids;
+    struct frame_grids grids, wind;
     struct rock rock;
     struct particles particles;
     struct aov_air air;
@@ -55,6 +56,7 @@ struct loaded {
 static void unload(struct shot *s, struct loaded *l)
 {
     frame_grids_free(&l->grids);
+    frame_grids_free(&l->wind);
     rock_free(&l->rock);
     particles_destroy(s->gpu, &l->particles);
     gpu_buffer_destroy(s->gpu, &l->air.velocity);
@@ -63,10 +65,13 @@ static void unload(struct shot *s, struct loaded *l)
 static status load(struct shot *s, int frame, struct loaded *l)
 {
     status st = OK;
-    struct path volumes, points;
+    struct path volumes, points, wind;
     TRY(folder_path(&volumes, s->root.text, s->name, FILE_VOLUMES, frame, NULL));
     TRY(folder_path(&points, s->root.text, s->name, FILE_POINTS, frame, NULL));
+    TRY(folder_path(&wind, s->root.text, s->name, FILE_WIND, frame, NULL));
     TRY(vdb_volumes_read(volumes.text, &l->grids));
+    if (access(wind.text, F_OK) == 0)
+        TRY(vdb_volumes_read(wind.text, &l->wind));
     if (access(points.text, F_OK) != 0) {
         st = fail(E_INPUT, "%s is not there: pictures need the particles (output.vdb.points)", points.text);
         goto done;
@@ -86,7 +91,8 @@ static status load(struct shot *s, int frame, struct loaded *l)
     TRY(particles_create(s->gpu, s->work, &l->rock, DERIVED, s->voxels, s->job->domain.spacing_m,
                          &l->particles));
     if (job_model(s->job)->wind)
-        TRY(air_upload(s->gpu, &l->grids, job_at(s->job, frame), frame, &l->air));
+        TRY(air_upload(s->gpu, &l->wind, job_at(s->job, frame), frame, &l->air));
+    l->air.unknown = s->no_wind;
 done:
     return st;
 }
@@ -178,7 +184,7 @@ static status shoot(struct shot *s, int frame)
             TRY(load(s, frame, &l));
         loaded = true;
         TRY(aov_render(s->gpu, &s->aov, s->job, s->camera[c], frame, &s->field, &l.particles,
-                       l.air.velocity ? &l.air : NULL, &image));
+                       l.air.velocity || l.air.unknown ? &l.air : NULL, &image));
         TRY(write_picture(s, frame, &image));
         aov_image_free(&image);
     }
@@ -219,6 +225,25 @@ done:
     return st;
 }
 
+/* Of a wind that flowed and was not written nothing is known: its place is left out of the pictures rather than taken by the wind
+ * of the job, which knows no rock. */
+static status look_for_wind(struct shot *s)
+{
+    status st = OK;
+    int *frames = NULL;
+    size_t n = 0;
+    if (job_model(s->job)->wind && wind_flows(s->job))
+        TRY(folder_list(s->root.text, s->name, FILE_WIND, &frames, &n));
+    else
+        return OK;
+    s->no_wind = n == 0;
+    if (s->no_wind && job_wants_layer(s->job, value_table[VALUE_wind].layer))
+        log_info("no layer wind.speed: the run wrote no wind/; output.vdb.wind: true has it written");
+done:
+    free(frames);
+    return st;
+}
+
 /* aov_create() sizes its buffers by the cameras the job renders: those that are wanted now. */
 static status prepare(struct shot *s, const char *device)
 {
@@ -228,6 +253,7 @@ static status prepare(struct shot *s, const char *device)
         size_t n = aov_camera_pixels(s->camera[i]);
         most = n > most ? n : most;
     }
+    TRY(look_for_wind(s));
     TRY(scene_voxels(s->job, s->voxels));
     TRY(gpu_create(&(struct gpu_options){.device = device}, &s->gpu));
     TRY(gpu_work_create(s->gpu, (size_t)s->voxels[0] * (size_t)s->voxels[1] * (size_t)s->voxels[2] + 2,

@@ -190,7 +190,7 @@ static status find_motion(struct gpu *gpu, const struct job *job, const struct j
             continue;
         for (size_t a = 0; a < 3; a++) {
             x[a] = (double)hit[4 * i + a];
-            then[a] = x[a] + job->clock.seconds_per_frame * (double)v[4 * (size_t)ids[3 * i + 2] + a];
+            then[a] = x[a] + (double)v[4 * (size_t)ids[3 * i + 2] + a] / job->fps;
         }
         if (!camera_project(&now, x, from) || !camera_project(&next, then, to))
             continue;

@@ -23,6 +23,7 @@ struct aov {
 struct aov_air {
     struct grid_lattice lattice;
     struct gpu_buffer *velocity; /* vec4 [lattice], m/s; borrowed */
+    bool unknown;                /* there is one, but not what it is: pictures have no layer of it */
 };
 
 /* The job's camera of that name, or NULL. */

@@ -65,8 +65,11 @@ static status download_value(struct gpu *gpu, struct field *f, struct particles 
 {
     status st = OK;
     const size_t n = f->n_bricks * BRICK_SAMPLES;
+    float *plane = NULL;
     if (n == 0)
         return OK;
+    if (value_table[which].from == FROM_AROUND)
+        TRY(memory_alloc(n, sizeof *plane, value_table[which].name, &plane));
     switch (value_table[which].from) {
     case FROM_DISTANCE:
         return gpu_download(gpu, f->distance, 0, out, n);
@@ -75,11 +78,20 @@ static status download_value(struct gpu *gpu, struct field *f, struct particles 
         for (size_t i = 0; i < n; i++)
             out[i] = fminf(out[i], 1);
         break;
+    case FROM_AROUND:
+        for (int c = 0; c < 3 && p->field[value_field[which]]; c++) {
+            field_around(gpu, f, p, which, c);
+            TRY(gpu_download(gpu, f->other, 0, plane, n));
+            for (size_t i = 0; i < n; i++)
+                out[3 * i + (size_t)c] = plane[i];
+        }
+        break;
     default: /* means over the surface's particles. `other` is free once the distances are there */
         field_skin(gpu, f, p, which);
-        return gpu_download(gpu, f->other, 0, out, n);
+        TRY(gpu_download(gpu, f->other, 0, out, n));
     }
 done:
+    free(plane);
     return st;
 }
 
@@ -105,7 +117,8 @@ status field_download(struct gpu *gpu, struct field *f, struct particles *p, uns
         if (!makes((enum value_id)v, has))
             continue;
         TRY(frame_grids_add(out, (enum value_id)v, &grid));
-        TRY(memory_alloc(f->n_bricks * BRICK_SAMPLES, sizeof *grid->value, grid->name, &grid->value));
+        TRY(memory_alloc(f->n_bricks * BRICK_SAMPLES, (size_t)grid->components * sizeof *grid->value,
+                         grid->name, &grid->value));
         if (field_mean((enum value_id)v) >= 0)
             means.value[field_mean((enum value_id)v)] = grid->value;
         else

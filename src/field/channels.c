@@ -108,6 +108,8 @@ status channels_add(struct gpu *gpu, struct aov *a, const struct job *job, const
             fill(job, out, value, seen->motion, 0, seen->hit);
         return OK;
     case FROM_AIR:
+        if (air && air->unknown)
+            return OK;
         record_air(gpu, a, n, air);
         break;
     default:

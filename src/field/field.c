@@ -236,3 +236,12 @@ void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum valu
         GPU_RUN(gpu, field_skin, k.n, k, p->held.words, p->start, p->field[ROCK_N],
                 p->field[value_field[which]], f->list, f->share, f->other);
 }
+
+void field_around(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which, int component)
+{
+    struct field_params k = params_of(f, p);
+    k.component = (uint)component;
+    if (k.n)
+        GPU_RUN(gpu, field_vector, k.n, k, p->held.words, p->start, p->field[value_field[which]], f->list,
+                f->share, f->other);
+}

@@ -69,6 +69,9 @@ MUST_USE status field_keep(struct gpu *gpu, struct field *f, size_t n);
 /* The mean of a value of the particles over those at the surface goes to `other`. Records only. */
 void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which);
 
+/* The mean of one component of a vector of the particles over all of them around goes to `other`. Records only. */
+void field_around(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which, int component);
+
 /* Which of the means' four components a value is; -1 if it is none. */
 int field_mean(enum value_id value);
 

@@ -17,11 +17,13 @@
 #include "particles/layers.h"
 #include "stacks/material.h"
 
-/* What vertices carry. A job without water, plants or deposits has no such grids: 0. */
+/* What vertices carry. A job without water, plants or deposits has no such grids: 0. Where rock moves, the three components of
+ * its velocity come after the n. */
+enum { VELOCITY = 3 };
 struct carried {
     enum value_id id[VALUES];
     const char *name[VALUES];
-    size_t n, n_optional; /* the last n_optional may be missing */
+    size_t n, n_velocity, n_optional; /* the last n_optional may be missing */
 };
 
 static struct carried carried_by(const struct job *job)
@@ -37,6 +39,10 @@ static struct carried carried_by(const struct job *job)
             c.name[c.n++] = a->name;
             c.n_optional += (size_t)optional;
         }
+    static const char *const velocity[VELOCITY] = {"vel.x", "vel.y", "vel.z"};
+    c.n_velocity = job->clock.seconds_per_frame > 0 ? VELOCITY : 0;
+    c.n_optional += c.n_velocity;
+    memcpy(c.name + c.n, velocity, c.n_velocity * sizeof *velocity);
     return c;
 }
 
@@ -140,7 +146,7 @@ static status write_surface(const struct meshes *m, int frame)
     const struct vdb_mesh_options options = {.adaptivity = m->adaptivity,
                                              .smooth = m->smooth,
                                              .values = carried.name,
-                                             .n_values = carried.n,
+                                             .n_values = carried.n + carried.n_velocity,
                                              .n_optional = carried.n_optional,
                                              .label = set_labels,
                                              .user = &labels};
@@ -150,17 +156,19 @@ static status write_surface(const struct meshes *m, int frame)
 #pragma omp parallel for
     for (size_t i = 0; i < mesh.n_vertices; i++)
         color_of(m->job, &carried, &mesh, i, color[i]);
-    TRY(write_both(m, false, frame,
-                   &(struct mesh_file){.n_vertices = mesh.n_vertices,
-                                       .n_triangles = mesh.n_triangles,
-                                       .vertex = mesh.vertex,
-                                       .normal = mesh.normal,
-                                       .triangle = mesh.triangle,
-                                       .n_values = carried.n,
-                                       .value_name = carried.name,
-                                       .value = mesh.value,
-                                       .layer = mesh.label,
-                                       .color = (const float(*)[3])color}));
+    TRY(write_both(
+        m, false, frame,
+        &(struct mesh_file){.n_vertices = mesh.n_vertices,
+                            .n_triangles = mesh.n_triangles,
+                            .vertex = mesh.vertex,
+                            .normal = mesh.normal,
+                            .triangle = mesh.triangle,
+                            .n_values = carried.n,
+                            .value_name = carried.name,
+                            .value = mesh.value,
+                            .velocity = carried.n_velocity ? mesh.value + carried.n * mesh.n_vertices : NULL,
+                            .layer = mesh.label,
+                            .color = (const float(*)[3])color}));
 done:
     free(color);
     vdb_mesh_free(&mesh);

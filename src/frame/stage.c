@@ -325,6 +325,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
                                    .first = job->frames.first,
                                    .last = job->frames.last,
                                    .fps = job->fps,
+                                   .moves = job->clock.seconds_per_frame > 0,
                                    .up = job->output.up}};
     if (!known)
         known = &all;
@@ -339,7 +340,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
     s.sequence.points_frame = s.points;
     s.sequence.rocks_frame = s.rocks;
     if (s.sequence.n_points)
-        TRY(put_clips(&s, usd_points_prim()));
+        TRY(put_clips(&s, usd_points_prim(s.sequence.moves)));
     if (s.sequence.n_rocks) {
         TRY(put_clips(&s, &usd_rocks_prim));
         TRY(put_shapes(&s));

@@ -68,7 +68,8 @@ size_t value_grids(unsigned has)
 {
     size_t n = 0;
     for (int v = 1; v < VALUES; v++)
-        n += (value_table[v].where & IN_VOLUMES) && (value_table[v].has & has);
+        if ((value_table[v].where & IN_VOLUMES) && (value_table[v].has & has))
+            n += value_table[v].kind == KIND_VECTOR ? 3 : 1;
     return n;
 }
 

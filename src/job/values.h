@@ -20,6 +20,7 @@ enum value_from {
     FROM_SKIN,
     FROM_NEAREST,
     FROM_MEANS,
+    FROM_AROUND,
     FROM_DISTANCE,
     FROM_SHARE,
     FROM_COLOR,
@@ -47,6 +48,7 @@ enum value_where {
     IN_PICTURES = 4,
     IN_SHOW = 8,
     IN_USD = 16,
+    IN_AIR = 32,
     EVERYWHERE = IN_VOLUMES | IN_MESHES | IN_PICTURES | IN_SHOW | IN_USD
 };
 enum value_bits { BITS_EXACT, BITS_HALF, BITS_SHARE, BITS_DIRECTION };
@@ -91,7 +93,7 @@ size_t value_names(unsigned where, const char *out[VALUES]);
 /* The pictures' layers, each once. */
 size_t value_layers(const char *out[VALUES]);
 
-/* How many grids the volumes of a frame have, that has these (HAS_*). */
+/* How many grids the volumes of a frame have, that has these (HAS_*); one of vectors counts as three. */
 size_t value_grids(unsigned has);
 
 /* The table as Markdown. */

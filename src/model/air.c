@@ -12,38 +12,62 @@ static size_t samples(const struct grid_lattice *l)
     return (size_t)l->n[0] * (size_t)l->n[1] * (size_t)l->n[2];
 }
 
-static status flow_grid(struct gpu *gpu, const struct wind_lattice *air, struct frame_grid *out)
+static size_t place_of(const struct grid_lattice *l, int x, int y, int z)
+{
+    return ((size_t)z * (size_t)l->n[1] + (size_t)y) * (size_t)l->n[0] + (size_t)x;
+}
+
+/* A lattice of which every brick is kept. */
+static status begin_whole(const struct wind_lattice *air, struct frame_grids *out)
 {
     status st = OK;
-    float *share = NULL;
-    out->own.voxel = air->cell;
+    struct grid_lattice lattice = {.voxel = air->cell};
+    uint32_t *number = NULL;
     for (int a = 0; a < 3; a++) {
-        out->own.n[a] = air->n[a];
-        out->own.origin[a] = air->origin[a] + 0.5 * air->cell;
+        lattice.n[a] = air->n[a];
+        lattice.origin[a] = air->origin[a] + 0.5 * air->cell;
     }
-    size_t n = samples(&out->own);
-    TRY(memory_alloc(n, 4 * sizeof *share, "the wind", &share));
-    TRY(memory_alloc(n, 3 * sizeof *share, "the wind", &out->value));
-    TRY(gpu_download(gpu, air->velocity, 0, share, n));
-    for (size_t i = 0; i < n; i++)
-        for (size_t a = 0; a < 3; a++)
-            out->value[3 * i + a] = (float)air->speed * share[4 * i + a];
+    TRY(frame_grids_begin(&lattice, out));
+    const int *m = out->bricks.n;
+    const size_t n = (size_t)m[0] * (size_t)m[1] * (size_t)m[2];
+    TRY(memory_alloc(n, sizeof *number, "the wind", &number));
+    for (size_t b = 0; b < n; b++)
+        number[b] = (uint32_t)b;
+    frame_grids_choose(out, &number, n);
 done:
-    free(share);
     return st;
 }
 
-status air_add(struct gpu *gpu, const struct wind *w, const struct job *job, int frame,
-               struct frame_grids *grids)
+/* Calls BODY with `dense`, a sample's place in an array of all of them, and `at`, its place in the bricks. */
+#define EACH_SAMPLE(grids, BODY)                                                                             \
+    for (int z = 0; z < (grids)->lattice.n[2]; z++)                                                          \
+        for (int y = 0; y < (grids)->lattice.n[1]; y++)                                                      \
+            for (int x = 0; x < (grids)->lattice.n[0]; x++) {                                                \
+                const size_t dense = place_of(&(grids)->lattice, x, y, z);                                   \
+                const ptrdiff_t at = grid_row(grids, x, y, z);                                               \
+                BODY                                                                                         \
+            }
+
+status air_grid(struct gpu *gpu, const struct wind *w, const struct job *job, int frame,
+                struct frame_grids *out)
 {
-    struct wind_lattice air;
-    struct frame_grid *out;
     status st = OK;
+    struct wind_lattice air;
+    struct frame_grid *grid = NULL;
+    float *share = NULL;
     if (!wind_lattice(w, job, frame, &air))
         return OK;
-    TRY(frame_grids_add(grids, VALUE_vel, &out));
-    TRY(flow_grid(gpu, &air, out));
+    TRY(begin_whole(&air, out));
+    TRY(frame_grids_add(out, VALUE_wind, &grid));
+    TRY(memory_alloc(out->bricks.count * BRICK_SAMPLES, 3 * sizeof(float), "the wind", &grid->value));
+    TRY(memory_alloc(samples(&out->lattice), 4 * sizeof *share, "the wind", &share));
+    TRY(gpu_download(gpu, air.velocity, 0, share, samples(&out->lattice)));
+    EACH_SAMPLE(out, {
+        for (size_t a = 0; a < 3; a++)
+            grid->value[3 * (size_t)at + a] = (float)air.speed * share[4 * dense + a];
+    })
 done:
+    free(share);
     return st;
 }
 
@@ -67,26 +91,22 @@ static status upload_uniform(struct gpu *gpu, const struct job *job, int frame, 
     return upload(gpu, velocity, 1, out);
 }
 
-status air_upload(struct gpu *gpu, const struct frame_grids *grids, const struct job *job, int frame,
+status air_upload(struct gpu *gpu, const struct frame_grids *air, const struct job *job, int frame,
                   struct aov_air *out)
 {
     status st = OK;
+    const struct frame_grid *grid = frame_grid_named(air, value_table[VALUE_wind].name);
     float *velocity = NULL;
     *out = (struct aov_air){0};
-    for (size_t g = 0; g < grids->n_grids; g++) {
-        const struct frame_grid *grid = &grids->grid[g];
-        if (strcmp(grid->name, value_table[VALUE_vel].name) != 0 || grid->own.n[0] == 0 ||
-            grid->components != 3)
-            continue;
-        size_t n = samples(&grid->own);
-        TRY(memory_alloc(n, 4 * sizeof *velocity, "the wind", &velocity));
-        for (size_t i = 0; i < n; i++)
-            memcpy(velocity + 4 * i, grid->value + 3 * i, 3 * sizeof *velocity);
-        out->lattice = grid->own;
-        st = upload(gpu, velocity, n, out);
-        goto done;
-    }
-    TRY(upload_uniform(gpu, job, frame, out));
+    if (!grid || grid->components != 3)
+        return upload_uniform(gpu, job, frame, out);
+    out->lattice = air->lattice;
+    TRY(memory_alloc(samples(&air->lattice), 4 * sizeof *velocity, "the wind", &velocity));
+    EACH_SAMPLE(air, {
+        if (at >= 0)
+            memcpy(velocity + 4 * dense, grid->value + 3 * at, 3 * sizeof *velocity);
+    })
+    TRY(upload(gpu, velocity, samples(&air->lattice), out));
 done:
     free(velocity);
     return st;

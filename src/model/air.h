@@ -1,4 +1,4 @@
-/* The wind as volumes, pictures and checkpoints have it. In frames it is a grid `vel` in m/s on a lattice of its own. */
+/* The wind as files, pictures and checkpoints have it. In frames it is a grid `wind`, in m/s, on the air's lattice. */
 #ifndef HOODOO_AIR_H
 #define HOODOO_AIR_H
 
@@ -6,14 +6,13 @@
 #include "field/aov.h"
 #include "wind/wind.h"
 
-/* The averaged flow added to the frame's grids. A wind that is the same everywhere is no grid: its few samples
- * would only widen the box of the volume that a program sees. Waits. */
-MUST_USE status air_add(struct gpu *gpu, const struct wind *w, const struct job *job, int frame,
-                        struct frame_grids *grids);
+/* The averaged flow as the frame's air; nothing where the wind is the same everywhere. Waits. */
+MUST_USE status air_grid(struct gpu *gpu, const struct wind *w, const struct job *job, int frame,
+                         struct frame_grids *out);
 
-/* The wind on the device, for pictures: the grid `vel` among these, or else the job's in that frame.
- * out->velocity is the caller's to destroy. */
-MUST_USE status air_upload(struct gpu *gpu, const struct frame_grids *grids, const struct job *job, int frame,
+/* The wind on the device, for pictures: that of `air`, or, where it has no grid, the job's in that frame. out->velocity is the
+ * caller's to destroy. */
+MUST_USE status air_upload(struct gpu *gpu, const struct frame_grids *air, const struct job *job, int frame,
                            struct aov_air *out);
 
 /* The flow's state, as sections of a checkpoint. A branch whose air is of another size than the checkpoint's, or

@@ -524,7 +524,7 @@ static status output(struct model *m, struct frame *out)
     status st = OK;
     struct arenite *a = arenite_of(m);
     const struct frame_wants wants = model_wants(m);
-    const unsigned has = arenite_has(water_ever_flows(m->job), a->plants, a->deposits);
+    const unsigned has = arenite_has(m->job, water_ever_flows(m->job), a->plants, a->deposits);
     struct aov_air air = {0};
     out->stress_iterations = a->elastic.iterations;
     if (wants.points || wants.volumes || wants.pictures)
@@ -548,11 +548,11 @@ static status output(struct model *m, struct frame *out)
         if (!m->field.whole)
             TRY(inside_values(m->gpu, &a->elastic, &out->grids));
     }
-    if (wants.volumes || wants.pictures)
-        TRY(air_add(m->gpu, &a->wind, m->job, m->frame, &out->grids));
+    if (wants.air)
+        TRY(air_grid(m->gpu, &a->wind, m->job, m->frame, &out->air));
     if (wants.pictures) {
         gpu_stage(m->gpu, "pictures");
-        TRY(air_upload(m->gpu, &out->grids, m->job, m->frame, &air));
+        TRY(air_upload(m->gpu, &out->air, m->job, m->frame, &air));
         TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &a->particles, &air, out));
     }
 done:

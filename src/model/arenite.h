@@ -101,6 +101,6 @@ void arenite_watch(const struct model *m, struct watch_list *list);
 void arenite_destroy(struct model *m);
 
 /* Which values frames have (HAS_* of values.h) with these. The wind adds its own. */
-unsigned arenite_has(bool water, bool plants, bool deposits);
+unsigned arenite_has(const struct job *job, bool water, bool plants, bool deposits);
 
 #endif

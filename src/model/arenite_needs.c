@@ -47,10 +47,10 @@ static double steps(const struct job *job)
     return sum;
 }
 
-unsigned arenite_has(bool water, bool plants, bool deposits)
+unsigned arenite_has(const struct job *job, bool water, bool plants, bool deposits)
 {
     return HAS_ALWAYS | (water ? HAS_WATER : 0U) | (plants ? HAS_PLANTS : 0U) |
-           (deposits ? HAS_DEPOSITS : 0U);
+           (deposits ? HAS_DEPOSITS : 0U) | (job->clock.seconds_per_frame > 0 ? HAS_MOTION : 0U);
 }
 
 status arenite_estimate(const struct job *job, struct model_needs *needs)
@@ -62,7 +62,7 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
         needs->size.n_kept = needs->size.n_near;
     const size_t n = needs->size.n_kept;
     needs->room = n < needs->size.n_particles ? particles_room_for(n) : n;
-    const unsigned has = arenite_has(water_ever_flows(job), plants_wanted(job) || edits_plant(job),
+    const unsigned has = arenite_has(job, water_ever_flows(job), plants_wanted(job) || edits_plant(job),
                                      arenite_ever(job, deposit_wanted));
     needs->device_bytes = device_bytes(job, needs->voxels, &needs->size, needs->room);
     needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);

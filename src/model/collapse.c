@@ -70,6 +70,7 @@ status collapse_create(struct gpu *gpu, const struct job *job, struct particles 
         .joint = j->joint_strength,
         .seed = (uint32_t)job->seed,
         .lift = 0.75,
+        .played = job->clock.seconds_per_frame * job->fps,
         .walls = job_walls(job),
     };
     *c = (struct collapse){.shot = collapse_shot(job),

@@ -231,11 +231,14 @@ status model_output(struct model *m, struct frame *out)
 struct frame_wants model_wants(const struct model *m)
 {
     const struct job *job = m->whole;
-    return (struct frame_wants){
+    struct frame_wants wants = {
         .points = job_writes(job, JOB_POINTS, m->frame),
         .volumes = job_writes(job, JOB_VOLUMES, m->frame),
         .pictures = job->output.aov.n_cameras > 0 && job_writes(job, JOB_PICTURES, m->frame),
     };
+    wants.air = (wants.volumes && job->output.vdb.wind) ||
+                (wants.pictures && job_wants_layer(job, value_table[VALUE_wind].layer));
+    return wants;
 }
 
 double model_sum(const float *left, size_t n)

@@ -36,6 +36,7 @@ struct model {
 /* What is written of a frame: a model makes nothing else of it for output(). */
 struct frame_wants {
     bool points, volumes, pictures;
+    bool air; /* for a file or for pictures */
 };
 struct frame_wants model_wants(const struct model *m);
 

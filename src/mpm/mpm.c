@@ -130,6 +130,7 @@ struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt)
         .friction = (float)o->friction,
         .alpha = (float)(sqrt(2.0 / 3) * 2 * sine / (3 - sine)),
         .fastest = 1e30f,
+        .played = o->played > 0 ? (float)o->played : 1,
         .lift = (float)o->lift,
         .rebound = (float)o->rebound,
         .full = (float)(o->density * pow(m->dx, 3)),

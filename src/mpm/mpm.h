@@ -43,6 +43,7 @@ struct mpm_options {
     double joint;      /* at joints, as a share of strength */
     uint32_t seed;     /* of the joints */
     double lift;       /* cells: 0 for equilibrium, whose ground is held; 0.75 for motion, see params.h */
+    double played;     /* what particles get for a metre per second: how fast that is in the film; 0: 1 */
     unsigned walls;    /* of the domain, WALL_* of shared/params.h: smooth, and nothing leaves there */
 };
 

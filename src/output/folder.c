@@ -37,8 +37,9 @@ static const struct {
     [FILE_VIDEO] = {NULL, "turntable.mp4"},
     [FILE_WEDGES] = {NULL, "wedges.png"},
     [FILE_STAGE] = {NULL, "usda"},
+    [FILE_WIND] = {"wind", "vdb"},
 };
-/* Made by who fills them: rocks and stacks by the writer, the others by their verbs: mesh, preview, turntable, report, log. */
+/* Made by who fills them: rocks, stacks and wind by the writer, the others by their verbs: mesh, preview, turntable, report, log. */
 static const enum folder_file always[] = {FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST,
                                           FILE_CHECKPOINT};
 

@@ -30,7 +30,8 @@ enum folder_file { /* VDBs hold a hash of theirs: new ones come last */
                    FILE_SHEET, /* of all frames, as are those that follow */
                    FILE_VIDEO,
                    FILE_WEDGES, /* the sheet across a farm's wedges */
-                   FILE_STAGE
+                   FILE_STAGE,
+                   FILE_WIND
 };
 
 /* points/NAME.1001.vdb and so on, relative to the output folder: `name` is the job's. `part`: put in the name

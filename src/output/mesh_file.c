@@ -20,6 +20,8 @@ void mesh_file_ply(const struct mesh_file *f, struct text *out)
              "element vertex %zu\nproperty float x\nproperty float y\nproperty float z\n"
              "property float nx\nproperty float ny\nproperty float nz\n",
              f->comment, f->n_vertices);
+    if (f->velocity)
+        text_add(out, "property float vx\nproperty float vy\nproperty float vz\n");
     for (size_t v = 0; v < f->n_values; v++)
         text_add(out, "property float %s\n", f->value_name[v]);
     text_add(out,
@@ -33,6 +35,11 @@ void mesh_file_ply(const struct mesh_file *f, struct text *out)
         axes_turn(f->vertex + 3 * i, f->up, place);
         axes_turn(f->normal + 3 * i, f->up, place + 3);
         text_add_bytes(out, place, sizeof place);
+        if (f->velocity) {
+            const float *v = f->velocity + i;
+            axes_turn((const float[3]){v[0], v[f->n_vertices], v[2 * f->n_vertices]}, f->up, place);
+            text_add_bytes(out, place, 3 * sizeof *place);
+        }
         for (size_t v = 0; v < f->n_values; v++)
             text_add_bytes(out, &f->value[v * f->n_vertices + i], sizeof *f->value);
         for (int c = 0; c < 3; c++)

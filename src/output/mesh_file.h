@@ -17,11 +17,12 @@ struct mesh_file {
     size_t n_values;
     const char *const *value_name; /* [n_values] */
     const float *value;            /* [n_values][n_vertices] */
+    const float *velocity;         /* [3][n_vertices] m/s, in the simulator's axes; NULL: it does not move */
     const uint32_t *layer;         /* [n_vertices] */
     const float (*color)[3];       /* [n_vertices], linear Rec. 709 */
 };
 
-/* PLY, binary, little endian: x y z nx ny nz, the values, all float; int layer; uchar red green blue, sRGB as
+/* PLY, binary, little endian: x y z nx ny nz, vx vy vz of what moves, the values, all float; int layer; uchar red green blue, sRGB as
  * readers take them. */
 void mesh_file_ply(const struct mesh_file *file, struct text *out);
 

@@ -148,7 +148,7 @@ static void begin_clips(struct text *t, const struct usd_sequence *s, const stru
 
 static void add_points(struct text *t, const struct usd_sequence *s)
 {
-    begin_clips(t, s, usd_points_prim(), s->points_frame, s->n_points);
+    begin_clips(t, s, usd_points_prim(s->moves), s->points_frame, s->n_points);
     text_add(t, "    }\n");
 }
 

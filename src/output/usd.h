@@ -47,7 +47,8 @@ struct usd_sequence {
     const char *name;
     int first, last; /* frames of the job */
     double fps;
-    int up; /* OUTPUT_UP_* */
+    bool moves; /* points have velocities */
+    int up;     /* OUTPUT_UP_* */
     size_t n_fields, n_volumes, n_points, n_rocks, n_cameras;
     const struct usd_field *field;
     double low[3], high[3];   /* m: the box of all fields, in the files' axes */

@@ -37,8 +37,8 @@ struct usd_prim {
     struct usd_attribute attribute[USD_ATTRIBUTES_MAX]; /* by name */
 };
 
-const struct usd_prim *usd_points_prim(void); /* usd_points.c */
-extern const struct usd_prim usd_rocks_prim;  /* usd_rocks.c */
+const struct usd_prim *usd_points_prim(bool moves); /* usd_points.c */
+extern const struct usd_prim usd_rocks_prim;        /* usd_rocks.c */
 
 /* An attribute's array. */
 struct usd_items {

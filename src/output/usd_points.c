@@ -9,13 +9,14 @@
 #include "output/usd_crate.h"
 
 /* What every point has; values of values.def follow. */
-enum { EXTENT, IDS, NORMALS, POINTS, COLOR, WIDTHS, OWN };
+enum { EXTENT, IDS, NORMALS, POINTS, COLOR, VELOCITIES, WIDTHS, OWN };
 static const struct usd_attribute own[OWN] = {
     [EXTENT] = {"extent", "float3[]", USD_VEC3F, 12, ""},
     [IDS] = {"ids", "int64[]", USD_INT64, 8, ""},
     [NORMALS] = {"normals", "normal3f[]", USD_VEC3F, 12, "vertex"},
     [POINTS] = {"points", "point3f[]", USD_VEC3F, 12, ""},
     [COLOR] = {"primvars:displayColor", "color3f[]", USD_VEC3F, 12, "vertex"},
+    [VELOCITIES] = {"velocities", "vector3f[]", USD_VEC3F, 12, ""},
     [WIDTHS] = {"widths", "float[]", USD_FLOAT, 4, "constant"}};
 
 static const char *const primvar[VALUES] = {
@@ -25,45 +26,52 @@ static const char *const primvar[VALUES] = {
 #include "job/values.def"
 };
 
-/* The prim, and for each of its attributes which of `own` it is, or OWN and the value. */
-static struct usd_prim prim = {.name = "points", .type = "Points", .folder = "points"};
-static int which[USD_ATTRIBUTES_MAX];
+/* The prim, of rock that stands still and of rock that moves, and for each of its attributes which of `own` it is, or OWN and
+ * the value. */
+static struct usd_prim prim[2] = {{.name = "points", .type = "Points", .folder = "points"},
+                                  {.name = "points", .type = "Points", .folder = "points"}};
+static int which[2][USD_ATTRIBUTES_MAX];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
 /* In by name: a crate's readers look for attributes in that order. */
-static void insert(struct usd_attribute attribute, int is)
+static void insert(int moves, struct usd_attribute attribute, int is)
 {
-    size_t i = prim.n++;
-    for (; i > 0 && strcmp(prim.attribute[i - 1].name, attribute.name) > 0; i--) {
-        prim.attribute[i] = prim.attribute[i - 1];
-        which[i] = which[i - 1];
+    struct usd_prim *p = &prim[moves];
+    size_t i = p->n++;
+    for (; i > 0 && strcmp(p->attribute[i - 1].name, attribute.name) > 0; i--) {
+        p->attribute[i] = p->attribute[i - 1];
+        which[moves][i] = which[moves][i - 1];
     }
-    prim.attribute[i] = attribute;
-    which[i] = is;
+    p->attribute[i] = attribute;
+    which[moves][i] = is;
 }
 
-static void make_prim(void)
+static void make_prims(void)
 {
-    for (int i = 0; i < OWN; i++)
-        insert(own[i], i);
-    for (int v = 1; v < VALUES; v++)
-        if (value_table[v].where & IN_USD)
-            insert(value_table[v].kind == KIND_ID
-                       ? (struct usd_attribute){primvar[v], "int[]", USD_INT, 4, "vertex"}
-                       : (struct usd_attribute){primvar[v], "float[]", USD_FLOAT, 4, "vertex"},
-                   OWN + v);
+    for (int moves = 0; moves < 2; moves++) {
+        for (int i = 0; i < OWN; i++)
+            if (moves || i != VELOCITIES)
+                insert(moves, own[i], i);
+        for (int v = 1; v < VALUES; v++)
+            if (value_table[v].where & IN_USD)
+                insert(moves,
+                       value_table[v].kind == KIND_ID
+                           ? (struct usd_attribute){primvar[v], "int[]", USD_INT, 4, "vertex"}
+                           : (struct usd_attribute){primvar[v], "float[]", USD_FLOAT, 4, "vertex"},
+                       OWN + v);
+    }
 }
 
-const struct usd_prim *usd_points_prim(void)
+const struct usd_prim *usd_points_prim(bool moves)
 {
-    pthread_once(&once, make_prim);
-    return &prim;
+    pthread_once(&once, make_prims);
+    return &prim[moves];
 }
 
 /* Values of the surface's particles, as the file has them. */
 struct skin {
     size_t n;
-    float *points, *normals, *color; /* [n][3] */
+    float *points, *normals, *color, *velocities; /* [n][3] */
     int64_t *ids;
     uint32_t *value[VALUES]; /* [n] words, of those that are IN_USD */
     float extent[2][3], width;
@@ -74,6 +82,7 @@ static void skin_free(struct skin *s)
     free(s->points);
     free(s->normals);
     free(s->color);
+    free(s->velocities);
     free(s->ids);
     for (int v = 0; v < VALUES; v++)
         free(s->value[v]);
@@ -91,6 +100,8 @@ static void take(const struct rock *rock, const struct vdb_options *o, size_t i,
     const bool colored = rock->layer && o->color && rock->layer[i] < o->n_colors;
     axes_turn(rock->P + 4 * i, o->up, s->points + 3 * k);
     axes_turn(rock->N + 4 * i, o->up, s->normals + 3 * k);
+    if (s->velocities && rock->v)
+        axes_turn(rock->v + 4 * i, o->up, s->velocities + 3 * k);
     memcpy(s->color + 3 * k, colored ? o->color[rock->layer[i]] : grey, 3 * sizeof(float));
     for (int v = 1; v < VALUES; v++)
         if (s->value[v] && rock->field[value_field[v]])
@@ -120,6 +131,8 @@ static status skin_of(const struct rock *rock, const struct vdb_options *o, stru
     TRY(memory_alloc(n, 3 * sizeof(float), what, &s->points));
     TRY(memory_alloc(n, 3 * sizeof(float), what, &s->normals));
     TRY(memory_alloc(n, 3 * sizeof(float), what, &s->color));
+    if (o->moves)
+        TRY(memory_alloc(n, 3 * sizeof(float), what, &s->velocities));
     for (int v = 1; v < VALUES; v++)
         if (value_table[v].where & IN_USD)
             TRY(memory_alloc(n, sizeof(uint32_t), what, &s->value[v]));
@@ -141,11 +154,13 @@ status usd_points(const struct rock *rock, const struct vdb_options *options, do
     TRY(skin_of(rock, options, &s));
     const struct usd_items mine[OWN] = {
         [EXTENT] = {s.extent, s.n ? 2 : 0}, [IDS] = {s.ids, s.n},     [NORMALS] = {s.normals, s.n},
-        [POINTS] = {s.points, s.n},         [COLOR] = {s.color, s.n}, [WIDTHS] = {&s.width, 1},
+        [POINTS] = {s.points, s.n},         [COLOR] = {s.color, s.n}, [VELOCITIES] = {s.velocities, s.n},
+        [WIDTHS] = {&s.width, 1},
     };
-    const struct usd_prim *const points = usd_points_prim();
+    const struct usd_prim *const points = usd_points_prim(options->moves);
+    const int *const is = which[options->moves];
     for (size_t i = 0; i < points->n; i++)
-        items[i] = which[i] < OWN ? mine[which[i]] : (struct usd_items){s.value[which[i] - OWN], s.n};
+        items[i] = is[i] < OWN ? mine[is[i]] : (struct usd_items){s.value[is[i] - OWN], s.n};
     TRY(usd_crate(points, items, options->up, options->frame, fps, out));
 done:
     skin_free(&s);

@@ -23,6 +23,7 @@ struct vdb_options {
     bool half;               /* volumes only, but for values that may be beyond halves (values.def) */
     int points;              /* VDB_POINTS_* */
     int precision;           /* VDB_PRECISION_*: of points; in 16 bits P is within voxel / 65535 / 2 */
+    bool moves;              /* USD points: with velocities */
     bool instances;          /* points: with `orient` (no turn) and `variant` (the layer), pscale 1 */
     int frame;               /* metadata */
     double spacing;          /* m: pscale is half of it; surface particles are those with a normal */
@@ -66,7 +67,7 @@ MUST_USE status vdb_volumes_read(const char *path, struct frame_grids *out);
 MUST_USE status vdb_points_read(const char *path, struct rock *out);
 
 /* The zero surface of `surface` as triangles with outward normals, in the simulator's axes, and the values of
- * other grids at the vertices (trilinear). Closed, manifold and free of crossings (mesh/trimesh.h). */
+ * other grids at the vertices (trilinear; "vel.x" of a vector's). Closed, manifold and free of crossings (mesh/trimesh.h). */
 struct vdb_mesh {
     size_t n_vertices, n_triangles;
     float *vertex;      /* [n_vertices][3] m */

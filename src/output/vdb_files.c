@@ -21,19 +21,12 @@ static status take_grid(struct reader_answer *answer, const struct vdb_part_grid
                         struct frame_grids *grids)
 {
     struct frame_grid *g = NULL;
-    size_t samples = grids->bricks.count * BRICK_SAMPLES;
+    const size_t samples = grids->bricks.count * BRICK_SAMPLES;
     status st = frame_grids_add(grids, value, &g);
     if (st != OK)
         return st;
     g->kind = (enum grid_class)part->kind;
     g->components = part->components;
-    if (part->own_n[0]) {
-        g->own.voxel = part->own_voxel;
-        memcpy(g->own.n, part->own_n, sizeof g->own.n);
-        memcpy(g->own.origin, part->own_origin, sizeof g->own.origin);
-        if (!count(part->own_n, &samples))
-            return reader_nonsense(answer);
-    }
     return reader_take_array(answer, samples, (size_t)part->components * sizeof *g->value, &g->value);
 }
 
@@ -80,7 +73,7 @@ status vdb_volumes_read(const char *path, struct frame_grids *out)
     size_t voxels = 0, n_words = 0;
     *out = (struct frame_grids){0};
     for (int v = 1; v < VALUES; v++)
-        if (value_table[v].where & IN_VOLUMES) {
+        if (value_table[v].where & (IN_VOLUMES | IN_AIR)) {
             value[n_words] = (enum value_id)v;
             word[n_words++] = value_table[v].name;
         }

@@ -73,19 +73,6 @@ template <class accessor> auto sample_at(const accessor &at, int x, int y, int z
     return in_sim(at.getValue(vdb::file_from_sim(Coord(x, y, z), y_up)), y_up);
 }
 
-/* Every sample of a lattice of its own. */
-template <class grid_type>
-void send_lattice(const grid_type &grid, const int n[3], bool y_up, struct serve_answer *answer)
-{
-    const auto at = grid.getConstAccessor();
-    stream out(answer);
-    for (int z = 0; z < n[2]; z++)
-        for (int y = 0; y < n[1]; y++)
-            for (int x = 0; x < n[0]; x++)
-                out.put(sample_at(at, x, y, z, y_up));
-    out.flush();
-}
-
 /* The bricks of the frame's lattice (particles/grids.h) that hold something in any of its grids. */
 struct bricks {
     int n[3], m[3];
@@ -159,17 +146,16 @@ void send_bricks(const grid_type &grid, const bricks &b, struct serve_answer *an
 }
 
 /* A lattice's size as a file gives it. One whose samples (of a dense one) or bricks memory does not hold means nothing. */
-void set_size(int32_t n[3], const openvdb::Vec3i &size, bool dense)
+void set_size(int32_t n[3], const openvdb::Vec3i &size)
 {
-    double samples = 1, bricks = 1;
+    double bricks = 1;
     for (int a = 0; a < 3; a++) {
         n[a] = size[a];
         if (n[a] < 1 || n[a] > 1 << 20)
             throw std::runtime_error("its grids have no sensible size");
-        samples *= n[a];
         bricks *= (n[a] + BRICK_SIDE - 1) / BRICK_SIDE;
     }
-    if (bricks > INT32_MAX || (dense ? samples : bricks) * sizeof(float) > double(memory_available()))
+    if (bricks > INT32_MAX || bricks * sizeof(float) > double(memory_available()))
         throw std::runtime_error("its grids are larger than this machine's memory");
 }
 
@@ -259,7 +245,7 @@ void as_what_it_is(const openvdb::GridBase &base, const std::string &name, const
         throw std::runtime_error("grid '" + name + "' does not hold floats");
 }
 
-/* What the frame's lattice is, and each grid's. */
+/* What the frame's lattice is, and its grids. */
 vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *q)
 {
     vdb_part_volumes part{};
@@ -267,7 +253,7 @@ vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *
     if (!size)
         throw std::runtime_error(
             "not a volume file of hoodoo: it does not say how many voxels its grids have");
-    set_size(part.n, size->value(), false);
+    set_size(part.n, size->value());
     for (size_t k = 0; k < q->n_words; k++) {
         const auto base = file.grid(q->word[k]);
         if (!base)
@@ -276,17 +262,14 @@ vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *
             throw std::runtime_error("it has more grids than a frame");
         vdb_part_grid &g = part.grid[part.n_grids++];
         const Vec3d origin = vdb::sim_from_file(base->transform().indexToWorld(Vec3d(0)), file.y_up);
-        const auto own = base->getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
         g.word = uint32_t(k);
         g.components = base->isType<openvdb::Vec3SGrid>() ? 3 : 1;
         g.kind = base->getGridClass() == openvdb::GRID_LEVEL_SET    ? GRID_LEVEL_SET
                  : base->getGridClass() == openvdb::GRID_FOG_VOLUME ? GRID_FOG
                                                                     : GRID_PLAIN;
-        (own ? g.own_voxel : part.voxel) = base->voxelSize()[0];
+        part.voxel = base->voxelSize()[0];
         for (int a = 0; a < 3; a++)
-            (own ? g.own_origin : part.origin)[a] = origin[a];
-        if (own)
-            set_size(g.own_n, own->value(), true);
+            part.origin[a] = origin[a];
     }
     return part;
 }
@@ -298,23 +281,15 @@ void send_volumes(const vdb::file &file, const struct serve_question *q, struct 
     const auto each = [&](const auto &work) {
         for (uint32_t i = 0; i < part.n_grids; i++) {
             const std::string name = q->word[part.grid[i].word];
-            as_what_it_is(*file.grid(name), name, [&](const auto &grid) { work(part.grid[i], grid); });
+            as_what_it_is(*file.grid(name), name, work);
         }
     };
-    each([&](const vdb_part_grid &g, const auto &grid) {
-        if (g.own_n[0] == 0)
-            held.hold_grid(grid);
-    });
+    each([&](const auto &grid) { held.hold_grid(grid); });
     held.list();
     part.n_bricks = held.number.size();
     must(serve_put(answer, &part, sizeof part));
     must(serve_put(answer, held.number.data(), held.number.size() * sizeof held.number[0]));
-    each([&](const vdb_part_grid &g, const auto &grid) {
-        if (g.own_n[0] == 0)
-            send_bricks(grid, held, answer);
-        else
-            send_lattice(grid, g.own_n, file.y_up, answer);
-    });
+    each([&](const auto &grid) { send_bricks(grid, held, answer); });
 }
 } // namespace
 

@@ -152,17 +152,16 @@ struct memory_source : std::streambuf {
     }
 };
 
-/* The lattice's size is metadata, of the grid or else of the file. */
+/* The lattice's size is metadata of the file. */
 void describe_lattice(const GridBase &grid, const openvdb::MetaMap &file, struct text *out)
 {
-    const auto own = grid.getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
-    const auto common = file.getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
+    const auto size = file.getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
     json_object(out, nullptr);
     json_text(out, "name", grid.getName().c_str());
     json_text(out, "type", grid.valueType().c_str());
     json_text(out, "class", GridBase::gridClassToString(grid.getGridClass()).c_str());
-    if (own || common) {
-        const openvdb::Vec3i n = (own ? own : common)->value();
+    if (size) {
+        const openvdb::Vec3i n = size->value();
         const vdb::lattice l(n.asPointer(), vdb::is_y_up(file));
         const openvdb::BBoxd bounds =
             grid.transform().indexToWorld(openvdb::BBoxd(l.lo.asVec3d() - 0.5, l.hi.asVec3d() + 0.5));

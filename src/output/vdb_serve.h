@@ -4,11 +4,12 @@
  * vdb.check                         no parts
  * vdb.describe, vdb.lattices        text, as vdb.h says; words: describe.h
  * vdb.volumes NAME...               struct vdb_part_volumes; the numbers of the frame's bricks; the values of each of its
- *                                   grids, floats, brick by brick or of its own lattice (particles/grids.h)
+ *                                   grids, floats, brick by brick (particles/grids.h)
  * vdb.points                        struct vdb_part_points; each field of particles.def that is there
  * vdb.surface                       struct trimesh_lattice; its samples, floats: `surface` around its zero
  * vdb.at NORMALS OPTIONAL NAME...   input: positions float[n][3]. If NORMALS is 1, float[n][3] of `surface`; then for
- *                                   each name float[n], 0 for those of the last OPTIONAL that are not in the file
+ *                                   each name float[n], 0 for those of the last OPTIONAL that are not in the file.
+ *                                   NAME.x, .y or .z: of a vector, in the simulator's axes
  */
 #ifndef HOODOO_VDB_SERVE_H
 #define HOODOO_VDB_SERVE_H
@@ -21,14 +22,12 @@
 
 enum { VDB_PART_GRIDS = VALUES };
 
-/* Lattices are in the simulator's axes. */
 struct vdb_part_grid {
     uint32_t word; /* which of the names it was asked for */
     int32_t kind, components;
-    int32_t own_n[3]; /* 0: the frame's lattice */
-    double own_voxel, own_origin[3];
 };
 
+/* The lattice is in the simulator's axes. */
 struct vdb_part_volumes {
     int32_t n[3];
     uint32_t n_grids;

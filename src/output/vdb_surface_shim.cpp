@@ -51,26 +51,27 @@ Vec3d gradient(const FloatGrid::ConstAccessor &at, const Vec3d &x)
 /* Trilinear over active samples only, weights made to add up to 1: the empty side of a surface does not
  * dilute the value. Where no corner is active, the mean of the active voxels around them; 0 if there are
  * none. */
-float value_at(const FloatGrid::ConstAccessor &at, const Vec3d &x)
+template <class accessor, class number_fn>
+float value_at(const accessor &at, const number_fn &number, const Vec3d &x)
 {
     const Coord lo = Coord::floor(x);
     const double t[3] = {x[0] - lo[0], x[1] - lo[1], x[2] - lo[2]};
     double sum = 0, weight = 0;
-    float v;
+    typename accessor::ValueType v;
     for (int c = 0; c < 8; c++) {
         const int d[3] = {c & 1, c >> 1 & 1, c >> 2};
         double w = 1;
         for (int a = 0; a < 3; a++)
             w *= d[a] ? t[a] : 1 - t[a];
         if (w > 1e-9 && at.probeValue(lo.offsetBy(d[0], d[1], d[2]), v)) {
-            sum += w * double(v);
+            sum += w * double(number(v));
             weight += w;
         }
     }
     if (weight == 0)
         for (int c = 0; c < 64; c++)
             if (at.probeValue(lo.offsetBy((c & 3) - 1, (c >> 2 & 3) - 1, (c >> 4) - 1), v)) {
-                sum += double(v);
+                sum += double(number(v));
                 weight += 1;
             }
     return weight > 0 ? float(sum / weight) : 0;
@@ -150,14 +151,36 @@ status send_normals(const FloatGrid &surface, const std::vector<Vec3d> &place, b
     return serve_put(answer, normal.data(), normal.size() * sizeof normal[0]);
 }
 
-/* Of no grid: 0. */
-status send_values(const FloatGrid *grid, const std::vector<Vec3d> &place, struct serve_answer *answer)
+template <class grid_type, class number_fn>
+void values_of(const grid_type &grid, const number_fn &number, const std::vector<Vec3d> &place,
+               std::vector<float> *out)
+{
+    const auto at = grid.getConstAccessor();
+    for (size_t i = 0; i < place.size(); i++)
+        (*out)[i] = value_at(at, number, grid.worldToIndex(place[i]));
+}
+
+/* Of a grid that need not be there and is not: 0. */
+status send_values(const vdb::file &file, const std::string &word, bool may_lack,
+                   const std::vector<Vec3d> &place, struct serve_answer *answer)
 {
     std::vector<float> value(place.size());
-    if (grid) {
-        const FloatGrid::ConstAccessor at = grid->getConstAccessor();
-        for (size_t i = 0; i < place.size(); i++)
-            value[i] = value_at(at, grid->worldToIndex(place[i]));
+    const size_t dot = word.find('.');
+    const std::string name = word.substr(0, dot);
+    if (may_lack && !file.grid(name)) {
+        ; /* zeros */
+    } else if (dot == std::string::npos) {
+        values_of(
+            *float_grid(file, name), [](float v) { return v; }, place, &value);
+    } else {
+        const auto grid =
+            file.grid(name) ? openvdb::gridPtrCast<openvdb::Vec3SGrid>(file.grid(name)) : nullptr;
+        const int component = word[dot + 1] - 'x';
+        if (!grid || component < 0 || component > 2)
+            throw std::runtime_error("it has no vectors '" + name + "'");
+        values_of(
+            *grid, [&](const Vec3s &v) { return vdb::sim_from_file(v, file.y_up)[component]; }, place,
+            &value);
     }
     return serve_put(answer, value.data(), value.size() * sizeof value[0]);
 }
@@ -188,10 +211,8 @@ try {
     if (st == OK && *q->word[0] == '1')
         st = send_normals(*float_grid(file, "surface"), place, file.y_up, answer);
     const size_t optional = st == OK ? size_t(std::atoi(q->word[1])) : 0;
-    for (size_t k = 2; k < q->n_words && st == OK; k++) {
-        const bool none = k + optional >= q->n_words && !file.grid(q->word[k]);
-        st = send_values(none ? nullptr : float_grid(file, q->word[k]).get(), place, answer);
-    }
+    for (size_t k = 2; k < q->n_words && st == OK; k++)
+        st = send_values(file, q->word[k], k + optional >= q->n_words, place, answer);
     return st;
 }
 SHIM_CATCH(E_INPUT, q->path)

@@ -23,13 +23,6 @@ struct of_bricks {
         return grid_row(grids, s[0], s[1], s[2]);
     }
 };
-struct of_lattice {
-    const int *n;
-    ptrdiff_t row(const Coord &s) const
-    {
-        return (ptrdiff_t(s[2]) * n[1] + s[1]) * n[0] + s[0];
-    }
-};
 
 /* What a kind of grid means by active, and what its inactive voxels hold. get() has sample `at` of an array, which is sample s
  * of the lattice, in the simulator's axes; deep() one that is not kept, being inside. */
@@ -207,10 +200,10 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
 /* How many more samples of air a level set gets on every side where it is closed. */
 constexpr int PAD = 4;
 
-template <class place>
 openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, const lattice &l,
-                                 const place &p, const float *density)
+                                 const float *density)
 {
+    const of_bricks p{&grids};
     if (g.components == 3) {
         auto grid = sparse_grid(l, p, vector{g.value, l.y_up, Vec3f(0)});
         grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
@@ -267,10 +260,7 @@ try {
     vdb::start();
     *out = vdb_bytes{nullptr, 0};
     const grid_lattice &frame_lattice = grids->lattice;
-    status st = check_lattice(frame_lattice, options->frame);
-    for (size_t i = 0; i < grids->n_grids && st == OK; i++)
-        if (grids->grid[i].own.n[0])
-            st = check_lattice(grids->grid[i].own, options->frame);
+    const status st = check_lattice(frame_lattice, options->frame);
     if (st != OK)
         return st;
 
@@ -286,15 +276,11 @@ try {
     const auto transform = transform_of(frame_lattice, y_up);
     const auto make = [&](size_t i) {
         const frame_grid &g = grids->grid[i];
-        const bool own = g.own.n[0] != 0;
-        auto grid = own ? make_grid(*grids, g, lattice(g.own.n, y_up), of_lattice{g.own.n}, nullptr)
-                    : g.kind == GRID_LEVEL_SET ? make_level_set(*grids, g, y_up)
-                                               : make_grid(*grids, g, common, of_bricks{grids}, density);
+        auto grid = g.kind == GRID_LEVEL_SET ? make_level_set(*grids, g, y_up)
+                                             : make_grid(*grids, g, common, density);
         grid->setName(g.name);
-        if (own)
-            grid->insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(g.own.n)));
         grid->setCreator(metadata.metaValue<std::string>("creator"));
-        grid->setTransform(own ? transform_of(g.own, y_up) : transform);
+        grid->setTransform(transform);
         grid->setSaveFloatAsHalf(options->half && fits_half(g));
         if (g.unit && *g.unit)
             grid->insertMeta("unit", openvdb::StringMetadata(g.unit));

@@ -23,6 +23,7 @@ void frame_free(struct frame *frame)
     free(frame->rocks.box);
     free(frame->stacks.bytes);
     frame_grids_free(&frame->grids);
+    frame_grids_free(&frame->air);
     for (size_t i = 0; i < frame->n_images; i++)
         aov_image_free(&frame->image[i]);
     free(frame->image);

@@ -83,6 +83,7 @@ struct frame {
     struct rock rock;
     struct frame_deep deep; /* behind its particles */
     struct frame_grids grids;
+    struct frame_grids air; /* the wind; no grid where it is the same everywhere, or nobody asks for it */
     struct frame_rocks rocks;
     struct frame_bytes stacks; /* arches: the terrain itself */
     size_t n_images;

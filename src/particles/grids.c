@@ -15,12 +15,6 @@ size_t grid_bricks_of(const int n[3], int out[3])
     return total;
 }
 
-size_t grid_items(const struct frame_grids *grids, const struct frame_grid *grid)
-{
-    const int *n = grid->own.n;
-    return n[0] ? (size_t)n[0] * (size_t)n[1] * (size_t)n[2] : grids->bricks.count * BRICK_SAMPLES;
-}
-
 status frame_grids_begin(const struct grid_lattice *lattice, struct frame_grids *out)
 {
     *out = (struct frame_grids){.lattice = *lattice};
@@ -62,7 +56,7 @@ status frame_grids_add(struct frame_grids *grids, enum value_id value, struct fr
 const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const char *name)
 {
     for (size_t g = 0; g < grids->n_grids; g++)
-        if (strcmp(grids->grid[g].name, name) == 0 && grids->grid[g].own.n[0] == 0)
+        if (strcmp(grids->grid[g].name, name) == 0)
             return &grids->grid[g];
     return NULL;
 }

@@ -47,10 +47,7 @@ struct frame_grid {
     int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
     float inside;   /* level sets: unused. What samples inside that are not kept hold */
     float *deep;    /* [bricks of the lattice] that for each, or NULL; owned by the frame */
-    float *value;   /* owned by the frame: grid_items() of them */
-    /* Where it is sampled otherwise than the frame's other grids, densely, numbered (k ny + j) nx + i; n[0] is 0 where it
-     * is not. */
-    struct grid_lattice own;
+    float *value;   /* [bricks.count * BRICK_SAMPLES * components]; owned by the frame */
 };
 
 struct frame_grids {
@@ -60,14 +57,10 @@ struct frame_grids {
     struct frame_grid grid[VALUES];
 };
 /* In scalar grids, voxels where `density` is 0 are inactive, except in level sets, whose active voxels are
- * those with |value| < 3 voxels (the background). In vector grids (the wind is outside the rock) those with a
- * zero vector are. */
+ * those with |value| < 3 voxels (the background). In vector grids those with a zero vector are. */
 
 /* Bricks a lattice has along the axes; returns how many that are. */
 size_t grid_bricks_of(const int n[3], int out[3]);
-
-/* Floats of one component. */
-size_t grid_items(const struct frame_grids *grids, const struct frame_grid *grid);
 
 /* Grids on that lattice, without bricks so far. frame_grids_free(). */
 MUST_USE status frame_grids_begin(const struct grid_lattice *lattice, struct frame_grids *out);
@@ -79,7 +72,7 @@ void frame_grids_choose(struct frame_grids *grids, uint32_t **numbers, size_t n)
  * many as there can be. */
 MUST_USE status frame_grids_add(struct frame_grids *grids, enum value_id value, struct frame_grid **out);
 
-/* The first of that name on the frame's own lattice, or NULL. */
+/* The one of that name, or NULL. */
 const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const char *name);
 
 /* Harmless on {0}. */

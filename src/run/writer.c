@@ -94,6 +94,7 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         .half = job->output.vdb.half,
         .points = job->output.vdb.points,
         .precision = job->output.vdb.precision,
+        .moves = job->clock.seconds_per_frame > 0,
         .frame = frame->number,
         .spacing = job->domain.spacing_m,
         .n_colors = n_layers,
@@ -110,6 +111,11 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
     TRY(vdb_volumes(&frame->grids, &options, &file));
     TRY(folder_path(&path, root, job->name, FILE_VOLUMES, frame->number, NULL));
     TRY(put(root, path.text, &file, manifest));
+    if (frame->air.n_grids && job->output.vdb.wind) {
+        options.identity = identity(job_hash, frame->number, FILE_WIND);
+        TRY(vdb_volumes(&frame->air, &options, &file));
+        TRY(put_beside(root, job->name, FILE_WIND, frame->number, &file, manifest));
+    }
     if (frame->rocks.wanted) {
         options.identity = identity(job_hash, frame->number, FILE_ROCKS);
         options.instances = true;

@@ -48,7 +48,7 @@ double wind_fastest(const struct job *job, int frame)
 
 /* ---- the flow */
 
-static bool flows(const struct job *job)
+bool wind_flows(const struct job *job)
 {
     return job->wind.flow.solver == FLOW_SPH;
 }
@@ -56,24 +56,24 @@ static bool flows(const struct job *job)
 status wind_check(const struct job *job, const int voxels[3])
 {
     struct flow layout;
-    return flows(job) ? flow_layout(job, voxels, &layout) : OK;
+    return wind_flows(job) ? flow_layout(job, voxels, &layout) : OK;
 }
 
 uint64_t wind_bytes(const struct job *job, const int voxels[3])
 {
     struct flow layout;
-    return flows(job) && flow_layout(job, voxels, &layout) == OK ? flow_bytes(&layout) : 0;
+    return wind_flows(job) && flow_layout(job, voxels, &layout) == OK ? flow_bytes(&layout) : 0;
 }
 
 uint64_t wind_checkpoint_bytes(const struct job *job, const int voxels[3])
 {
     struct flow layout;
-    return flows(job) && flow_layout(job, voxels, &layout) == OK ? flow_state_bytes(&layout) : 0;
+    return wind_flows(job) && flow_layout(job, voxels, &layout) == OK ? flow_state_bytes(&layout) : 0;
 }
 
 status wind_create(struct gpu *gpu, const struct job *job, const int voxels[3], struct wind *w)
 {
-    *w = (struct wind){.flows = flows(job)};
+    *w = (struct wind){.flows = wind_flows(job)};
     return w->flows ? flow_create(gpu, job, voxels, &w->flow) : OK;
 }
 

@@ -30,6 +30,9 @@ struct wind {
 };
 
 /* E_USAGE if the flow would have too many particles; wind_bytes() is 0 then. */
+/* Whether the wind is a fluid, with a lattice of its own, or the same everywhere. */
+bool wind_flows(const struct job *job);
+
 MUST_USE status wind_check(const struct job *job, const int voxels[3]);
 uint64_t wind_bytes(const struct job *job, const int voxels[3]);
 uint64_t wind_checkpoint_bytes(const struct job *job, const int voxels[3]);

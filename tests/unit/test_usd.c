@@ -106,7 +106,7 @@ static void every_attribute_is_declared(void **state)
     (void)state;
     const struct usd_sequence s = {.name = "x", .first = 1, .last = 3, .fps = 24};
     struct text t = {0};
-    const struct usd_prim *const prim = usd_points_prim();
+    const struct usd_prim *const prim = usd_points_prim(false);
     usd_clips(&s, prim, &t);
     for (size_t i = 0; i < prim->n; i++) {
         char line[80];

@@ -130,7 +130,7 @@ static void words_and_primvars_are_the_tables(void **state)
     for (char *w = strtok(words, "|"); w; w = strtok(NULL, "|"), number++)
         assert_string_equal(number ? w : "", value_table[show_of_word(number)].name);
     assert_int_equal(number, n + 1);
-    const struct usd_prim *prim = usd_points_prim();
+    const struct usd_prim *prim = usd_points_prim(false);
     for (int v = 1; v < VALUES; v++) {
         char primvar[64];
         int there = 0;
