@@ -8,20 +8,23 @@
 /* Set before there is any distance field. */
 static _Atomic(sdf_at_function *) at;
 static _Atomic(sdf_destroy_function *) destroy;
+static _Atomic(sdf_gap_function *) gap;
 
-status vdb_sdf_from_mesh(const double (*vertex)[3], size_t n_vertices, const uint32_t (*triangle)[3],
-                         size_t n_triangles, double voxel, double band, struct vdb_sdf **out)
+status vdb_sdf_create(const struct sdf_question *question, struct vdb_sdf **out)
 {
     status st = OK;
     sdf_make_function *make = NULL;
     sdf_at_function *found_at = NULL;
     sdf_destroy_function *found_destroy = NULL;
+    sdf_gap_function *found_gap = NULL;
     TRY(library_find("sdf_make", &make));
     TRY(library_find("sdf_at", &found_at));
     TRY(library_find("sdf_destroy", &found_destroy));
+    TRY(library_find("sdf_gap", &found_gap));
     atomic_store(&at, found_at);
     atomic_store(&destroy, found_destroy);
-    TRY(library_said(make(vertex, n_vertices, triangle, n_triangles, voxel, band, out)));
+    atomic_store(&gap, found_gap);
+    TRY(library_said(make(question, out)));
 done:
     return st;
 }
@@ -36,4 +39,20 @@ void vdb_sdf_destroy(struct vdb_sdf **sdf)
 double vdb_sdf_at(const struct vdb_sdf *sdf, const double x[3])
 {
     return atomic_load_explicit(&at, memory_order_relaxed)(sdf, x);
+}
+
+struct sdf_gap vdb_sdf_gap(const struct vdb_sdf *sdf)
+{
+    return atomic_load(&gap)(sdf);
+}
+
+status vdb_sdf_caps(const struct vdb_sdf *sdf, struct sdf_caps *out)
+{
+    status st = OK;
+    sdf_caps_function *caps = NULL;
+    *out = (struct sdf_caps){0};
+    TRY(library_find("sdf_caps", &caps));
+    TRY(library_said(caps(sdf, out)));
+done:
+    return st;
 }

@@ -22,12 +22,4 @@ void mesh_free(struct mesh *mesh);
 /* Joins vertices at equal positions and drops triangles without three corners. */
 MUST_USE status mesh_weld(struct mesh *mesh);
 
-/* Edges that belong to one triangle only, of a welded mesh. */
-struct mesh_holes {
-    size_t n_edges;
-    double first[3]; /* one end of one of them */
-    double width;    /* m: diagonal of the box around the largest connected set of them */
-};
-MUST_USE status mesh_find_holes(const struct mesh *mesh, struct mesh_holes *out);
-
 #endif

@@ -6,7 +6,7 @@
 #include "scene/placement.h"
 
 /* `detail`, `reach`: as for solid_create(). min and max come back as the box around it. E_INPUT: the file is
- * missing, damaged or hostile, or its surface is open. */
+ * missing, damaged or hostile, or its surface has gaps that are wider than job->fill_holes_m and a spacing. */
 MUST_USE status mesh_solid(const struct job_mesh *job, const struct placement *place, double detail,
                            double reach, struct vdb_sdf **out, double min[3], double max[3]);
 

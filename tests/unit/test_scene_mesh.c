@@ -1,7 +1,8 @@
 /* Mesh files: every encoding of one mesh gives the same rock, as the shape it stands for; broken and hostile
  * files are refused with their place, and never crash. */
 #include "effort.h"
-#include "scene/meshfile.h"
+#include "scene/meshedges.h"
+#include "scene/winding.h"
 #include "scene_help.h"
 
 /* ---- a ball of quads and triangles, and a cube */
@@ -144,14 +145,15 @@ static void every_encoding_gives_the_same_mesh(void **state)
     struct mesh first = {0};
     for (int i = 0; i < 5; i++) {
         struct mesh mesh;
-        struct mesh_holes holes;
+        struct mesh_open open;
         assert_int_equal(mesh_read(paths[i], &mesh), OK);
         assert_int_equal(mesh.n_vertices, BALL_VERTICES);
         assert_int_equal(mesh.n_triangles, 2 * SIDES * (RINGS - 1));
         assert_int_equal(mesh_weld(&mesh), OK);
         assert_int_equal(mesh.n_vertices, BALL_VERTICES);
-        assert_int_equal(mesh_find_holes(&mesh, &holes), OK);
-        assert_int_equal(holes.n_edges, 0);
+        assert_int_equal(mesh_find_open(&mesh, &open), OK);
+        assert_int_equal(open.n, 0);
+        free(open.edge);
         if (i == 0) {
             first = mesh;
         } else {
@@ -223,6 +225,167 @@ static void untidy_meshes_are_solids_too(void **state)
     assert_close(volume_of(&two, 40, 0.5), 2 * 512 - 4 * 8 * 6, 0.005);
 }
 
+/* ---- inside and outside */
+
+struct quads {
+    char text[16384];
+    int n;
+};
+
+/* A box of six faces with corners of their own, wound outwards, or inwards; faces of `without` (a bit each: bottom, top, front, right,
+ * back, left) are left out. */
+static void add_box(struct quads *q, const double lo[3], const double hi[3], bool inwards, unsigned without)
+{
+    static const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                    {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}};
+    for (int f = 0; f < 6; f++) {
+        if (without >> f & 1)
+            continue;
+        for (int k = 0; k < 4; k++) {
+            const int c = faces[f][inwards ? 3 - k : k];
+            sprintf(q->text + strlen(q->text), "v %.17g %.17g %.17g\n", c & 1 ? hi[0] : lo[0],
+                    c & 2 ? hi[1] : lo[1], c & 4 ? hi[2] : lo[2]);
+        }
+        strcat(q->text, "f -4 -3 -2 -1\n");
+    }
+}
+
+#define CORNER(...) ((const double[3]){__VA_ARGS__})
+
+static double volume_of_text(const char *text)
+{
+    struct job_node node = MESH(.file = write_text("whole.obj", text), .up = MESH_UP_Z);
+    return volume_of(&node, 40, 0.5);
+}
+
+/* Every way in which boxes may be in one another; the same with everything turned inside out. */
+static void shells_within_shells(void **state)
+{
+    (void)state;
+    for (int out = 0; out < 2; out++) {
+        struct quads hollow = {0}, filled = {0}, thrice = {0}, apart = {0}, one = {0};
+        add_box(&hollow, CORNER(2, 2, 2), CORNER(18, 18, 18), out, 0);
+        add_box(&hollow, CORNER(5, 5, 5), CORNER(15, 15, 15), !out, 0);
+        thrice = hollow;
+        add_box(&thrice, CORNER(8, 8, 8), CORNER(12, 12, 12), out, 0);
+        assert_close(volume_of_text(hollow.text), 4096 - 1000, 1e-3);
+        assert_close(volume_of_text(thrice.text), 4096 - 1000 + 64, 1e-3);
+        add_box(&filled, CORNER(2, 2, 2), CORNER(18, 18, 18), out, 0);
+        add_box(&filled, CORNER(5, 5, 5), CORNER(15, 15, 15), out, 0);
+        assert_close(volume_of_text(filled.text), 4096, 1e-3);
+        /* One of two is inside out, whether they meet or not. */
+        add_box(&apart, CORNER(2, 2, 2), CORNER(8, 8, 8), out, 0);
+        add_box(&apart, CORNER(10, 10, 10), CORNER(14, 14, 14), !out, 0);
+        assert_close(volume_of_text(apart.text), 216 + 64, 1e-3);
+        add_box(&one, CORNER(2, 2, 2), CORNER(10, 10, 10), out, 0);
+        add_box(&one, CORNER(6, 6, 6), CORNER(14, 14, 14), !out, 0);
+        assert_close(volume_of_text(one.text), 2 * 512 - 64, 1e-3);
+    }
+}
+
+/* Walls within, and sheets outside, are passed over. */
+static void stray_faces_are_passed_over(void **state)
+{
+    (void)state;
+    struct quads wall = {0}, sheet = {0};
+    add_box(&wall, CORNER(2, 2, 2), CORNER(18, 18, 18), false, 0);
+    strcat(wall.text, "v 10 5 5\nv 10 15 5\nv 10 15 15\nv 10 5 15\nf -4 -3 -2 -1\n");
+    assert_close(volume_of_text(wall.text), 4096, 1e-3);
+    add_box(&sheet, CORNER(2, 2, 2), CORNER(18, 18, 18), false, 0);
+    strcat(sheet.text, "v 8 8 19\nv 11 8 19\nv 11 11 19\nv 8 11 19\nf -4 -3 -2 -1\n");
+    assert_close(volume_of_text(sheet.text), 4096, 1e-3);
+    /* Nothing but a sheet is no solid. */
+    assert_failed(
+        solid_create(&MESH(.file = write_text("sheet.obj", strstr(sheet.text, "v 8 8 19")), .up = MESH_UP_Z),
+                     0.25, 2, &(struct solid *){NULL}),
+        E_INPUT, "the surface is open", "sheets");
+}
+
+/* A lid that lies a little off, as rounding or a gap that voxels do not see. */
+static void seams_are_closed(void **state)
+{
+    (void)state;
+    static const double off[] = {1e-12, 1e-7, 1e-5, 1e-3, 0.1, 0.3};
+    for (size_t i = 0; i < sizeof off / sizeof *off; i++) {
+        struct quads q = {0};
+        add_box(&q, CORNER(2, 2, 2), CORNER(18, 18, 18), false, 2);
+        add_box(&q, CORNER(2, 2, 2), CORNER(18, 18, 18 + off[i]), false, 63 - 2);
+        assert_close(volume_of_text(q.text), 4096, off[i] / 10 + 1e-3);
+    }
+    /* A slit of a metre is a metre wide, not as long as it goes. */
+    struct quads q = {0};
+    add_box(&q, CORNER(2, 2, 2), CORNER(18, 18, 15), false, 2);
+    add_box(&q, CORNER(2, 2, 2), CORNER(18, 18, 17), false, 63 - 2);
+    struct job_node node = MESH(.file = write_text("slit.obj", q.text), .up = MESH_UP_Z);
+    struct solid *solid = NULL;
+    assert_failed(solid_create(&node, 0.25, 2, &solid), E_INPUT, "widest gap is about 2", "fill_holes_m");
+    node.u.mesh.fill_holes_m = 3;
+    assert_close(volume_of(&node, 40, 0.5), 16 * 16 * 14, 0.075);
+}
+
+/* The coordinates of a map, in which floats step by half a metre. */
+static void maps_are_put_at_the_origin(void **state)
+{
+    (void)state;
+    struct quads q = {0};
+    add_box(&q, CORNER(412345.25, 5712345.125, 812.5), CORNER(412349.5, 5712350.375, 818.75), false, 0);
+    struct job_node node = MESH(.file = write_text("map.obj", q.text), .up = MESH_UP_Z);
+    assert_failed(solid_create(&node, 0.25, 2, &(struct solid *){NULL}), E_INPUT, "map.obj", "origin: auto");
+    node.u.mesh.origin = MESH_ORIGIN_AUTO;
+    for (int a = 0; a < 3; a++)
+        node.u.mesh.translate_m[a] = 1;
+    assert_close(volume_of(&node, 20, 0.5), 4.25 * 5.25 * 6.25, 1e-3);
+    struct solid *solid;
+    double min[3], max[3];
+    assert_int_equal(solid_create(&node, 0.25, 2, &solid), OK);
+    solid_bounds(solid, min, max);
+    assert_close(max[1], 6.25, 1e-12);
+    assert_close(solid_at(solid, CORNER(3, 3, 7.75)).distance, 0.5, 1e-6);
+    solid_destroy(&solid);
+}
+
+/* Against the sum over all triangles, at places near and far. */
+static void winding_numbers_are_sums(void **state)
+{
+    (void)state;
+    struct mesh mesh;
+    struct winding *fast, *exact;
+    assert_int_equal(mesh_read(write_obj("w.obj", ball(), 0), &mesh), OK);
+    mesh.n_triangles -= 300; /* a hole */
+    const double(*vertex)[3] = (const double(*)[3])mesh.vertex;
+    const uint32_t(*triangle)[3] = (const uint32_t(*)[3])mesh.triangle;
+    assert_int_equal(winding_create(vertex, mesh.n_vertices, triangle, mesh.n_triangles, 2, &fast), OK);
+    assert_int_equal(winding_create(vertex, mesh.n_vertices, triangle, mesh.n_triangles, 1e9, &exact), OK);
+    uint32_t x = 5;
+    for (int i = 0; i < 2000; i++) {
+        double at[3], sum = 0;
+        for (int a = 0; a < 3; a++)
+            at[a] = 24.0 * next_random(&x) / UINT32_MAX - 2;
+        for (size_t t = 0; i < 20 && t < mesh.n_triangles; t++) {
+            double v[3][3], r[3], volume = 0, below;
+            for (int k = 0; k < 3; k++) {
+                for (int a = 0; a < 3; a++)
+                    v[k][a] = vertex[triangle[t][k]][a] - at[a];
+                r[k] = sqrt(v[k][0] * v[k][0] + v[k][1] * v[k][1] + v[k][2] * v[k][2]);
+            }
+            below = r[0] * r[1] * r[2];
+            for (int k = 0; k < 3; k++) {
+                const double *p = v[(k + 1) % 3], *q = v[(k + 2) % 3];
+                volume +=
+                    v[0][k] * (v[1][(k + 1) % 3] * v[2][(k + 2) % 3] - v[1][(k + 2) % 3] * v[2][(k + 1) % 3]);
+                below += r[k] * (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
+            }
+            sum += atan2(volume, below) / (2 * M_PI);
+        }
+        if (i < 20)
+            assert_true(fabs(sum - (double)winding_at(exact, at)) < 1e-4);
+        assert_true(fabsf(winding_at(exact, at) - winding_at(fast, at)) < 0.05F);
+    }
+    winding_destroy(&fast);
+    winding_destroy(&exact);
+    mesh_free(&mesh);
+}
+
 /* ---- broken files */
 
 static status make(const char *path)
@@ -241,6 +404,11 @@ static void open_meshes_are_refused(void **state)
     snprintf(text, sizeof text, "%.*s", (int)(strstr(cube, "f 4 1") - cube), cube);
     assert_failed(make(write_text("open.obj", text)), E_INPUT, "open.obj: the surface is open: 4 edges",
                   "fill the holes");
+    assert_failed(make(write_text("open.obj", text)), E_INPUT, "the widest gap is about 7.8 m",
+                  "fill_holes_m");
+    /* Closed straight across where the job says so, to about a voxel. */
+    struct job_node filled = MESH(.file = write_text("open.obj", text), .up = MESH_UP_Z, .fill_holes_m = 10);
+    assert_close(volume_of(&filled, 40, 0.5), 10.5 * 12.2 * 8.6, 0.1);
     /* A hole no wider than the sampling closes itself. */
     char *tiny = scratch_file("tiny.obj");
     FILE *f = fopen(tiny, "w");
@@ -372,6 +540,11 @@ int main(void)
         cmocka_unit_test(meshes_have_the_volume_of_their_shapes),
         cmocka_unit_test(up_y_is_turned),
         cmocka_unit_test(untidy_meshes_are_solids_too),
+        cmocka_unit_test(shells_within_shells),
+        cmocka_unit_test(stray_faces_are_passed_over),
+        cmocka_unit_test(seams_are_closed),
+        cmocka_unit_test(maps_are_put_at_the_origin),
+        cmocka_unit_test(winding_numbers_are_sums),
         cmocka_unit_test(open_meshes_are_refused),
         cmocka_unit_test(bad_obj_is_refused_with_its_line),
         cmocka_unit_test(bad_ply_is_refused),
