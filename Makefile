@@ -1,10 +1,10 @@
 # hoodoo: build, demo, test. `make help` lists the targets.
 
 PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa-vulkan-drivers \
-	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libfyaml-dev libzstd-dev \
+	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libtiff-dev libfyaml-dev libzstd-dev \
 	libseccomp-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
-	libcgal-dev libeigen3-dev
+	libcgal-dev libeigen3-dev gdal-bin
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1
 DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev
@@ -92,7 +92,7 @@ $(BUILD)/hoodoo-read: $(BUILD)/src/read.o $(BUILD)/libhoodoo.a
 	$(Q)$(CXX) $(OPT) -o $@ $^ $(VDB_LIBS) -lOpenEXRCore-3_1 -lseccomp
 $(BUILD)/hoodoo-read-image: $(BUILD)/src/read_image.o $(BUILD)/libhoodoo.a
 	@echo "link $@"
-	$(Q)$(CXX) $(OPT) -o $@ $^ -lOpenImageIO -lOpenImageIO_Util -lseccomp
+	$(Q)$(CXX) $(OPT) -o $@ $^ -lOpenImageIO -lOpenImageIO_Util -ltiff -lseccomp
 
 VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,output/vdb_bytes output/vdb_points output/vdb_volumes scene/mesh_sdf) \
 	$(patsubst %,$(BUILD)/src/%.o,base/hash base/memory base/status base/text base/version job/values particles/rock)

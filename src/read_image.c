@@ -1,9 +1,14 @@
 /* hoodoo-read-image: one image for hoodoo (scene/image.h). */
+#include <string.h>
+
 #include "base/begin.h"
+#include "reader/translate.h"
 #include "scene/image_serve.h"
 
 int main(int argc, char **argv)
 {
     process_begin();
+    if (argc == 4 && strcmp(argv[1], TRANSLATE_WORD) == 0)
+        return translate(argv[2], argv[3]);
     return image_serve_main(argc, argv);
 }

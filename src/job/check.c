@@ -77,10 +77,38 @@ static status check_camera(const struct yaml *map, const struct job_camera *c)
     return OK;
 }
 
+static status check_nodata(const struct yaml *map, const char *value)
+{
+    double number;
+    if (!*value || yaml_decimal(value, &number))
+        return OK;
+    return yaml_fail(place(map, "nodata_value"), NULL,
+                     "'%.40s' is not a number, which pixels could hold (NaN never counts as a value)", value);
+}
+
+/* max_m left out, or its x and y 0: the file says how large it is. Heights of black and white are wanted unless values are metres. */
+static status check_heightfield(const struct yaml *map, const struct job_heightfield *h)
+{
+    status st = OK;
+    const bool heights = h->scale_m == 0 && !job_heights_are_metres(h);
+    TRY(check_nodata(map, h->nodata_value));
+    for (int i = 0; i < 3; i++)
+        if (!(h->max_m[i] > h->min_m[i]) && (i == 2 ? heights : job_sizes_heightfield(h)))
+            return yaml_fail(place(map, "max_m"), NULL, "not above min_m on the %c axis (%g, %g)", "xyz"[i],
+                             h -> max_m[i], h -> min_m[i]);
+    if (h->offset_m != 0 && heights)
+        return yaml_fail(
+            place(map, "offset_m"), NULL,
+            "given beside heights of black and white (min_m.z and max_m.z): it belongs to scale_m");
+done:
+    return st;
+}
+
 static status check_image(const struct yaml *map, const struct job_image *i)
 {
     status st = OK;
     double along = 0;
+    TRY(check_nodata(map, i->nodata_value));
     TRY(check_direction(map, "right_m", i->right_m));
     TRY(check_direction(map, "up_m", i->up_m));
     for (int a = 0; a < 3; a++)
@@ -142,14 +170,18 @@ static status check_operation(const struct yaml *map, const struct job_operation
 
 status check_section(enum job_section_id section, const struct yaml *map, const void *base)
 {
+    status st;
     switch (section) {
     case SECTION_box:
         return check_corners(map, ((const struct job_box *)base)->min_m,
                              ((const struct job_box *)base)->max_m);
     case SECTION_heightfield:
-        return check_corners(map, ((const struct job_heightfield *)base)->min_m,
-                             ((const struct job_heightfield *)base)->max_m);
+        return check_heightfield(map, base);
+    case SECTION_cover:
+        return check_nodata(map, ((const struct job_cover *)base)->nodata_value);
     case SECTION_jointmap:
+        if ((st = check_nodata(map, ((const struct job_jointmap *)base)->nodata_value)) != OK)
+            return st;
         return check_corners(map, ((const struct job_jointmap *)base)->min_m,
                              ((const struct job_jointmap *)base)->max_m);
     case SECTION_stroke:

@@ -243,3 +243,13 @@ done:
     free(bytes);
     return st;
 }
+
+bool job_sizes_heightfield(const struct job_heightfield *h)
+{
+    return h->max_m[0] != 0 || h->max_m[1] != 0;
+}
+
+bool job_heights_are_metres(const struct job_heightfield *h)
+{
+    return h->scale_m == 0 && !job_sizes_heightfield(h) && h->max_m[2] == 0;
+}

@@ -197,6 +197,10 @@ double job_years(const struct job *job, int from, int to);
 /* The index of the stratum at a height, m. */
 size_t job_layer_at(const struct job *job, double z);
 
+/* Whether the job says how large a heightfield is; else its file does, and whether its values are metres, by the file's word. */
+bool job_sizes_heightfield(const struct job_heightfield *h);
+bool job_heights_are_metres(const struct job_heightfield *h);
+
 /* XXH3-64 of everything that changes the simulation (keys.def's SIM), in canonical form, input files'
  * contents included. */
 MUST_USE status job_hash(const struct job *job, uint64_t *hash);

@@ -66,7 +66,7 @@ static const char *type_name(const struct job_key *key)
 {
     switch (key->type) {
     case KEY_TEXT:
-        return "text";
+        return key->n ? "text or number" : "text";
     case KEY_NAME:
         return "name";
     case KEY_INPUT:

@@ -114,17 +114,20 @@ static status cover(const struct job_cover *job, const struct material *table, i
                     struct stacks *s)
 {
     status st = OK;
-    float *image = NULL;
+    struct image image = {0};
+    const struct image_wish wish = IMAGE_WISH(job);
     struct start start = {.s = s, .thickness = job->thickness_m};
     while (start.material < (uint32_t)n_materials && strcmp(table[start.material].name, job->material) != 0)
         start.material++;
     if (start.material == MATERIAL_AIR || start.material == (uint32_t)n_materials)
         return fail(E_USAGE, "arches.covers: no material '%.64s'", job->material);
-    TRY(image_read(job->file, &start.width, &start.rows, &image));
-    start.image = image;
+    TRY(image_read(&wish, &image));
+    start.image = image.value;
+    start.width = image.width;
+    start.rows = image.height;
     TRY(stacks_edit(s, (const int[]){0, 0}, s->n, cover_column, &start));
 done:
-    free(image);
+    image_free(&image);
     return st;
 }
 

@@ -33,13 +33,16 @@ static const int plain[] = {
     SCMP_SYS(rt_sigaction), SCMP_SYS(rt_sigprocmask), SCMP_SYS(rt_sigreturn), SCMP_SYS(sigaltstack),
     SCMP_SYS(exit), SCMP_SYS(exit_group)};
 
+/* Of a program that becomes another one. */
+static const int to_become[] = {SCMP_SYS(execve), SCMP_SYS(arch_prctl), SCMP_SYS(set_tid_address)};
+
 /* `call` where argument `arg` has none of the bits `never`. */
 static int allow_without(scmp_filter_ctx filter, int call, unsigned arg, uint64_t never)
 {
     return seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 1, SCMP_CMP(arg, SCMP_CMP_MASKED_EQ, never, 0));
 }
 
-static int fill(scmp_filter_ctx filter)
+static int fill(scmp_filter_ctx filter, bool becomes)
 {
     const uint64_t for_more_than_reading = O_ACCMODE | O_CREAT | O_TRUNC | O_APPEND;
     int bad = 0;
@@ -47,8 +50,10 @@ static int fill(scmp_filter_ctx filter)
         bad |= seccomp_rule_add(filter, SCMP_ACT_ALLOW, plain[i], 0);
     bad |= allow_without(filter, SCMP_SYS(open), 1, for_more_than_reading);
     bad |= allow_without(filter, SCMP_SYS(openat), 2, for_more_than_reading);
-    bad |= allow_without(filter, SCMP_SYS(mmap), 2, PROT_EXEC);
-    bad |= allow_without(filter, SCMP_SYS(mprotect), 2, PROT_EXEC);
+    bad |= allow_without(filter, SCMP_SYS(mmap), 2, becomes ? 0 : PROT_EXEC);
+    bad |= allow_without(filter, SCMP_SYS(mprotect), 2, becomes ? 0 : PROT_EXEC);
+    for (size_t i = 0; becomes && i < sizeof to_become / sizeof *to_become; i++)
+        bad |= seccomp_rule_add(filter, SCMP_ACT_ALLOW, to_become[i], 0);
     /* Threads, which some libraries cannot do without, but no processes. What clone3() asks for no filter sees; without it
      * the C library uses clone(). */
     bad |= seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOSYS), SCMP_SYS(clone3), 0);
@@ -65,12 +70,12 @@ static int fill(scmp_filter_ctx filter)
     return bad;
 }
 
-status calls_limit(void)
+status calls_limit(bool becomes)
 {
     scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
     if (!filter)
         return fail(E_MEMORY, "no memory for a filter of system calls");
-    int bad = fill(filter), error = bad ? bad : seccomp_load(filter);
+    int bad = fill(filter, becomes), error = bad ? bad : seccomp_load(filter);
     seccomp_release(filter);
     if (error)
         return fail(E_INPUT,

@@ -13,6 +13,9 @@
 
 enum { READER_ANSWER_FD = 3, READER_INPUT_FD = 4, READER_VERSION = 1, READER_PARTS = 64 };
 
+/* Where what a reader is given beside the file can be opened. */
+#define READER_INPUT_PATH "/proc/self/fd/4"
+
 #define READER_MAGIC UINT64_C(0x7265616465724168)
 
 struct reader_head {

@@ -51,7 +51,7 @@ static uint64_t address_space_used(void)
     return pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
 
-static void set_limits(uint64_t base, uint64_t size)
+void serve_limits(uint64_t base, uint64_t size)
 {
     const uint64_t available = memory_available(), most = reader_memory(base, size);
     const rlim_t cpu = (rlim_t)reader_cpu_seconds(size);
@@ -128,8 +128,8 @@ static status answer(const struct serve_kind *kind, struct serve_question *q, st
         return fail(E_INPUT, "%s: not a regular file", q->path);
     if (fstat(READER_INPUT_FD, &input) == 0 && S_ISREG(input.st_mode))
         q->n_input = (uint64_t)input.st_size;
-    set_limits(kind->memory, (uint64_t)info.st_size + q->n_input);
-    TRY(calls_limit());
+    serve_limits(kind->memory, (uint64_t)info.st_size + q->n_input);
+    TRY(calls_limit(false));
     TRY(kind->read(q, a));
 done:
     return st;

@@ -46,6 +46,9 @@ struct serve_kind {
     status (*read)(const struct serve_question *question, struct serve_answer *answer);
 };
 
+/* The limits alone, for a file of `size` bytes: `base` bytes of memory and more. */
+void serve_limits(uint64_t base, uint64_t size);
+
 /* Answers the question in argv and returns the exit code: 0, or 2 if there is none. */
 int serve(int argc, char **argv, const struct serve_kind *kind, size_t n_kinds);
 

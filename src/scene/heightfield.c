@@ -1,37 +1,75 @@
 #include "scene/heightfield.h"
 
+#include <float.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "scene/image.h"
 
+enum { AWAY = 200, COLUMNS = 16 };
+
 struct heightfield {
     size_t width, height;
-    double min[3], max[3]; /* max[2]: height of white */
+    double min[3], max[3]; /* m; max[2]: of its highest point */
     double dx, dy;         /* m, a pixel */
-    double reach, top;
+    double reach;
     double steepness;  /* sqrt(1 + the largest slope squared) */
     float *z;          /* m, bottom row first */
     float *low, *high; /* lowest and highest z within `reach` of a point in this pixel */
+    unsigned char *
+        away; /* bottom row first: steps to the nearest pixel of which one has a value and the other has none, in both
+                            directions at most AWAY; NULL: all have */
+    unsigned char *has;
 };
 
-/* out[i] = the largest of in[i - radius .. i + radius], over n items `stride` apart (van Herk's running
- * maximum is not needed: a queue of falling candidates does it in one sweep). `queue` has n items. */
-static void spread_max(float *line, size_t n, size_t stride, size_t radius, float *copy, size_t *queue)
+/* Floats that spread_max() needs beside a line. */
+static size_t spread_room(size_t n, size_t radius)
 {
-    size_t head = 0, tail = 0, next = 0;
-    for (size_t i = 0; i < n; i++)
-        copy[i] = line[i * stride];
-    for (size_t i = 0; i < n; i++) {
-        for (; next < n && next <= i + radius; next++) {
-            while (tail > head && copy[queue[tail - 1]] <= copy[next])
-                tail--;
-            queue[tail++] = next;
+    return 2 * (n + 4 * radius + 1);
+}
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* line[i] = the largest of line[i - radius .. i + radius], over n items: of blocks as long as that the maxima from their begins and
+ * from their ends, of which every stretch needs two (van Herk, Gil and Werman). */
+static void spread_max(float *line, size_t n, size_t radius, float *room)
+{
+    const size_t length = 2 * radius + 1, padded = (n + 2 * radius + length - 1) / length * length;
+    float *from_begin = room, *from_end = room + padded;
+    for (size_t i = 0; i < padded; i++)
+        from_begin[i] = from_end[i] = i >= radius && i - radius < n ? line[i - radius] : -INFINITY;
+    for (size_t block = 0; block < padded; block += length)
+        for (size_t k = 1; k < length; k++) {
+            const size_t back = block + length - 1 - k;
+            from_begin[block + k] = larger(from_begin[block + k], from_begin[block + k - 1]);
+            from_end[back] = larger(from_end[back], from_end[back + 1]);
         }
-        while (queue[head] + radius < i)
-            head++;
-        line[i * stride] = copy[queue[head]];
+    for (size_t i = 0; i < n; i++)
+        line[i] = larger(from_end[i], from_begin[i + 2 * radius]);
+}
+
+/* The same of columns, a cache line's at a time: `side` has COLUMNS * (height + COLUMNS) items, for columns that are a power of 2 apart
+ * would meet in the cache. */
+static void spread_columns(float *field, size_t width, size_t height, size_t radius, float *side, float *room)
+{
+    const size_t apart = height + COLUMNS;
+    for (size_t x = 0; x < width; x += COLUMNS) {
+        const size_t n = width - x < COLUMNS ? width - x : COLUMNS;
+        for (size_t y = 0; y < height; y++)
+            for (size_t k = 0; k < n; k++)
+                side[k * apart + y] = field[y * width + x + k];
+        for (size_t k = 0; k < n; k++)
+            spread_max(side + k * apart, height, radius, room);
+        for (size_t y = 0; y < height; y++)
+            for (size_t k = 0; k < n; k++)
+                field[y * width + x + k] = side[k * apart + y];
     }
 }
 
@@ -45,14 +83,14 @@ static size_t pixels(double metres, double pixel, size_t limit)
 static status find_extremes(struct heightfield *f)
 {
     status st = OK;
-    size_t n = f->width * f->height, longest = f->width > f->height ? f->width : f->height;
-    size_t rx = pixels(f->reach, f->dx, f->width), ry = pixels(f->reach, f->dy, f->height);
-    float *copy = NULL;
-    size_t *queue = NULL;
+    const size_t n = f->width * f->height;
+    const size_t rx = pixels(f->reach, f->dx, f->width), ry = pixels(f->reach, f->dy, f->height);
+    const size_t across = spread_room(f->width, rx), up = spread_room(f->height, ry);
+    float *room = NULL, *columns = NULL;
     TRY(memory_alloc(n, sizeof *f->low, "a heightfield", &f->low));
     TRY(memory_alloc(n, sizeof *f->high, "a heightfield", &f->high));
-    TRY(memory_alloc(longest, sizeof *copy, "a heightfield", &copy));
-    TRY(memory_alloc(longest, sizeof *queue, "a heightfield", &queue));
+    TRY(memory_alloc(across > up ? across : up, sizeof *room, "a heightfield", &room));
+    TRY(memory_alloc(COLUMNS * (f->height + COLUMNS), sizeof *columns, "a heightfield", &columns));
     for (size_t i = 0; i < n; i++) {
         f->high[i] = f->z[i];
         f->low[i] = -f->z[i];
@@ -60,15 +98,14 @@ static status find_extremes(struct heightfield *f)
     for (int side = 0; side < 2; side++) {
         float *field = side ? f->high : f->low;
         for (size_t y = 0; y < f->height; y++)
-            spread_max(field + y * f->width, f->width, 1, rx, copy, queue);
-        for (size_t x = 0; x < f->width; x++)
-            spread_max(field + x, f->height, f->width, ry, copy, queue);
+            spread_max(field + y * f->width, f->width, rx, room);
+        spread_columns(field, f->width, f->height, ry, columns, room);
     }
     for (size_t i = 0; i < n; i++)
         f->low[i] = -f->low[i];
 done:
-    free(copy);
-    free(queue);
+    free(room);
+    free(columns);
     return st;
 }
 
@@ -78,50 +115,143 @@ static double largest_slope(const struct heightfield *f, size_t step_x, size_t s
     for (size_t y = 0; y + step_y < f->height; y++)
         for (size_t x = 0; x + step_x < f->width; x++)
             largest =
-                fmaxf(largest, fabsf(f->z[(y + step_y) * f->width + x + step_x] - f->z[y * f->width + x]));
-    return largest / metres;
+                larger(fabsf(f->z[(y + step_y) * f->width + x + step_x] - f->z[y * f->width + x]), largest);
+    return (double)largest / metres;
 }
 
-/* Metres from the image's values, and the image's top row last. */
-static status place_pixels(struct heightfield *f, const char *path, const float *value)
+/* The image's bottom row first. */
+static status place_pixels(struct heightfield *f, const char *path, const struct image *image)
 {
-    f->top = f->min[2];
+    f->max[2] = f->min[2];
     for (size_t y = 0; y < f->height; y++)
         for (size_t x = 0; x < f->width; x++) {
-            double v = value[(f->height - 1 - y) * f->width + x];
-            double z = f->min[2] + v * (f->max[2] - f->min[2]);
+            const size_t from = (f->height - 1 - y) * f->width + x, to = y * f->width + x;
+            const double z = (double)image->value[from];
             if (!(fabs(z) <= 1e7))
-                return fail(E_INPUT, "%s: pixel (%zu, %zu) from the top left holds %g, a height of %g m",
-                            path, x, f->height - 1 - y, v, z);
-            f->z[y * f->width + x] = (float)z;
-            f->top = fmax(f->top, z);
+                return fail(E_INPUT,
+                            "%s: pixel (%zu, %zu) from the top left is a height of %g m (at most 1e7)", path,
+                            x, f->height - 1 - y, z);
+            f->z[to] = (float)z;
+            if (f->has)
+                f->has[to] = image->has[from];
+            if (!f->has || f->has[to])
+                f->max[2] = fmax(f->max[2], z);
         }
     return OK;
+}
+
+/* Steps of a king to where pixels stop having a value, or begin to, in two sweeps. */
+static void find_away(struct heightfield *f)
+{
+    const long w = (long)f->width, h = (long)f->height;
+    memset(f->away, AWAY, f->width * f->height);
+    for (long k = 0; k < 2 * w * h; k++) {
+        const bool back = k >= w * h;
+        const long i = back ? 2 * w * h - 1 - k : k, x = i % w, y = i / w, d = back ? 1 : -1;
+        const long near[4][2] = {{d, 0}, {-1, d}, {0, d}, {1, d}};
+        for (int n = 0; n < 4; n++) {
+            const long u = x + near[n][0], v = y + near[n][1], j = v * w + u;
+            if (u < 0 || v < 0 || u >= w || v >= h)
+                continue;
+            if (f->has[j] != f->has[i])
+                f->away[i] = f->away[j] = 1;
+            else if (f->away[j] < f->away[i])
+                f->away[i] = (unsigned char)(f->away[j] + 1);
+        }
+    }
+}
+
+/* Where the file's own pixels are to say how large the picture is, they do; and the heights' meaning, where that is left to it. */
+static struct image_wish wish_of(const struct job_heightfield *job)
+{
+    struct image_wish wish = IMAGE_WISH(job);
+    wish.height = true;
+    if (job->scale_m != 0 || job_heights_are_metres(job)) {
+        wish.values = job->scale_m != 0 ? IMAGE_STORED : IMAGE_METRES;
+        wish.scale = job->scale_m != 0 ? job->scale_m : 1;
+        wish.offset = job->offset_m;
+    } else {
+        wish.scale = job->max_m[2] - job->min_m[2];
+        wish.offset = job->min_m[2];
+    }
+    return wish;
+}
+
+static status take_extent(struct heightfield *f, const struct job_heightfield *job, const struct image *image)
+{
+    char what[300];
+    if (image->map == IMAGE_NO_MAP)
+        return fail(E_USAGE,
+                    "%s: max_m is left out, and the file does not say how large its pixels are: give max_m",
+                    job->file);
+    if (image->map == IMAGE_MAP_TURNED)
+        return fail(E_USAGE, "%s: it lies askew on its map: give max_m, or turn it: gdalwarp %s straight.tif",
+                    job->file, job->file);
+    if (image->map == IMAGE_MAP_DEGREES)
+        return fail(E_USAGE,
+                    "%s: its pixels are degrees of longitude and latitude, which have no size in metres: "
+                    "give max_m, or "
+                    "project it: gdalwarp -t_srs EPSG:326NN -r bilinear %s metres.tif, NN the UTM zone "
+                    "(327NN in the south)",
+                    job->file, job->file);
+    for (int a = 0; a < 2; a++) {
+        const size_t n = a ? f->height : f->width;
+        if (job->origin_m[0] != 0 || job->origin_m[1] != 0)
+            f->min[a] += image->corner[a] - job->origin_m[a];
+        f->max[a] = f->min[a] + image->pixel[a] * (double)n;
+    }
+    snprintf(what, sizeof what,
+             "%zu x %zu pixels of %.6g x %.6g m by its own word: x %.10g to %.10g, y %.10g to %.10g m; its "
+             "left bottom corner is "
+             "at (%.10g, %.10g) on its map",
+             f->width, f->height, image->pixel[0], image->pixel[1], f->min[0], f->max[0], f->min[1],
+             f->max[1], image->corner[0], image->corner[1]);
+    image_say(false, job->file, what);
+    return OK;
+}
+
+static status place_corners(struct heightfield *f, const struct job_heightfield *job,
+                            const struct image *image)
+{
+    f->width = image->width;
+    f->height = image->height;
+    for (int a = 0; a < 3; a++) {
+        f->min[a] = job->min_m[a];
+        f->max[a] = job->max_m[a];
+    }
+    status st = job_sizes_heightfield(job) ? OK : take_extent(f, job, image);
+    f->dx = (f->max[0] - f->min[0]) / (double)f->width;
+    f->dy = (f->max[1] - f->min[1]) / (double)f->height;
+    return st;
 }
 
 status heightfield_create(const struct job_heightfield *job, double reach, struct heightfield **out)
 {
     status st = OK;
     struct heightfield *f = NULL;
-    float *value = NULL;
+    struct image image = {0};
+    const struct image_wish wish = wish_of(job);
     TRY(memory_alloc(1, sizeof *f, "a heightfield", &f));
-    TRY(image_read(job->file, &f->width, &f->height, &value));
-    for (int a = 0; a < 3; a++) {
-        f->min[a] = job->min_m[a];
-        f->max[a] = job->max_m[a];
-    }
     f->reach = reach;
-    f->dx = (f->max[0] - f->min[0]) / (double)f->width;
-    f->dy = (f->max[1] - f->min[1]) / (double)f->height;
-    TRY(memory_alloc(f->width * f->height, sizeof *f->z, "a heightfield", &f->z));
-    TRY(place_pixels(f, job->file, value));
+    TRY(image_read(&wish, &image));
+    TRY(place_corners(f, job, &image));
+    const size_t n = f->width * f->height;
+    TRY(memory_alloc(n, sizeof *f->z, "a heightfield", &f->z));
+    if (image.has) {
+        TRY(memory_alloc(n, 1, "a heightfield", &f->has));
+        TRY(memory_alloc(n, 1, "a heightfield", &f->away));
+    }
+    TRY(place_pixels(f, job->file, &image));
+    image_free(&image);
+    if (f->away)
+        find_away(f);
     double slope_x = largest_slope(f, 1, 0, f->dx), slope_y = largest_slope(f, 0, 1, f->dy);
     f->steepness = sqrt(1 + slope_x * slope_x + slope_y * slope_y);
     TRY(find_extremes(f));
     *out = f;
     f = NULL;
 done:
-    free(value);
+    image_free(&image);
     heightfield_destroy(&f);
     return st;
 }
@@ -133,13 +263,18 @@ void heightfield_destroy(struct heightfield **field)
     free((*field)->z);
     free((*field)->low);
     free((*field)->high);
+    free((*field)->has);
+    free((*field)->away);
     free(*field);
     *field = NULL;
 }
 
-double heightfield_top(const struct heightfield *field)
+void heightfield_bounds(const struct heightfield *field, double min[3], double max[3])
 {
-    return field->top;
+    for (int a = 0; a < 3; a++) {
+        min[a] = field->min[a];
+        max[a] = field->max[a];
+    }
 }
 
 static double clamp(double x, double lo, double hi)
@@ -159,6 +294,25 @@ static double height_at(const struct heightfield *f, double px, double py)
     return bottom + v * (top - bottom);
 }
 
+/* To where pixels stop having a value, negative in one that has. In pixel (i, j), beside one that differs, to the nearest such;
+ * else, and at most, by whole pixels. */
+static double rim_distance(const struct heightfield *f, double px, double py, size_t i, size_t j)
+{
+    const size_t pixel = j * f->width + i;
+    const double least = fmin(f->dx, f->dy);
+    double d = least * fmax(1, f->away[pixel] - 1);
+    for (int k = 0; f->away[pixel] == 1 && k < 9; k++) {
+        const size_t u = i + (size_t)(k % 3) - 1,
+                     v = j + (size_t)(k / 3) - 1; /* below 0: more than any width */
+        if (u >= f->width || v >= f->height || f->has[v * f->width + u] == f->has[pixel])
+            continue;
+        const double away_x = fmax(fmax((double)u - px, px - (double)u - 1), 0) * f->dx;
+        const double away_y = fmax(fmax((double)v - py, py - (double)v - 1), 0) * f->dy;
+        d = fmin(d, hypot(away_x, away_y));
+    }
+    return f->has[pixel] ? -d : fmax(d, DBL_MIN);
+}
+
 double heightfield_distance(const struct heightfield *f, const double x[3])
 {
     double px = clamp((x[0] - f->min[0]) / f->dx, 0, (double)f->width);
@@ -173,6 +327,8 @@ double heightfield_distance(const struct heightfield *f, const double x[3])
         d = fmax(d, fmin(f->reach, x[2] - f->high[pixel]));
     else
         d = fmin(d, fmax(-f->reach, x[2] - f->low[pixel]));
+    if (f->away)
+        d = fmax(d, rim_distance(f, px, py, i, j));
     d = fmax(d, f->min[2] - x[2]);
     d = fmax(d, fmax(f->min[0] - x[0], x[0] - f->max[0]));
     return fmax(d, fmax(f->min[1] - x[1], x[1] - f->max[1]));

@@ -1,7 +1,7 @@
 /* The ground below a grey image: solid where min_m.z <= z <= height(x, y), within the rectangle.
  *
  * Values belong to the middles of pixels; between them bilinear, beyond the outermost the same. The image's
- * bottom row lies along min_m.y.
+ * bottom row lies along min_m.y. With nodata: empty, the squares of pixels without a value hold no rock.
  */
 #ifndef HOODOO_HEIGHTFIELD_H
 #define HOODOO_HEIGHTFIELD_H
@@ -11,15 +11,15 @@
 
 struct heightfield;
 
-/* Distances are good up to `reach` metres (and may stop growing there). E_INPUT as image_read(), or a pixel
- * that is not a finite number. */
+/* Distances are good up to `reach` metres (and may stop growing there). E_INPUT as image_read(). E_USAGE as image_read(), or the file
+ * is to say how large it is and does not. */
 MUST_USE status heightfield_create(const struct job_heightfield *job, double reach, struct heightfield **out);
 void heightfield_destroy(struct heightfield **field);
 
 /* m, negative inside; the sign is exact, the size at most the true distance. */
 double heightfield_distance(const struct heightfield *field, const double x[3]);
 
-/* Height of its highest point, or min_m.z if that is higher. */
-double heightfield_top(const struct heightfield *field);
+/* A box around it, m. */
+void heightfield_bounds(const struct heightfield *field, double min[3], double max[3]);
 
 #endif

@@ -1,25 +1,44 @@
 #include "scene/image_serve.h"
 
 #include <stdlib.h>
+#include <string.h>
 
+#include "reader/serve.h"
 #include "scene/image.h"
+#include "scene/image_plain.h"
 #include "scene/image_shim.h"
 
 /* Decoders hold more than a channel, and in more than one form. */
 #define MEMORY ((uint64_t)4 << 30)
 
+static status decode(struct image_made *m)
+{
+    if (image_asks(m, ASK_FORM, "r16") || image_asks(m, ASK_FORM, "r32"))
+        return image_decode_raw(m);
+    return image_is_pgm(m->open) ? image_decode_pgm(m) : image_decode(m);
+}
+
 static status read_image(const struct serve_question *question, struct serve_answer *answer)
 {
     status st = OK;
-    struct image_part part;
-    size_t width = 0, height = 0;
-    float *value = NULL;
-    TRY(image_decode(question->path, IMAGE_MAX_PIXELS, &width, &height, &value));
-    part = (struct image_part){width, height};
-    TRY(serve_put(answer, &part, sizeof part));
-    TRY(serve_put(answer, value, width * height * sizeof *value));
+    struct image_made m = {.path = question->path,
+                           .open = question->path,
+                           .word = question->word,
+                           .max_pixels = IMAGE_MAX_PIXELS};
+    if (question->n_words != ASK_WORDS)
+        return fail(E_INPUT, "%s: its reader is asked in %zu words", question->path, question->n_words);
+    if (image_asks(&m, ASK_FORM, "tiff"))
+        m.open = READER_INPUT_PATH;
+    TRY(decode(&m));
+    if (m.part.n_outside)
+        image_note(&m, false, "%llu of %llu pixels are outside of its data window: %s",
+                   (unsigned long long)m.part.n_outside, (unsigned long long)(m.width * m.height),
+                   m.drops_outside && m.is_height ? "they have no value" : "black");
+    TRY(serve_put(answer, &m.part, sizeof m.part));
+    TRY(serve_put(answer, m.said, strlen(m.said)));
+    TRY(serve_put(answer, m.value, m.width * m.height * sizeof *m.value));
 done:
-    free(value);
+    free(m.value);
     return st;
 }
 

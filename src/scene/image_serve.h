@@ -1,15 +1,6 @@
-/* Images in their reader. Its one kind, "image", answers with struct image_part and the first channel, floats, top row
- * first. */
+/* Pictures in their reader: what is asked and answered is in image_parts.h. */
 #ifndef HOODOO_IMAGE_SERVE_H
 #define HOODOO_IMAGE_SERVE_H
-
-#include <stdint.h>
-
-#include "reader/serve.h"
-
-struct image_part {
-    uint64_t width, height;
-};
 
 /* The main() of hoodoo-read-image. */
 int image_serve_main(int argc, char **argv);

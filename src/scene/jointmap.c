@@ -78,9 +78,12 @@ status jointmap_create(const struct job_jointmap *job, struct jointmap **out)
 {
     status st = OK;
     struct jointmap *m = NULL;
-    float *value = NULL;
+    struct image image = {0};
+    const struct image_wish wish = IMAGE_WISH(job);
     TRY(memory_alloc(1, sizeof *m, "a joint map", &m));
-    TRY(image_read(job->file, &m->width, &m->height, &value));
+    TRY(image_read(&wish, &image));
+    m->width = image.width;
+    m->height = image.height;
     for (int a = 0; a < 3; a++) {
         m->min[a] = job->min_m[a];
         m->max[a] = job->max_m[a];
@@ -90,11 +93,11 @@ status jointmap_create(const struct job_jointmap *job, struct jointmap **out)
     TRY(memory_alloc(m->width * m->height, sizeof *m->rock, "a joint map", &m->rock));
     TRY(memory_alloc(m->width * m->height, sizeof *m->top, "a joint map", &m->top));
     TRY(memory_alloc(m->width * m->height, sizeof *m->away, "a joint map", &m->away));
-    TRY(read_pixels(m, job, value));
+    TRY(read_pixels(m, job, image.value));
     *out = m;
     m = NULL;
 done:
-    free(value);
+    image_free(&image);
     jointmap_destroy(&m);
     return st;
 }

@@ -11,8 +11,7 @@
 #define MOST_CELLS 8192.0
 
 struct projection {
-    size_t width, height;                       /* pixels */
-    float *value;                               /* top row first */
+    struct image image;                         /* its values, top row first */
     double corner[3], right[3], up[3], away[3]; /* m; unit vectors */
     double size[2];                             /* m */
     double depth;                               /* m; 0: through and through */
@@ -30,22 +29,13 @@ static void place(const struct projection *p, const double x[3], double out[3])
     out[2] = dot3(d, p->away);
 }
 
-static status check_pixels(const struct projection *p, const char *file)
-{
-    for (size_t i = 0; i < p->width * p->height; i++)
-        if (!isfinite(p->value[i]))
-            return fail(E_INPUT, "%s: pixel (%zu, %zu) from the top left holds %g", file, i % p->width,
-                        i / p->width, (double)p->value[i]);
-    return OK;
-}
-
 status projection_create(const struct job_image *job, double h, struct projection **out)
 {
     status st = OK;
     struct projection *p = NULL;
+    const struct image_wish wish = IMAGE_WISH(job);
     TRY(memory_alloc(1, sizeof *p, "an image", &p));
-    TRY(image_read(job->file, &p->width, &p->height, &p->value));
-    TRY(check_pixels(p, job->file));
+    TRY(image_read(&wish, &p->image));
     p->size[0] = sqrt(dot3(job->right_m, job->right_m));
     p->size[1] = sqrt(dot3(job->up_m, job->up_m));
     for (int a = 0; a < 3; a++) {
@@ -78,7 +68,7 @@ void projection_destroy(struct projection **projection)
 {
     if (!*projection)
         return;
-    free((*projection)->value);
+    image_free(&(*projection)->image);
     free((*projection)->first);
     free(*projection);
     *projection = NULL;
@@ -112,11 +102,11 @@ void projection_see(struct projection *p, const double x[3])
 /* Bilinear between the pixels' middles. */
 static double sample(const struct projection *p, double u, double v)
 {
-    double x = fmin(fmax(u * (double)p->width - 0.5, 0), (double)(p->width - 1));
-    double y = fmin(fmax((1 - v) * (double)p->height - 0.5, 0), (double)(p->height - 1));
+    double x = fmin(fmax(u * (double)p->image.width - 0.5, 0), (double)(p->image.width - 1));
+    double y = fmin(fmax((1 - v) * (double)p->image.height - 0.5, 0), (double)(p->image.height - 1));
     size_t i = (size_t)x, j = (size_t)y;
-    size_t right = i + 1 < p->width ? 1 : 0, down = j + 1 < p->height ? p->width : 0;
-    const float *f = p->value + j * p->width + i;
+    size_t right = i + 1 < p->image.width ? 1 : 0, down = j + 1 < p->image.height ? p->image.width : 0;
+    const float *f = p->image.value + j * p->image.width + i;
     double s = x - (double)i, t = y - (double)j;
     double top = (double)f[0] + s * ((double)f[right] - (double)f[0]);
     double bottom = (double)f[down] + s * ((double)f[down + right] - (double)f[down]);

@@ -207,11 +207,10 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         break;
     case SHAPE_HEIGHTFIELD: {
         const struct job_heightfield *h = &node->u.heightfield;
-        double top[3] = {h->max_m[0], h->max_m[1], 0};
-        TRY(check_corners("heightfield", h->min_m, h->max_m));
+        double lo[3], hi[3];
         TRY(heightfield_create(h, reach / place->shrink, &s->u.heightfield));
-        top[2] = heightfield_top(s->u.heightfield);
-        placement_box(place, h->min_m, top, s->min, s->max);
+        heightfield_bounds(s->u.heightfield, lo, hi);
+        placement_box(place, lo, hi, s->min, s->max);
         break;
     }
     case SHAPE_JOINTMAP: {

@@ -15,8 +15,9 @@
 #include "base/clock.h"
 #include "effort.h"
 #include "reader/reader.h"
+#include "reader/serve.h"
 #include "scene/image.h"
-#include "scene/image_serve.h"
+#include "scene/image_parts.h"
 
 enum { SIDE = 1000 };
 
@@ -52,8 +53,9 @@ static size_t try_to_escape(const char *path, float *refused)
 static status put_image(struct serve_answer *a, uint64_t width, uint64_t height, const float *value, size_t n)
 {
     status st = OK;
-    const struct image_part part = {width, height};
+    const struct image_part part = {.width = width, .height = height};
     TRY(serve_put(a, &part, sizeof part));
+    TRY(serve_part(a)); /* nothing to say */
     TRY(serve_put(a, value, n * sizeof *value));
 done:
     return st;
@@ -127,12 +129,11 @@ static int be_the_reader(int argc, char **argv)
 
 static status read_named(const char *name)
 {
-    size_t width, height;
-    float *value;
-    status st = image_read(write_text(name, "x"), &width, &height, &value);
+    struct image image;
+    status st = image_read(&(struct image_wish){.file = write_text(name, "x"), .scale = 1}, &image);
     if (st != OK)
-        assert_null(value);
-    free(value);
+        assert_null(image.value);
+    image_free(&image);
     return st;
 }
 
@@ -180,26 +181,24 @@ static void a_greedy_one_gets_no_memory(void **state)
 static void large_answers_arrive_whole(void **state)
 {
     (void)state;
-    size_t width, height;
-    float *value;
-    assert_int_equal(image_read(write_text("chatty", "x"), &width, &height, &value), OK);
-    assert_true(width == SIDE && height == SIDE);
+    struct image image;
+    assert_int_equal(image_read(&(struct image_wish){.file = write_text("chatty", "x")}, &image), OK);
+    assert_true(image.width == SIDE && image.height == SIDE);
     for (int i = 0; i < SIDE * SIDE; i++)
-        assert_true(value[i] == (float)i);
-    free(value);
+        assert_true(image.value[i] == (float)i);
+    image_free(&image);
 }
 
 static void it_can_do_nothing_but_read(void **state)
 {
     (void)state;
-    size_t width, height;
-    float *refused;
-    assert_int_equal(image_read(write_text("prison", "x"), &width, &height, &refused), OK);
-    assert_int_equal(width, 16);
-    for (size_t i = 0; i < width; i++)
-        if (refused[i] != 1)
+    struct image image;
+    assert_int_equal(image_read(&(struct image_wish){.file = write_text("prison", "x")}, &image), OK);
+    assert_int_equal(image.width, 16);
+    for (size_t i = 0; i < image.width; i++)
+        if (image.value[i] != 1)
             fail_msg("attempt %zu was not refused", i);
-    free(refused);
+    image_free(&image);
     assert_int_not_equal(access("written", F_OK), 0);
 }
 

@@ -2,6 +2,7 @@
 #include "effort.h"
 #include "scene/heightfield.h"
 #include "scene/image.h"
+#include "scene/image_rows.h"
 #include "scene_help.h"
 
 /* Binary PGM of 8 or 16 bits, top row first. */
@@ -49,36 +50,113 @@ static int ramp_up(int x, int y)
     return (99 - y) * 600;
 }
 
+static struct image read_all(const char *path, struct image_wish wish)
+{
+    struct image image;
+    wish.file = path;
+    wish.scale = wish.scale != 0 ? wish.scale : 1;
+    assert_int_equal(image_read(&wish, &image), OK);
+    return image;
+}
+
 static void integers_become_0_to_1(void **state)
 {
     (void)state;
-    size_t width, height;
-    float *value;
-    assert_int_equal(image_read(write_pgm("a.pgm", 100, 3, 255, ramp_x), &width, &height, &value), OK);
-    assert_true(width == 100 && height == 3);
+    struct image image = read_all(write_pgm("a.pgm", 100, 3, 255, ramp_x), (struct image_wish){0});
+    assert_true(image.width == 100 && image.height == 3);
     for (int i = 0; i < 300; i++)
-        assert_true(fabsf(value[i] - (float)(i % 100 * 2) / 255) < 1e-6f);
-    free(value);
-    assert_int_equal(image_read(write_pgm("b.pgm", 2, 100, 65535, ramp_up), &width, &height, &value), OK);
-    /* OpenImageIO rounds 16-bit PGM down by a step. */
-    assert_true(fabsf(value[0] - 59400.0f / 65535) < 2e-5f && value[199] == 0);
-    free(value);
+        assert_true(fabsf(image.value[i] - (float)(i % 100 * 2) / 255) < 1e-6f);
+    image_free(&image);
+    char *deep = write_pgm("b.pgm", 2, 100, 65535, ramp_up);
+    image = read_all(deep, (struct image_wish){0});
+    assert_true(fabsf(image.value[0] - 59400.0f / 65535) < 1e-7f && image.value[199] == 0);
+    image_free(&image);
+    /* and stay as they are stored where that is wanted */
+    image = read_all(deep,
+                     (struct image_wish){.height = true, .values = IMAGE_STORED, .scale = 0.5, .offset = -7});
+    for (int i = 0; i < 200; i++)
+        assert_true(image.value[i] == (float)ramp_up(0, i / 2) * 0.5f - 7);
+    image_free(&image);
 }
 
 static void floats_stay_as_they_are(void **state)
 {
     (void)state;
     const float pixels[6] = {0, 1, 2.5f, -3, 1e-3f, 100};
-    size_t width, height;
-    float *value;
-    assert_int_equal(image_read(write_tiff("a.tif", 3, 2, pixels), &width, &height, &value), OK);
-    assert_true(width == 3 && height == 2);
-    assert_memory_equal(value, pixels, sizeof pixels);
-    free(value);
+    struct image image = read_all(write_tiff("a.tif", 3, 2, pixels), (struct image_wish){0});
+    assert_true(image.width == 3 && image.height == 2);
+    assert_memory_equal(image.value, pixels, sizeof pixels);
+    image_free(&image);
     const float bad[4] = {0, 1, NAN, 0};
     struct heightfield *field;
     struct job_heightfield job = {.file = write_tiff("nan.tif", 2, 2, bad), .max_m = {1, 1, 1}};
     assert_failed(heightfield_create(&job, 1, &field), E_INPUT, "nan.tif", "pixel (0, 1)");
+}
+
+/* What EXIF's orientations mean: where the first stored row and column are seen. */
+static void pictures_are_turned_as_they_say(void **state)
+{
+    (void)state;
+    enum { W = 5, H = 3 };
+    const char *const word[ASK_WORDS] = {"file",   "",       "",  "",  "coverage", "black",
+                                         "height", "stored", "1", "0", "0",        "0"};
+    for (int turn = 1; turn <= 8; turn++) {
+        struct image_made m = {
+            .path = "", .word = word, .max_pixels = 100, .orientation = turn, .width = W, .height = H};
+        const int wide = turn > 4 ? H : W, high = turn > 4 ? W : H;
+        assert_int_equal(image_begin(&m), OK);
+        assert_true(m.part.width == (uint64_t)wide && m.part.height == (uint64_t)high);
+        for (int y = 0; y < H; y++)
+            image_row(&m, 0, y, W, (const double[]){10 * y, 10 * y + 1, 10 * y + 2, 10 * y + 3, 10 * y + 4},
+                      NULL, NULL);
+        for (int v = 0; v < high; v++)
+            for (int u = 0; u < wide; u++) {
+                /* row: top, top, bottom, bottom, left, right, right, left; column: left, right, right, left, top, top, bottom, bottom */
+                const int row[] = {v, v, high - 1 - v, high - 1 - v, u, wide - 1 - u, wide - 1 - u, u};
+                const int column[] = {u, wide - 1 - u, wide - 1 - u, u, v, v, high - 1 - v, high - 1 - v};
+                assert_true(m.value[v * wide + u] == (float)(10 * row[turn - 1] + column[turn - 1]));
+            }
+        free(m.value);
+    }
+}
+
+/* A plane with a hole is the same plane, and with the hole left open there is no rock in its pixels, and all of it beside them. */
+static void gaps_are_filled_or_left_empty(void **state)
+{
+    (void)state;
+    float pixels[24 * 20];
+    for (int i = 0; i < 24 * 20; i++)
+        pixels[i] =
+            i % 24 >= 8 && i % 24 < 14 && i / 24 >= 5 && i / 24 < 11 ? NAN : (float)(i % 24 + 2 * (i / 24));
+    struct image image = read_all(write_tiff("gap.tif", 24, 20, pixels),
+                                  (struct image_wish){.nodata = IMAGE_FILL, .height = true});
+    for (int i = 0; i < 24 * 20; i++)
+        assert_true(fabsf(image.value[i] - (float)(i % 24 + 2 * (i / 24))) <
+                    (isnan(pixels[i]) ? 0.5f : 1e-6f));
+    assert_null(image.has);
+    image_free(&image);
+
+    struct heightfield *field;
+    struct job_heightfield job = {
+        .file = write_file("gap2.tif", "", 0), .max_m = {24, 20, 1}, .nodata = IMAGE_EMPTY};
+    for (int i = 0; i < 24 * 20; i++)
+        pixels[i] = isnan(pixels[i]) ? NAN : 10;
+    job.file = write_tiff("gap2.tif", 24, 20, pixels);
+    assert_int_equal(heightfield_create(&job, 2, &field), OK);
+    uint32_t x = 5;
+    for (int i = 0; i < 4000; i++) {
+        const double p[3] = {next_random(&x) % 24000 * 1e-3, next_random(&x) % 20000 * 1e-3,
+                             next_random(&x) % 9900 * 1e-3 + 0.05};
+        const bool gap = p[0] >= 8 && p[0] <= 14 && p[1] >= 9 && p[1] <= 15;
+        const double away = gap ? fmin(fmin(p[0] - 8, 14 - p[0]), fmin(p[1] - 9, 15 - p[1])) : 1e9;
+        const double d = heightfield_distance(field, p);
+        assert_true((d > 0) == (gap && away > 0));
+        assert_true(!gap || d <= away + 1e-9);
+        assert_true(gap ||
+                    -d <=
+                        hypot(fmax(fmax(8 - p[0], p[0] - 14), 0), fmax(fmax(9 - p[1], p[1] - 15), 0)) + 1e-9);
+    }
+    heightfield_destroy(&field);
 }
 
 static void a_ramp_is_a_wedge(void **state)
@@ -140,10 +218,9 @@ static void distances_never_overstate(void **state)
 
 static status read_only(const char *path)
 {
-    size_t width, height;
-    float *value;
-    status st = image_read(path, &width, &height, &value);
-    free(value);
+    struct image image;
+    status st = image_read(&(struct image_wish){.file = path, .scale = 1}, &image);
+    image_free(&image);
     return st;
 }
 
@@ -189,9 +266,14 @@ static void damaged_images_never_crash(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(integers_become_0_to_1),     cmocka_unit_test(floats_stay_as_they_are),
-        cmocka_unit_test(a_ramp_is_a_wedge),          cmocka_unit_test(distances_never_overstate),
-        cmocka_unit_test(hostile_images_are_refused), cmocka_unit_test(damaged_images_never_crash),
+        cmocka_unit_test(integers_become_0_to_1),
+        cmocka_unit_test(floats_stay_as_they_are),
+        cmocka_unit_test(a_ramp_is_a_wedge),
+        cmocka_unit_test(distances_never_overstate),
+        cmocka_unit_test(pictures_are_turned_as_they_say),
+        cmocka_unit_test(gaps_are_filled_or_left_empty),
+        cmocka_unit_test(hostile_images_are_refused),
+        cmocka_unit_test(damaged_images_never_crash),
     };
     cmocka_set_message_output(CM_OUTPUT_TAP);
     return cmocka_run_group_tests(tests, NULL, remove_files);
