@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "output/folder.h"
 #include "run/branch.h"
+#include "run/run.h"
 
 static status set_paths(struct farm *f, const char *out)
 {
@@ -127,12 +128,14 @@ static status check_owner(const struct farm *f, const struct job *job)
     if (access(path.text, F_OK) != 0)
         return OK;
     TRY(job_hash(job, &ours));
-    if (job_load(path.text, NULL, 0, &theirs) != OK || branch_prepare_own(theirs, root.text) != OK ||
-        job_hash(theirs, &hash) != OK || hash != ours || strcmp(theirs->name, job->name) != 0)
-        st = fail(E_CHECKPOINT,
-                  "%s holds another job (%s differs in what is simulated); use another --out, or remove the "
-                  "folder",
-                  root.text, path.text);
+    const bool read = job_load(path.text, NULL, 0, &theirs) == OK &&
+                      branch_prepare_own(theirs, root.text) == OK && job_hash(theirs, &hash) == OK;
+    if (read && (hash != ours || strcmp(theirs->name, job->name) != 0))
+        st = run_other_job(root.text, path.text, theirs, job);
+    else if (!read)
+        st =
+            fail(E_CHECKPOINT,
+                 "%s cannot be read, so it is not known what is in the folder; use another --out", path.text);
 done:
     job_destroy(&theirs);
     return st;

@@ -1,6 +1,6 @@
 /* The job hash: SIM keys in the table's order, and LATER ones that are not their defaults, names and values in a form that
  * does not depend on how they were written. Numbers are their eight bytes (little endian, as on every machine this runs on), texts end in
- * NUL, lists and mappings begin with their length, and a file is its content. */
+ * NUL, lists and mappings begin with their length, and a file is its content. Last comes the first frame, from which ages count. */
 #include "base/hash.h"
 
 #include <errno.h>
@@ -292,6 +292,7 @@ status job_hash(const struct job *job, uint64_t *hash)
     struct walk w = {0};
     status st = OK;
     TRY(walk_section(&w, SECTION_job, job));
+    put_number(&w, job->frames.first);
     TRY(text_status(&w.canonical));
     *hash = hash_bytes(w.canonical.data, w.canonical.size);
 done:

@@ -139,6 +139,30 @@ static bool frames_are_ours(const struct run *r)
     return folder_job_hash(r->options->root, &hash) == OK && hash == r->job_hash;
 }
 
+status run_other_job(const char *root, const char *path, const struct job *theirs, const struct job *ours)
+{
+    status st = OK;
+    struct job moved = *theirs;
+    uint64_t hash, other;
+    moved.frames.first = ours->frames.first;
+    TRY(job_hash(&moved, &hash));
+    TRY(job_hash(ours, &other));
+    if (hash == other && theirs->frames.first != ours->frames.first)
+        st = fail(E_CHECKPOINT,
+                  "%s holds this job's frames from %d on, and now they begin at %d: the rock of a frame "
+                  "would have two ages; "
+                  "use another --out, or start over with hoodoo run --resume never",
+                  root, theirs->frames.first, ours->frames.first);
+    else
+        st = fail(
+            E_CHECKPOINT,
+            "%s holds another job (%s differs in what is simulated); use another --out, or start over with "
+            "hoodoo run --resume never",
+            root, path);
+done:
+    return st;
+}
+
 /* Is this folder's job this job? Its job.yaml is the job as it was run. */
 static status check_owner(struct run *r)
 {
@@ -170,11 +194,7 @@ static status check_owner(struct run *r)
         log_warn("%s is not the job that made the frames; it is written anew", path.text);
         r->papers = true;
     } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
-        st = fail(
-            E_CHECKPOINT,
-            "%s holds another job (%s differs in what is simulated); use another --out, or --resume never "
-            "to start over",
-            r->options->root, path.text);
+        st = run_other_job(r->options->root, path.text, theirs, r->job);
     }
 done:
     job_destroy(&theirs);

@@ -55,7 +55,7 @@ static void add_frame(struct trace *t, struct model *m)
             add(t, f.rock.field[i], f.rock.n * rock_field_size((enum rock_field)i));
     for (size_t i = 0; i < f.grids.n_grids; i++) {
         const struct frame_grid *g = &f.grids.grid[i];
-        add(t, g->value, grid_items(&f.grids, g) * (g->components == 3 ? 3 : 1) * sizeof(float));
+        add(t, g->value, f.grids.bricks.count * BRICK_SAMPLES * (g->components == 3 ? 3 : 1) * sizeof(float));
     }
     const struct aov_image *image = &f.image[0];
     for (size_t i = 0; i < image->n_channels; i++) {
