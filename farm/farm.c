@@ -132,7 +132,9 @@ static status check_owner(const struct farm *f, const struct job *job)
                       branch_prepare_own(theirs, root.text) == OK && job_hash(theirs, &hash) == OK;
     if (read && (hash != ours || strcmp(theirs->name, job->name) != 0))
         st = run_other_job(root.text, path.text, theirs, job);
-    else if (!read)
+    else if (read)
+        st = run_other_files(root.text, theirs, job);
+    else
         st =
             fail(E_CHECKPOINT,
                  "%s cannot be read, so it is not known what is in the folder; use another --out", path.text);

@@ -106,6 +106,9 @@ static status verify_frame(struct search *s, int frame)
     }
     if (m.job_hash != s->job_hash)
         found(s, false, relative, "it is a frame of another job");
+    else if (s->files_hash && m.files_hash != s->files_hash)
+        found(s, false, relative,
+              "it was written with other settings of output, cameras, fps or colours than job.yaml has");
     const struct ledger *l = &m.ledger;
     if (l->start != l->rock + l->deposit + l->fallen + l->left)
         found(s, false, relative, "its ledger does not add up");
@@ -136,6 +139,7 @@ static status verify_job(struct search *s)
     TRY(st);
     if (!s->only_frames)
         s->frames = job->frames;
+    TRY(job_files_hash(job, &s->files_hash));
     st = job_hash(job, &hash);
     if (st == E_INPUT) {
         log_info("%s cannot be compared with the frames' job: %s", path.text, status_message());

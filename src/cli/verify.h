@@ -20,6 +20,7 @@ struct search {
     bool json, only_frames;    /* --frames: checkpoints, and what is of all frames, are not asked for */
     bool bad_job;              /* said of job.yaml already */
     uint64_t job_hash;         /* of the frames' job */
+    uint64_t files_hash;       /* of what else of job.yaml is in the files of frames */
     size_t n_frames, n_files, n_products, n_checkpoints, n_bad_checkpoints, n_damaged, n_missing;
     size_t n_others; /* of the damaged and missing: those that `hoodoo run` does not make */
     struct remake *remake;

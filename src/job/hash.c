@@ -12,9 +12,19 @@
 #include "base/memory.h"
 #include "job/parse.h"
 
-/* Walks the job once for both uses: its canonical form, or the files it reads. */
+/* A key that is no section, and where its part of the canonical form ends. */
+struct leaf {
+    char path[256];
+    size_t end;
+};
+
+/* Walks the job once for all uses: its canonical form of what is simulated, or of what the files of frames have, or the files it
+ * reads. */
 struct walk {
     struct text canonical;
+    struct leaf *leaf; /* if wanted */
+    size_t n_leaves, leaf_capacity;
+    bool leaves, of_files, all; /* all: every key of a section */
     struct job_input *inputs;
     size_t n_inputs, capacity;
     bool only_inputs;
@@ -264,6 +274,23 @@ done:
     return st;
 }
 
+static bool wanted(const struct walk *w, const struct job_key *key)
+{
+    return w->only_inputs || w->all || (w->of_files ? key_files(key) : key_simulates(key));
+}
+
+/* A section's comes after those of its keys and adds nothing. */
+static status add_leaf(struct walk *w)
+{
+    status st = memory_grow(&w->leaf, &w->leaf_capacity, w->n_leaves + 1, sizeof *w->leaf, "the job's keys");
+    if (st == OK) {
+        struct leaf *leaf = &w->leaf[w->n_leaves++];
+        snprintf(leaf->path, sizeof leaf->path, "%s", w->path);
+        leaf->end = w->canonical.size;
+    }
+    return st;
+}
+
 static status walk_section(struct walk *w, enum job_section_id section, const void *base)
 {
     const struct job_section *s = &job_sections[section];
@@ -271,32 +298,107 @@ static status walk_section(struct walk *w, enum job_section_id section, const vo
     for (size_t i = 0; i < s->n; i++) {
         const struct job_key *key = &s->key[i];
         bool leave = false;
-        if (!key_simulates(key) && !w->only_inputs)
+        if (!wanted(w, key))
             continue;
         const size_t back = path_add(w, key->name), before = w->canonical.size;
         put_text(w, key->name);
         const size_t at = w->canonical.size;
         TRY(walk_key(w, key, base));
-        if (key_later(key))
+        if (!w->of_files && key_later(key))
             TRY(is_default(w, section, key, at, &leave));
         if (leave)
             w->canonical.size = before;
+        if (w->leaves)
+            TRY(add_leaf(w));
         path_back(w, back);
     }
 done:
     return st;
 }
 
+static void walk_end(struct walk *w)
+{
+    text_free(&w->canonical);
+    free(w->leaf);
+    free(w->inputs);
+}
+
+/* Cameras are in the files only of those that take pictures. */
+static status walk_cameras(struct walk *w, const struct job *job)
+{
+    status st = OK;
+    const size_t back = path_add(w, "cameras");
+    w->all = true;
+    for (size_t i = 0; i < job->output.aov.n_cameras; i++)
+        for (size_t c = 0; c < job->n_cameras; c++)
+            if (strcmp(job->cameras[c].name, job->output.aov.cameras[i]) == 0) {
+                const size_t name = path_add(w, job->cameras[c].name);
+                TRY(walk_section(w, SECTION_camera, &job->cameras[c]));
+                path_back(w, name);
+            }
+done:
+    path_back(w, back);
+    return st;
+}
+
+static status walk_job(struct walk *w, const struct job *job)
+{
+    status st = OK;
+    TRY(walk_section(w, SECTION_job, job));
+    if (w->of_files)
+        TRY(walk_cameras(w, job));
+    else
+        put_number(w, job->frames.first);
+    TRY(text_status(&w->canonical));
+done:
+    return st;
+}
+
+static status hash_of(struct walk *w, const struct job *job, uint64_t *hash)
+{
+    const status st = walk_job(w, job);
+    if (st == OK)
+        *hash = hash_bytes(w->canonical.data, w->canonical.size);
+    walk_end(w);
+    return st;
+}
+
 status job_hash(const struct job *job, uint64_t *hash)
 {
-    struct walk w = {0};
+    return hash_of(&(struct walk){0}, job, hash);
+}
+
+status job_files_hash(const struct job *job, uint64_t *hash)
+{
+    return hash_of(&(struct walk){.of_files = true}, job, hash);
+}
+
+/* Where a leaf begins. */
+static size_t leaf_begin(const struct walk *w, size_t i)
+{
+    return i ? w->leaf[i - 1].end : 0;
+}
+
+static bool same_leaf(const struct walk *a, const struct walk *b, size_t i)
+{
+    const size_t at = leaf_begin(a, i), other = leaf_begin(b, i), n = a->leaf[i].end - at;
+    return strcmp(a->leaf[i].path, b->leaf[i].path) == 0 && b->leaf[i].end - other == n &&
+           memcmp(a->canonical.data + at, b->canonical.data + other, n) == 0;
+}
+
+status job_differ(const struct job *one, const struct job *other, bool files, char path[256])
+{
     status st = OK;
-    TRY(walk_section(&w, SECTION_job, job));
-    put_number(&w, job->frames.first);
-    TRY(text_status(&w.canonical));
-    *hash = hash_bytes(w.canonical.data, w.canonical.size);
+    struct walk a = {.leaves = true, .of_files = files}, b = {.leaves = true, .of_files = files};
+    size_t i = 0;
+    TRY(walk_job(&a, one));
+    TRY(walk_job(&b, other));
+    while (i < a.n_leaves && i < b.n_leaves && same_leaf(&a, &b, i))
+        i++;
+    snprintf(path, 256, "%s", i < b.n_leaves ? b.leaf[i].path : i < a.n_leaves ? a.leaf[i].path : "frames");
 done:
-    text_free(&w.canonical);
+    walk_end(&a);
+    walk_end(&b);
     return st;
 }
 
@@ -313,7 +415,6 @@ status job_inputs(const struct job *job, struct job_input **out, size_t *n)
     *n = w.n_inputs;
     w.inputs = NULL;
 done:
-    free(w.inputs);
-    text_free(&w.canonical);
+    walk_end(&w);
     return st;
 }

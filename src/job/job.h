@@ -205,6 +205,13 @@ bool job_heights_are_metres(const struct job_heightfield *h);
  * contents included. */
 MUST_USE status job_hash(const struct job *job, uint64_t *hash);
 
+/* The same of everything else that the files of frames depend on (keys.def's FILES, and the cameras of output.aov.cameras). */
+MUST_USE status job_files_hash(const struct job *job, uint64_t *hash);
+
+/* The first key, in the table's order, in which two jobs differ: of those that are simulated, or that files have. "frames" if they
+ * differ in nothing else. */
+MUST_USE status job_differ(const struct job *one, const struct job *other, bool files, char path[256]);
+
 /* A file the job reads (mesh, heightfield, jointmap), with its content hash. */
 struct job_input {
     const char *path; /* borrowed from the job */

@@ -26,9 +26,17 @@ static const char intro[] =
     "`intersection` or\n"
     "`difference` (all later ones are taken from the first), which holds a list of shapes.\n"
     "\n"
-    "Keys marked \u2020 change only what is written or shown: a run continues when they are edited. All "
-    "others are part\n"
-    "of the job's hash.\n"
+    "Keys marked \u2020 change nothing in the files of frames: a run goes on when they are edited, and "
+    "`hoodoo "
+    "run` of\n"
+    "frames that are all done takes the edit over for the other verbs. Those marked \u2021 (and the cameras "
+    "of\n"
+    "`output.aov.cameras`) change how frames are written: they may be edited while no frame is there, and "
+    "are "
+    "refused\n"
+    "after that, for the frames of a folder are written alike. All others are simulated, and part of the "
+    "job's "
+    "hash.\n"
     "\n"
     "## An example\n"
     "\n"
@@ -159,7 +167,7 @@ static void put_default(struct text *t, const struct job_key *key)
 static void put_row(struct text *t, const struct job_key *key)
 {
     char range[256] = "", low[32], high[32];
-    text_add(t, "| `%s`%s | ", key->name, key_simulates(key) ? "" : " \u2020");
+    text_add(t, "| `%s`%s | ", key->name, key_simulates(key) ? "" : key_files(key) ? " \u2021" : " \u2020");
     if (key->type == KEY_VEC)
         text_add(t, "%zu ", key->n);
     text_add(t, "%s%s", type_name(key), key->unit[0] ? ", " : "");

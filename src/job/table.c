@@ -126,15 +126,35 @@ bool key_required(const struct job_key *key)
     return false;
 }
 
-bool key_simulates(const struct job_key *key)
+static bool any_key(const struct job_key *key, bool (*is)(enum key_use use))
 {
     if (key->type != KEY_SUB && key->type != KEY_MAYBE && key->type != KEY_LIST && key->type != KEY_MAP)
-        return key->use != OUT;
+        return is(key->use);
     const struct job_section *child = &job_sections[key->child];
     for (size_t i = 0; i < child->n; i++)
-        if (key_simulates(&child->key[i]))
+        if (any_key(&child->key[i], is))
             return true;
     return false;
+}
+
+static bool simulated(enum key_use use)
+{
+    return use == SIM || use == LATER;
+}
+
+static bool filed(enum key_use use)
+{
+    return use == FILES;
+}
+
+bool key_simulates(const struct job_key *key)
+{
+    return any_key(key, simulated);
+}
+
+bool key_files(const struct job_key *key)
+{
+    return any_key(key, filed);
 }
 
 bool key_later(const struct job_key *key)

@@ -42,7 +42,7 @@ enum key_type {
     KEY_TEXTS
 };
 
-enum key_use { OUT, SIM, LATER };
+enum key_use { OUT, FILES, SIM, LATER };
 
 struct job_key {
     enum key_type type;
@@ -80,6 +80,9 @@ bool key_required(const struct job_key *key);
 
 /* Whether the key, or any key inside it, changes the simulation. Cameras, say, do not. */
 bool key_simulates(const struct job_key *key);
+
+/* The same of the files of frames. */
+bool key_files(const struct job_key *key);
 
 /* Whether all of that are keys of a later release, which the hash leaves out where they are their defaults. */
 bool key_later(const struct job_key *key);

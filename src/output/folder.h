@@ -75,7 +75,7 @@ struct manifest_change {
 
 struct manifest {
     int frame;
-    uint64_t job_hash;
+    uint64_t job_hash, files_hash; /* job_hash(), job_files_hash() */
     size_t n_files;
     struct manifest_file *file; /* owned; manifest_free() */
     double years, volume_m3, start_volume_m3, max_stress_Pa;

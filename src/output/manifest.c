@@ -24,6 +24,7 @@ status manifest_write(const char *root, const char *name, const struct manifest 
     json_integer(&t, "format", 1);
     json_integer(&t, "frame", m->frame);
     sealed_put_hash(&t, "job_xxh3", m->job_hash);
+    sealed_put_hash(&t, "output_xxh3", m->files_hash);
     json_number(&t, "years", m->years);
     json_array(&t, "files");
     for (size_t i = 0; i < m->n_files; i++) {
@@ -112,8 +113,9 @@ static const char *to_manifest(const struct json *json, struct manifest *out)
         return "its format is a later one; use a newer hoodoo";
     if (!json_to_int(json_member(json, "frame"), &out->frame) ||
         !sealed_to_hash(json_member(json, "job_xxh3"), &out->job_hash) ||
+        !sealed_to_hash(json_member(json, "output_xxh3"), &out->files_hash) ||
         !to_number(json_member(json, "years"), &out->years))
-        return "its frame, job_xxh3 or years is missing or wrong";
+        return "its frame, job_xxh3, output_xxh3 or years is missing or wrong";
     if (!to_files(json_member(json, "files"), out))
         return "a file in it lacks a path inside the folder, a size or a hash";
     if (!to_number(json_member(statistics, "volume_m3"), &out->volume_m3) ||

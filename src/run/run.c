@@ -33,8 +33,11 @@ struct run {
     bool lacks_checkpoint; /* the last frame's, or a later one */
     bool *done;            /* [last - first + 1], by frame number */
     bool *compared;        /* the same: its files were read, and are as they were written */
-    bool papers;           /* run.json or job.yaml is lost or is not this job's: to be written anew */
-    int first_missing;     /* last + 1: none */
+    bool papers;           /* run.json or job.yaml is lost or is not this job: to be written anew */
+    uint64_t files_hash;
+    struct frame_range other; /* frames whose files other settings gave; step 0: none */
+    char differs[256];        /* in what, or "" */
+    int first_missing;        /* last + 1: none */
     int last_missing;
     size_t n_done;
     bool any_there; /* frames, asked for or not */
@@ -45,7 +48,7 @@ struct run {
 /* ---- what is there */
 
 /* A frame is done when `verify` finds nothing wrong with it: its files' content is compared, once. */
-static status frame_done(const struct run *r, int frame, bool *done, bool *compared)
+static status frame_done(struct run *r, int frame, bool *done, bool *compared)
 {
     struct manifest manifest = {0};
     const char *bad = "";
@@ -58,6 +61,8 @@ static status frame_done(const struct run *r, int frame, bool *done, bool *compa
         log_info("frame %d will be made again: %s", frame, status_message());
     else if (st == OK && !*done)
         log_info("frame %d will be made again: it is of another job", frame);
+    else if (*done && manifest.files_hash != r->files_hash)
+        r->other = (struct frame_range){r->other.step ? r->other.first : frame, frame, 1};
     manifest_free(&manifest);
     return st == E_MEMORY ? st : OK; /* missing or damaged is no error here */
 }
@@ -142,24 +147,41 @@ static bool frames_are_ours(const struct run *r)
 status run_other_job(const char *root, const char *path, const struct job *theirs, const struct job *ours)
 {
     status st = OK;
-    struct job moved = *theirs;
-    uint64_t hash, other;
-    moved.frames.first = ours->frames.first;
-    TRY(job_hash(&moved, &hash));
-    TRY(job_hash(ours, &other));
-    if (hash == other && theirs->frames.first != ours->frames.first)
-        st = fail(E_CHECKPOINT,
-                  "%s holds this job's frames from %d on, and now they begin at %d: the rock of a frame "
-                  "would have two ages; "
-                  "use another --out, or start over with hoodoo run --resume never",
-                  root, theirs->frames.first, ours->frames.first);
+    char key[256];
+    if (strcmp(theirs->name, ours->name) != 0)
+        return fail(E_CHECKPOINT, "%s holds another job, %s; use another --out", root, theirs->name);
+    TRY(job_differ(theirs, ours, false, key));
+    if (strcmp(key, "frames") == 0)
+        st =
+            fail(E_CHECKPOINT,
+                 "%s holds this job's frames from %d on, and now they begin at %d: the rock of a frame would "
+                 "have two ages; use another --out, or start over with hoodoo run --resume never",
+                 root, theirs->frames.first, ours->frames.first);
     else
-        st = fail(
-            E_CHECKPOINT,
-            "%s holds another job (%s differs in what is simulated); use another --out, or start over with "
-            "hoodoo run --resume never",
-            root, path);
+        st = fail(E_CHECKPOINT,
+                  "%s holds another job: %s differs in %s, which is simulated; use another --out, or start "
+                  "over with "
+                  "hoodoo run --resume never",
+                  root, path, key);
 done:
+    return st;
+}
+
+/* Keys that are in no frame were edited: job.yaml, from which the other verbs know cameras and looks, is to say so. Fewer frames
+ * than the folder has are no edit. */
+static status compare_words(struct run *r, struct job *theirs)
+{
+    status st = OK;
+    struct text old = {0}, new = {0};
+    if (range_holds(theirs->frames, r->job->frames.first) && range_holds(theirs->frames, r->job->frames.last))
+        theirs->frames = r->job->frames;
+    TRY(job_resolved(theirs, &old));
+    TRY(job_resolved(r->job, &new));
+    r->papers = old.size != new.size || memcmp(old.data, new.data, new.size) != 0;
+    TRY(job_differ(theirs, r->job, true, r->differs));
+done:
+    text_free(&old);
+    text_free(&new);
     return st;
 }
 
@@ -195,9 +217,39 @@ static status check_owner(struct run *r)
         r->papers = true;
     } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
         st = run_other_job(r->options->root, path.text, theirs, r->job);
-    }
+    } else
+        TRY(compare_words(r, theirs));
 done:
     job_destroy(&theirs);
+    return st;
+}
+
+static status unlike(const char *root, struct frame_range frames, const char *key)
+{
+    char range[48];
+    return fail(E_CHECKPOINT,
+                "%s: frames %s were written with another %s than the job has now, and frames of a folder are "
+                "written alike; take the old value back, use another --out, or start over with hoodoo run "
+                "--resume never (hoodoo aov makes pictures of other cameras from frames that are done)",
+                root, range_text(frames, range), key);
+}
+
+status run_other_files(const char *root, const struct job *theirs, const struct job *ours)
+{
+    status st = OK;
+    uint64_t hash, other;
+    int *frames = NULL;
+    size_t n = 0;
+    char key[256];
+    TRY(job_files_hash(theirs, &hash));
+    TRY(job_files_hash(ours, &other));
+    TRY(folder_frames(root, ours->name, &frames, &n));
+    if (n == 0 || hash == other)
+        goto done;
+    TRY(job_differ(theirs, ours, true, key));
+    st = unlike(root, (struct frame_range){frames[0], frames[n - 1], 1}, key);
+done:
+    free(frames);
     return st;
 }
 
@@ -471,12 +523,16 @@ status run_job(struct job *job, const struct run_options *options)
                     range_text(job->frames, whole));
     }
     TRY(job_hash(job, &r.job_hash));
+    TRY(job_files_hash(job, &r.files_hash));
     TRY(folder_prepare(options->root));
     TRY(path_join(&r.lock_path, options->root, "lock"));
     if (options->resume != RUN_NEVER)
         TRY(check_owner(&r));
     if (!options->repair)
         TRY(survey(&r));
+    if (options->resume != RUN_NEVER && r.other.step)
+        TRY(unlike(options->root, r.other,
+                   *r.differs ? r.differs : "setting of output, cameras, fps or colours"));
     if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
         TRY(own_folder(&r));
     else

@@ -49,4 +49,7 @@ MUST_USE status run_job(struct job *job, const struct run_options *options);
 /* E_CHECKPOINT: the folder, whose job.yaml is `path`, holds `theirs` and not `ours`; says in what they differ. */
 status run_other_job(const char *root, const char *path, const struct job *theirs, const struct job *ours);
 
+/* E_CHECKPOINT: there are frames, and their files would be written otherwise now. OK: all would be alike. */
+MUST_USE status run_other_files(const char *root, const struct job *theirs, const struct job *ours);
+
 #endif

@@ -172,6 +172,7 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
         .ledger = frame->ledger,
         .n_changes = frame->n_changes,
     };
+    TRY(job_files_hash(job, &manifest.files_hash));
     for (size_t i = 0; i < frame->n_changes; i++) {
         snprintf(manifest.change[i].process, sizeof manifest.change[i].process, "%s",
                  frame->change[i].process);
