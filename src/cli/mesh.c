@@ -1,4 +1,4 @@
-/* hoodoo mesh OUT: each frame's surface as triangles, in PLY (with its fields) and OBJ. */
+/* hoodoo mesh OUT: each frame's surface as triangles, in PLY (with its fields), OBJ and USD. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -8,8 +8,27 @@
 #include "base/text.h"
 #include "cli/cli.h"
 #include "frame/meshes.h"
+#include "frame/stage.h"
 #include "job/job.h"
 #include "output/folder.h"
+
+/* Again while other tasks make meshes beside this one, so that whoever is the last has listed all. */
+static status list_in_stage(const struct job *job, const char *root)
+{
+    status st = OK;
+    uint64_t hash;
+    size_t before, n = 0;
+    TRY(folder_job_hash(root, &hash));
+    do {
+        int *frames = NULL;
+        before = n;
+        TRY(stage_write(job, hash, root, NULL));
+        TRY(folder_list(root, job->name, FILE_MESH_USD, &frames, &n));
+        free(frames);
+    } while (n != before);
+done:
+    return st;
+}
 
 status cli_mesh(int argc, char **argv)
 {
@@ -94,6 +113,8 @@ status cli_mesh(int argc, char **argv)
     }
     if (n_found == 0 && !allow_none)
         st = fail(E_INPUT, "%s holds no volumes of the frames asked for; run the job first", root.text);
+    else if (n_found)
+        st = list_in_stage(job, root.text);
 done:
     progress_end(&progress);
     free(frames);

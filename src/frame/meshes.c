@@ -98,12 +98,21 @@ static const char *part(bool rocks)
     return rocks ? "rocks" : NULL;
 }
 
-static status write_both(const struct meshes *m, bool rocks, int frame, struct mesh_file *file)
+static status put(const struct recipe *recipe, const struct meshes *m, enum folder_file kind, bool rocks,
+                  const void *bytes, size_t n)
+{
+    struct path path;
+    const status st = folder_name(&path, m->job->name, kind, recipe->frame, part(rocks));
+    return st == OK ? product_write(recipe, path.text, bytes, n) : st;
+}
+
+/* Rocks are in USD already, as instances. */
+static status write_files(const struct meshes *m, bool rocks, int frame, struct mesh_file *file)
 {
     status st = OK;
-    struct path path;
     char comment[400];
     struct text text = {0};
+    struct vdb_bytes usd = {0};
     struct recipe recipe = m->recipe;
     TRY(recipe_of_frame(&recipe, m->job->name, frame));
     snprintf(comment, sizeof comment, "hoodoo %s: %.255s, frame %d; metres, %s up", hoodoo_version,
@@ -111,18 +120,27 @@ static status write_both(const struct meshes *m, bool rocks, int frame, struct m
     file->name = m->job->name;
     file->comment = comment;
     file->up = m->job->output.up;
-    TRY(folder_name(&path, m->job->name, FILE_MESH, frame, part(rocks)));
     mesh_file_ply(file, &text);
     TRY(text_status(&text));
-    TRY(product_write(&recipe, path.text, text.data, text.size));
+    TRY(put(&recipe, m, FILE_MESH, rocks, text.data, text.size));
     text_free(&text);
-    TRY(folder_name(&path, m->job->name, FILE_OBJ, frame, part(rocks)));
     mesh_file_obj(file, &text);
     TRY(text_status(&text));
-    TRY(product_write(&recipe, path.text, text.data, text.size));
+    TRY(put(&recipe, m, FILE_OBJ, rocks, text.data, text.size));
+    if (rocks)
+        goto done;
+    TRY(usd_mesh(file, frame, m->job->fps, &usd));
+    TRY(put(&recipe, m, FILE_MESH_USD, rocks, usd.bytes, usd.size));
 done:
     text_free(&text);
+    free(usd.bytes);
     return st;
+}
+
+void meshes_prim(const struct job *job, struct usd_prim *out)
+{
+    const struct carried c = carried_by(job);
+    usd_mesh_prim(c.name, c.n, c.n_velocity > 0, out);
 }
 
 static status write_surface(const struct meshes *m, int frame)
@@ -156,7 +174,7 @@ static status write_surface(const struct meshes *m, int frame)
 #pragma omp parallel for
     for (size_t i = 0; i < mesh.n_vertices; i++)
         color_of(m->job, &carried, &mesh, i, color[i]);
-    TRY(write_both(
+    TRY(write_files(
         m, false, frame,
         &(struct mesh_file){.n_vertices = mesh.n_vertices,
                             .n_triangles = mesh.n_triangles,
@@ -262,14 +280,14 @@ static status write_rocks(const struct meshes *m, int frame)
         layer[i] = rocks_layer(m->job);
         palette_color(m->job, layer[i], color[i]);
     }
-    TRY(write_both(m, true, frame,
-                   &(struct mesh_file){.n_vertices = all.n_vertices,
-                                       .n_triangles = all.n_triangles,
-                                       .vertex = all.vertex,
-                                       .normal = normal,
-                                       .triangle = all.triangle,
-                                       .layer = layer,
-                                       .color = (const float(*)[3])color}));
+    TRY(write_files(m, true, frame,
+                    &(struct mesh_file){.n_vertices = all.n_vertices,
+                                        .n_triangles = all.n_triangles,
+                                        .vertex = all.vertex,
+                                        .normal = normal,
+                                        .triangle = all.triangle,
+                                        .layer = layer,
+                                        .color = (const float(*)[3])color}));
 done:
     for (size_t i = 0; shape && i < tile.n; i++)
         trimesh_free(&shape[i]);
@@ -300,15 +318,15 @@ done:
 
 status meshes_done(const struct meshes *m, int frame, bool *done)
 {
-    static const enum folder_file both[] = {FILE_MESH, FILE_OBJ};
+    static const enum folder_file kind[] = {FILE_MESH, FILE_OBJ, FILE_MESH_USD};
     status st = OK;
     struct path path;
     struct recipe recipe = m->recipe;
     *done = true;
     TRY(recipe_of_frame(&recipe, m->job->name, frame));
     for (int rocks = 0; rocks <= has_rocks(m); rocks++)
-        for (int e = 0; e < 2 && *done; e++) {
-            TRY(folder_name(&path, m->job->name, both[e], frame, part(rocks)));
+        for (int e = 0; e < (rocks ? 2 : 3) && *done; e++) {
+            TRY(folder_name(&path, m->job->name, kind[e], frame, part(rocks)));
             TRY(product_done(&recipe, path.text, true, done));
         }
 done:

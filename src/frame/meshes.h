@@ -13,6 +13,7 @@
 
 #include "job/job.h"
 #include "output/product.h"
+#include "output/usd.h"
 
 struct meshes {
     struct recipe recipe; /* of no frame yet */
@@ -22,9 +23,12 @@ struct meshes {
     bool rocks;        /* also mesh/NAME.rocks.FRAME, where the job has piles */
 };
 
-/* mesh/NAME.FRAME.ply and .obj; a vertex' layer is that of the nearest particle, or of its height where the
+/* mesh/NAME.FRAME.ply, .obj and, of the surface, .usdc; a vertex' layer is that of the nearest particle, or of its height where the
  * frame has no points. */
 MUST_USE status meshes_write(const struct meshes *m, int frame);
+
+/* What their USD files have. */
+void meshes_prim(const struct job *job, struct usd_prim *out);
 
 /* Are they there, whole, made by this command of the frame that is there? E_MEMORY. */
 MUST_USE status meshes_done(const struct meshes *m, int frame, bool *done);

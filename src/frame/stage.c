@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "field/camera.h"
+#include "frame/meshes.h"
 #include "frame/rocks.h"
 #include "job/palette.h"
 #include "output/axes.h"
@@ -23,8 +24,8 @@ struct stage {
     bool last; /* it is not written again after this */
     struct usd_sequence sequence;
     struct usd_field field[MAX_FIELDS];
-    int *volumes, *points, *rocks; /* frames */
-    struct usd_camera *camera;     /* their keys are owned too */
+    int *volumes, *meshes, *points, *rocks; /* frames */
+    struct usd_camera *camera;              /* their keys are owned too */
 };
 
 /* ---- frames */
@@ -111,6 +112,40 @@ static status list_frames(struct stage *s, const struct stage_frames *known)
             s->rocks[q->n_rocks++] = f->number;
     }
 done:
+    return st;
+}
+
+/* Meshes are nobody's frame's, and come later: those that were made of the frames that are there. */
+static status list_meshes(struct stage *s, const struct stage_frames *known)
+{
+    status st = OK;
+    struct usd_sequence *q = &s->sequence;
+    int *there = NULL;
+    size_t n, k = 0;
+    TRY(folder_list(s->root, s->job->name, FILE_MESH_USD, &there, &n));
+    TRY(memory_alloc(n, sizeof *s->meshes, "frame numbers", &s->meshes));
+    for (size_t i = 0; i < n; i++) {
+        struct path path;
+        struct product product = {0};
+        while (k < known->n && known->frame[k].number < there[i])
+            k++;
+        if (k == known->n || known->frame[k].number != there[i])
+            continue;
+        TRY(folder_name(&path, s->job->name, FILE_MESH_USD, there[i], NULL));
+        st = product_read(s->root, path.text, &product);
+        if (st == OK)
+            st = product_check(s->root, s->job->name, &product, false);
+        product_free(&product);
+        if (st == E_MEMORY)
+            goto done;
+        if (st == OK)
+            s->meshes[q->n_meshes++] = there[i];
+        st = OK;
+    }
+    meshes_prim(s->job, &q->mesh);
+    q->meshes_frame = s->meshes;
+done:
+    free(there);
     return st;
 }
 
@@ -333,12 +368,15 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
     if (known->n == 0)
         goto done;
     TRY(list_frames(&s, known));
+    TRY(list_meshes(&s, known));
     TRY(find_fields(&s));
     TRY(find_cameras(&s));
     s.sequence.field = s.field;
     s.sequence.volumes_frame = s.volumes;
     s.sequence.points_frame = s.points;
     s.sequence.rocks_frame = s.rocks;
+    if (s.sequence.n_meshes)
+        TRY(put_clips(&s, &s.sequence.mesh));
     if (s.sequence.n_points)
         TRY(put_clips(&s, usd_points_prim(s.sequence.moves)));
     if (s.sequence.n_rocks) {
@@ -351,6 +389,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
 done:
     stage_frames_free(&all);
     free(s.volumes);
+    free(s.meshes);
     free(s.points);
     free(s.rocks);
     for (size_t i = 0; i < s.sequence.n_cameras; i++)

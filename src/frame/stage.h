@@ -1,7 +1,7 @@
 /* The sequence as one USD stage, root/NAME.usda: what a lighter opens.
  *
- * It names the frames that are done, so that a run that goes on can be looked at, and is no frame's file: no
- * manifest lists it. The same frames give the same bytes.
+ * It names the frames that are done, so that a run that goes on can be looked at, and the meshes made of them. It is no frame's
+ * file: no manifest lists it. The same frames give the same bytes.
  */
 #ifndef HOODOO_STAGE_H
 #define HOODOO_STAGE_H

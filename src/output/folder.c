@@ -38,6 +38,7 @@ static const struct {
     [FILE_WEDGES] = {NULL, "wedges.png"},
     [FILE_STAGE] = {NULL, "usda"},
     [FILE_WIND] = {"wind", "vdb"},
+    [FILE_MESH_USD] = {"mesh", "usdc"},
 };
 /* Made by who fills them: rocks, stacks and wind by the writer, the others by their verbs: mesh, preview, turntable, report, log. */
 static const enum folder_file always[] = {FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST,

@@ -31,7 +31,8 @@ enum folder_file { /* VDBs hold a hash of theirs: new ones come last */
                    FILE_VIDEO,
                    FILE_WEDGES, /* the sheet across a farm's wedges */
                    FILE_STAGE,
-                   FILE_WIND
+                   FILE_WIND,
+                   FILE_MESH_USD
 };
 
 /* points/NAME.1001.vdb and so on, relative to the output folder: `name` is the job's. `part`: put in the name

@@ -101,6 +101,8 @@ static void add_volume(struct text *t, const struct usd_sequence *s, const char 
     text_add(t, ", ");
     add_vector(t, s->high, 3);
     text_add(t, "]\n");
+    if (s->n_meshes)
+        text_add(t, "        token visibility = \"invisible\"\n");
     for (size_t i = 0; i < s->n_fields; i++) {
         identifier(s->field[i].name, name);
         text_add(t, "        rel field:%s = </%s/rock/%s>\n", name, root, name);
@@ -123,12 +125,12 @@ static void add_declarations(struct text *t, const struct usd_prim *prim, const 
 
 /* A prim whose values are in a file a frame; its braces stay open. */
 static void begin_clips(struct text *t, const struct usd_sequence *s, const struct usd_prim *prim,
-                        const int *frame, size_t n)
+                        const int *frame, size_t n, const char *schemas)
 {
     text_add(t,
-             "\n    def %s \"%s\" (\n        clips = {\n            dictionary default = {\n"
+             "\n    def %s \"%s\" (\n%s        clips = {\n            dictionary default = {\n"
              "                double2[] active = [",
-             prim->type, prim->name);
+             prim->type, prim->name, schemas);
     for (size_t i = 0; i < n; i++)
         text_add(t, "%s(%d, %zu)", i ? ", " : "", frame[i], i);
     text_add(t, "]\n                asset[] assetPaths = [");
@@ -146,16 +148,49 @@ static void begin_clips(struct text *t, const struct usd_sequence *s, const stru
     add_declarations(t, prim, "        ");
 }
 
+/* Triangles are what they are: no subdivision. */
+static void add_meshes(struct text *t, const struct usd_sequence *s, const char *root)
+{
+    begin_clips(t, s, &s->mesh, s->meshes_frame, s->n_meshes,
+                "        prepend apiSchemas = [\"MaterialBindingAPI\"]\n");
+    text_add(t,
+             "        rel material:binding = </%s/looks/sandstone>\n        uniform token orientation = "
+             "\"rightHanded\"\n        uniform token subdivisionScheme = \"none\"\n    }\n",
+             root);
+}
+
+/* Rock of its strata's colours. */
+static void add_looks(struct text *t, const char *root)
+{
+    text_add(
+        t,
+        "\n    def Scope \"looks\"\n    {\n        def Material \"sandstone\"\n        {\n"
+        "            token outputs:surface.connect = </%s/looks/sandstone/surface.outputs:surface>\n\n"
+        "            def Shader \"color\"\n            {\n"
+        "                uniform token info:id = \"UsdPrimvarReader_float3\"\n"
+        "                float3 inputs:fallback = (0.5, 0.5, 0.5)\n"
+        "                string inputs:varname = \"displayColor\"\n"
+        "                float3 outputs:result\n            }\n\n"
+        "            def Shader \"surface\"\n            {\n"
+        "                uniform token info:id = \"UsdPreviewSurface\"\n"
+        "                color3f inputs:diffuseColor.connect = </%s/looks/sandstone/color.outputs:result>\n"
+        "                float inputs:roughness = 0.9\n                float inputs:specular = 0.1\n"
+        "                token outputs:surface\n            }\n        }\n    }\n",
+        root, root);
+}
+
 static void add_points(struct text *t, const struct usd_sequence *s)
 {
-    begin_clips(t, s, usd_points_prim(s->moves), s->points_frame, s->n_points);
+    begin_clips(t, s, usd_points_prim(s->moves), s->points_frame, s->n_points, "");
+    if (s->n_meshes)
+        text_add(t, "        uniform token purpose = \"proxy\"\n");
     text_add(t, "    }\n");
 }
 
 /* Prototypes below an instancer show only where it puts them. */
 static void add_rocks(struct text *t, const struct usd_sequence *s, const char *root)
 {
-    begin_clips(t, s, &usd_rocks_prim, s->rocks_frame, s->n_rocks);
+    begin_clips(t, s, &usd_rocks_prim, s->rocks_frame, s->n_rocks, "");
     text_add(t, "        rel prototypes = [");
     for (size_t i = 0; i < s->n_shapes; i++)
         text_add(t, "%s</%s/rocks/prototypes/rock_%zu>", i ? ", " : "", root, i);
@@ -277,12 +312,16 @@ void usd_stage(const struct usd_sequence *s, struct text *t)
     text_add(t, "\ndef Xform \"%s\" (\n    kind = \"component\"\n)\n{", root);
     if (s->n_volumes && s->n_fields)
         add_volume(t, s, root);
+    if (s->n_meshes)
+        add_meshes(t, s, root);
     if (s->n_points)
         add_points(t, s);
     if (s->n_rocks)
         add_rocks(t, s, root);
     if (s->n_cameras)
         add_cameras(t, s);
+    if (s->n_meshes)
+        add_looks(t, root);
     text_add(t, "}\n");
 }
 

@@ -1,10 +1,12 @@
 /* USD of a sequence: a stage as text, and the rock's surface as points in crate files. Written by hand: USD's
  * own library is no part of hoodoo.
  *
- * NAME.usda          the stage (usd_stage): the volumes' VDBs as OpenVDBAsset fields, the points as value
- *                    clips, the cameras
+ * NAME.usda          the stage (usd_stage): the volumes' VDBs as OpenVDBAsset fields, meshes and points as value
+ *                    clips, the cameras. Where there are meshes they are what is rendered: the volumes are invisible and points
+ *                    are a proxy
  * points/NAME.1001.usdc      one frame's surface particles (usd_points), as a Points prim </points>
  * points/NAME.clips.usda     what these files may hold (usd_clips): USD's manifest of the clips
+ * mesh/NAME.1001.usdc        one frame's surface (usd_mesh), as a Mesh prim </surface>; mesh/NAME.clips.usda
  * rocks/NAME.1001.usdc       one frame's rocks (usd_rocks), as a PointInstancer </rocks>; rocks/NAME.clips.usda
  * rocks/NAME.shapes.usda     their shapes (usd_shapes), which the stage has as the instancer's prototypes
  *
@@ -18,6 +20,7 @@
 #define HOODOO_USD_H
 
 #include "base/text.h"
+#include "output/mesh_file.h"
 #include "output/usd_crate.h"
 #include "output/vdb.h"
 #include "particles/rock.h"
@@ -49,10 +52,12 @@ struct usd_sequence {
     double fps;
     bool moves; /* points have velocities */
     int up;     /* OUTPUT_UP_* */
-    size_t n_fields, n_volumes, n_points, n_rocks, n_cameras;
+    size_t n_fields, n_volumes, n_meshes, n_points, n_rocks, n_cameras;
     const struct usd_field *field;
     double low[3], high[3];   /* m: the box of all fields, in the files' axes */
     const int *volumes_frame; /* those there are, ascending */
+    const int *meshes_frame;
+    struct usd_prim mesh; /* what their files have */
     const int *points_frame;
     const int *rocks_frame;
     size_t n_shapes; /* of rocks */
@@ -66,6 +71,13 @@ void usd_clips(const struct usd_sequence *s, const struct usd_prim *prim, struct
  * that are fields (IN_USD of values.def). out->bytes is freed with free(). E_OUTPUT: more than a file can number. */
 MUST_USE status usd_points(const struct rock *rock, const struct vdb_options *options, double fps,
                            struct vdb_bytes *out);
+
+/* What files of such meshes have: `value` are names of values. */
+void usd_mesh_prim(const char *const *value, size_t n, bool moves, struct usd_prim *out);
+
+/* Triangles: points, normals, the layer's colour, velocities of what moves, and the values as primvars. out->bytes is freed with
+ * free(). */
+MUST_USE status usd_mesh(const struct mesh_file *mesh, int frame, double fps, struct vdb_bytes *out);
 
 /* The rocks: positions, shapes, ids that stay with a rock, no turns. As above. */
 MUST_USE status usd_rocks(const struct frame_rocks *rocks, const struct vdb_options *options, double fps,

@@ -289,6 +289,33 @@ static void add_prims(struct crate *c, int up, int frame, double fps)
     end_spec(c);
 }
 
+/* ---- what a prim has */
+
+void usd_prim_add(struct usd_prim *prim, int which[USD_ATTRIBUTES_MAX], struct usd_attribute attribute,
+                  int is)
+{
+    size_t i = prim->n++;
+    for (; i > 0 && strcmp(prim->attribute[i - 1].name, attribute.name) > 0; i--) {
+        prim->attribute[i] = prim->attribute[i - 1];
+        which[i] = which[i - 1];
+    }
+    prim->attribute[i] = attribute;
+    which[i] = is;
+}
+
+struct usd_attribute usd_primvar(enum value_id value)
+{
+    static const char *const name[VALUES] = {
+        "",
+#define VALUE(name, unit, symbol, of, from, kind, has, where, bits, layer, channels, legend, meaning)        \
+    "primvars:" #name,
+#include "job/values.def"
+    };
+    return value_table[value].kind == KIND_ID
+               ? (struct usd_attribute){name[value], "int[]", USD_INT, 4, "vertex"}
+               : (struct usd_attribute){name[value], "float[]", USD_FLOAT, 4, "vertex"};
+}
+
 status usd_crate(const struct usd_prim *prim, const struct usd_items *items, int up, int frame, double fps,
                  struct vdb_bytes *out)
 {

@@ -37,6 +37,13 @@ struct usd_prim {
     struct usd_attribute attribute[USD_ATTRIBUTES_MAX]; /* by name */
 };
 
+/* One more attribute, in its place; which[], of each attribute, gets `is` there: readers of crates look for them by name. */
+void usd_prim_add(struct usd_prim *prim, int which[USD_ATTRIBUTES_MAX], struct usd_attribute attribute,
+                  int is);
+
+/* A value as a primvar of vertices or points. */
+struct usd_attribute usd_primvar(enum value_id value);
+
 const struct usd_prim *usd_points_prim(bool moves); /* usd_points.c */
 extern const struct usd_prim usd_rocks_prim;        /* usd_rocks.c */
 

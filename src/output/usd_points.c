@@ -19,13 +19,6 @@ static const struct usd_attribute own[OWN] = {
     [VELOCITIES] = {"velocities", "vector3f[]", USD_VEC3F, 12, ""},
     [WIDTHS] = {"widths", "float[]", USD_FLOAT, 4, "constant"}};
 
-static const char *const primvar[VALUES] = {
-    "",
-#define VALUE(name, unit, symbol, of, from, kind, has, where, bits, layer, channels, legend, meaning)        \
-    "primvars:" #name,
-#include "job/values.def"
-};
-
 /* The prim, of rock that stands still and of rock that moves, and for each of its attributes which of `own` it is, or OWN and
  * the value. */
 static struct usd_prim prim[2] = {{.name = "points", .type = "Points", .folder = "points"},
@@ -33,32 +26,15 @@ static struct usd_prim prim[2] = {{.name = "points", .type = "Points", .folder =
 static int which[2][USD_ATTRIBUTES_MAX];
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-/* In by name: a crate's readers look for attributes in that order. */
-static void insert(int moves, struct usd_attribute attribute, int is)
-{
-    struct usd_prim *p = &prim[moves];
-    size_t i = p->n++;
-    for (; i > 0 && strcmp(p->attribute[i - 1].name, attribute.name) > 0; i--) {
-        p->attribute[i] = p->attribute[i - 1];
-        which[moves][i] = which[moves][i - 1];
-    }
-    p->attribute[i] = attribute;
-    which[moves][i] = is;
-}
-
 static void make_prims(void)
 {
     for (int moves = 0; moves < 2; moves++) {
         for (int i = 0; i < OWN; i++)
             if (moves || i != VELOCITIES)
-                insert(moves, own[i], i);
+                usd_prim_add(&prim[moves], which[moves], own[i], i);
         for (int v = 1; v < VALUES; v++)
             if (value_table[v].where & IN_USD)
-                insert(moves,
-                       value_table[v].kind == KIND_ID
-                           ? (struct usd_attribute){primvar[v], "int[]", USD_INT, 4, "vertex"}
-                           : (struct usd_attribute){primvar[v], "float[]", USD_FLOAT, 4, "vertex"},
-                       OWN + v);
+                usd_prim_add(&prim[moves], which[moves], usd_primvar((enum value_id)v), OWN + v);
     }
 }
 

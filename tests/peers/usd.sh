@@ -25,3 +25,19 @@ for up in y z; do
     "$HOODOO" run "$rocks" --set "output.up=$up" --out "rocks_$up" --progress none >log 2>&1 || sed 's/^/not ok rocks: /' log
     "$python" "$HOODOO_TOP/tests/peers/lib/in_usd_rocks.py" "rocks_$up" "$up"
 done
+for up in y z; do
+    "$HOODOO" mesh "out_$up" --progress none >log 2>&1 || sed 's/^/not ok meshes: /' log
+    "$python" "$HOODOO_TOP/tests/peers/lib/in_usd_mesh.py" "out_$up" "$up"
+done
+shot=$HOODOO_TOP/tests/gpu/falling.yaml
+"$HOODOO" run "$shot" --out shot --set output.up=z --progress none >log 2>&1 && "$HOODOO" mesh shot --progress none >>log 2>&1 || sed 's/^/not ok a shot: /' log
+"$python" - <<'EOF'
+import numpy as np
+from pxr import Usd, UsdGeom
+stage = Usd.Stage.Open("shot/falling.usda")
+for prim in (UsdGeom.Points(stage.GetPrimAtPath("/falling/points")), UsdGeom.Mesh(stage.GetPrimAtPath("/falling/surface"))):
+    v, at = np.array(prim.GetVelocitiesAttr().Get(1003)), np.array(prim.GetPointsAttr().Get(1003))
+    block = (at[:, 0] > 9.6) & (at[:, 2] > 0.6)
+    good = len(v) == len(at) and np.abs(v).max() < 30 and v[block][:, 2].mean() != 0
+    print("ok" if good else "not ok", prim.GetPrim().GetName(), "of a shot have velocities")
+EOF
