@@ -38,7 +38,7 @@ SHADER = $(shell find shaders -name '*.comp.glsl')
 KERNELS = $(sort $(patsubst shaders/%/,%,$(dir $(SHADER)))) kernels
 SHIM_OBJ = $(SHIM:%.cpp=$(SHARE)/%.o)
 LIB_OBJ = $(patsubst %.c,$(BUILD)/%.o,$(filter-out $(wildcard src/*.c),$(SRC))) $(SHIM_OBJ) \
-	$(KERNELS:%=$(BUILD)/gen/gpu/%.o) $(BUILD)/gen/render/scene_parts.o
+	$(KERNELS:%=$(BUILD)/gen/gpu/%.o) $(BUILD)/gen/render/scene_parts.o $(BUILD)/gen/cli/examples.o
 TEST_SRC = $(wildcard tests/*/test_*.c)
 TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
 BENCH_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/*.c)) $(BUILD)/tests/bench/surface
@@ -139,9 +139,17 @@ $(BUILD)/gen/gpu/%.o: $(SHARE)/gen/gpu/%.c $(SHARE)/gen/gpu/kernels.h src/gpu/ke
 # ---- scenes and the report's page: POV-Ray text, HTML, CSS and JavaScript, embedded as lines
 
 SCENE = $(sort $(wildcard render/*.inc render/*.css render/*.js render/*.html))
-$(SHARE)/gen/render/scene_parts.c: $(SCENE) render/embed.sh
-	$(Q)mkdir -p $(@D) && sh render/embed.sh $(SCENE) > $@.tmp && mv $@.tmp $@
+$(SHARE)/gen/render/scene_parts.c: $(SCENE) src/embed_text.sh
+	$(Q)mkdir -p $(@D) && sh src/embed_text.sh $(SCENE) > $@.tmp && mv $@.tmp $@
 $(BUILD)/gen/render/scene_parts.o: $(SHARE)/gen/render/scene_parts.c render/scene_parts.h render/page_parts.h
+	@echo "cc $<"
+	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
+
+# Jobs that need no other file.
+EXAMPLES = $(filter-out $(patsubst %.png,%.yaml,$(wildcard jobs/*.png)),$(sort $(wildcard jobs/*.yaml)))
+$(SHARE)/gen/cli/examples.c: $(EXAMPLES) src/embed_text.sh
+	$(Q)mkdir -p $(@D) && sh src/embed_text.sh $(EXAMPLES) > $@.tmp && mv $@.tmp $@
+$(BUILD)/gen/cli/examples.o: $(SHARE)/gen/cli/examples.c src/cli/examples.h
 	@echo "cc $<"
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
@@ -203,7 +211,7 @@ lint: $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.h
 # OpenVDB's templates, which take minutes to compile with checks, and what its threads wait for in a library that has none
 # the thread sanitizer cannot see. They share what stands beside hoodoo, too, and its hash: a reader's limit on memory leaves no
 # room for what a sanitizer reserves. Of the cases that are many they take a quarter (tests/effort.h), for all take too long.
-SHARED = $(KERNELS:%=$(SHARE)/gen/gpu/%.c) $(SHARE)/gen/render/scene_parts.c $(SHARE)/gen/build $(SHIM_OBJ) $(BESIDE)
+SHARED = $(KERNELS:%=$(SHARE)/gen/gpu/%.c) $(SHARE)/gen/render/scene_parts.c $(SHARE)/gen/cli/examples.c $(SHARE)/gen/build $(SHIM_OBJ) $(BESIDE)
 SANITIZED = SHARE=$(SHARE) OPT='-O1 -g1' HOODOO_TEST_EFFORT=$(or $(HOODOO_TEST_EFFORT),0.25) test-sanitized
 ## test-asan: the unit and gpu tests under the address, leak and undefined behaviour sanitizers
 test-asan: $(SHARED)

@@ -7,6 +7,7 @@
 #include "base/build.h"
 #include "base/log.h"
 #include "base/nearest.h"
+#include "base/text.h"
 #include "base/version.h"
 #include "cli/cli.h"
 
@@ -24,8 +25,14 @@ enum { N_VERBS = sizeof verbs / sizeof *verbs };
 static void print_help(void)
 {
     printf("usage: hoodoo VERB [OPTIONS] ...\n\nErodes sandstone, frame by frame, for render farms.\n\n");
-    for (size_t i = 0; i < N_VERBS; i++)
-        printf("  %-8s %-5s %s\n", verbs[i].name, verbs[i].operands, verbs[i].summary);
+    enum { COLUMN = 24, WIDTH = 80 };
+    for (size_t i = 0; i < N_VERBS; i++) {
+        struct text t = {0};
+        text_add(&t, "  %-8s %-*s", verbs[i].name, COLUMN - 12, verbs[i].operands);
+        text_add_wrapped(&t, verbs[i].summary, COLUMN - 1, COLUMN, WIDTH);
+        printf("%s", t.data ? t.data : "");
+        text_free(&t);
+    }
     printf("\n'hoodoo VERB -h' explains a verb. Exit codes:\n");
 #define CODE_LINE(name, code, text) printf("  %-3d %s\n", code, text);
     STATUS_MAP(CODE_LINE)

@@ -158,3 +158,22 @@ void json_bool(struct text *t, const char *key, bool value)
     member(t, key);
     text_add(t, "%s", value ? "true" : "false");
 }
+
+void text_add_wrapped(struct text *t, const char *words, int at, int indent, int width)
+{
+    bool begun = at > 0; /* something is in this line */
+    while (*words) {
+        const int n = (int)strcspn(words, " \n");
+        if (n > 0 && begun && at + 1 + n > width) {
+            text_add(t, "\n");
+            begun = false;
+        }
+        if (n > 0) {
+            text_add(t, "%*s%.*s", begun ? 1 : indent, "", n, words);
+            at = (begun ? at + 1 : indent) + n;
+            begun = true;
+        }
+        words += n + (words[n] != 0);
+    }
+    text_add(t, "\n");
+}

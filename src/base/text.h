@@ -32,6 +32,10 @@ MUST_USE status text_status(const struct text *t);
 
 /* JSON, one member a line, two spaces a level. `key` is NULL inside arrays. Numbers are the shortest decimals
  * that read back as the same double; text is escaped; non-finite numbers become null. */
+/* Words in lines of `width` columns, each begun by `indent` spaces but for the first, which goes on at column `at`; ends the last
+ * line. */
+void text_add_wrapped(struct text *t, const char *words, int at, int indent, int width);
+
 void json_object(struct text *t, const char *key);
 void json_array(struct text *t, const char *key);
 void json_end_object(struct text *t);

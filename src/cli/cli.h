@@ -14,12 +14,15 @@
 /*    verb     operands  what it does */
 #define VERBS(X)                                                                                             \
     X(run, "JOB", "simulate; resumes by itself when the output folder already holds part of this job")       \
+    X(new, "[NAME]", "a commented job to begin with, NAME.yaml, from one of the examples")                   \
+    X(keys, "[WHAT]",                                                                                        \
+      "what may stand in a job: the keys of a section, one key, or all that speak of a word")                \
     X(plan, "JOB",                                                                                           \
       "what it would do: frames, particles, memory, disk, time, farm tasks (nothing is written)")            \
     X(status, "OUT", "frames done, missing and damaged, checkpoints, rate, time left")                       \
     X(verify, "OUT", "re-read every file against its manifest; names each damaged or missing one")           \
     X(aov, "OUT", "render AOVs again from the frames' VDBs: other cameras, resolution, layers")              \
-    X(mesh, "OUT", "a surface mesh per frame (PLY and OBJ)")                                                 \
+    X(mesh, "OUT", "a surface mesh per frame (PLY, OBJ, USD)")                                               \
     X(submit, "JOB [ARG...]", "hand it to this machine's devices, to Slurm, or write an OpenJD template")    \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
     X(report, "OUT", "one static HTML page: pictures, curves, provenance, timing")                           \

@@ -221,6 +221,13 @@ struct job_input {
 /* All of them in order of appearance, in *out (freed with free()). E_INPUT if one cannot be read. */
 MUST_USE status job_inputs(const struct job *job, struct job_input **out, size_t *n);
 
+/* Keys for people, in lines of `width`: all sections (`what` NULL), the keys of one ("wind", "box"), one key ("wind.speed_m_s",
+ * "strata.0.to_m"), or every key that has the word in its path, meaning or unit. E_USAGE: none has; the nearest is named. */
+MUST_USE status job_keys(const char *what, int width, struct text *out);
+
+/* The keys as a JSON Schema. */
+MUST_USE status job_schema(struct text *out);
+
 /* The reference page jobs/README.md, as Markdown. */
 MUST_USE status job_reference(struct text *out);
 

@@ -3,6 +3,7 @@
 
 #include "job/table.h"
 #include "job/values.h"
+#include "job/words.h"
 
 static const char intro[] =
     "# Job files\n"
@@ -70,116 +71,31 @@ static void put_cell(struct text *t, const char *s)
         text_add(t, *s == '|' || *s == '<' || *s == '*' ? "\\%c" : "%c", *s);
 }
 
-static const char *type_name(const struct job_key *key)
-{
-    switch (key->type) {
-    case KEY_TEXT:
-        return key->n ? "text or number" : "text";
-    case KEY_NAME:
-        return "name";
-    case KEY_INPUT:
-        return "file name";
-    case KEY_NUM:
-        return "number";
-    case KEY_CURVE:
-        return "curve";
-    case KEY_TRACK:
-        return "curve of points";
-    case KEY_INT:
-        return "whole number";
-    case KEY_BOOL:
-        return "true or false";
-    case KEY_CHOICE:
-        return "word";
-    case KEY_VEC:
-        return "numbers";
-    case KEY_RANGE:
-        return "frame range";
-    case KEY_SUB:
-        return "mapping";
-    case KEY_LIST:
-        return "list of mappings";
-    case KEY_MAP:
-        return "mapping of names";
-    case KEY_NODE:
-        return "shape";
-    case KEY_POINTS:
-        return "list of points";
-    case KEY_NAMES:
-        return "list of names";
-    case KEY_MAYBE:
-        return "mapping";
-    case KEY_RANGES:
-        return "list of frame ranges";
-    case KEY_SETS:
-        return "mapping of key paths";
-    case KEY_TEXTS:
-        return "list of values";
-    }
-    return "";
-}
-
 static void put_default(struct text *t, const struct job_key *key)
 {
-    char number[32];
+    struct text words = {0};
     if (key_required(key)) {
         text_add(t, "**required**");
         return;
     }
-    switch (key->type) {
-    case KEY_NUM:
-    case KEY_CURVE:
-    case KEY_INT:
-        text_add(t, "`%s`", key_number(key->number, number));
-        break;
-    case KEY_BOOL:
-        text_add(t, key->number != 0 ? "`true`" : "`false`");
-        break;
-    case KEY_TEXT:
-    case KEY_NAME:
-    case KEY_INPUT:
-        text_add(t, "`\"%s\"`", key->preset);
-        break;
-    case KEY_CHOICE:
-    case KEY_VEC:
-    case KEY_TRACK:
-    case KEY_RANGE:
-        text_add(t, "`%s`", key->preset);
-        break;
-    case KEY_LIST:
-    case KEY_POINTS:
-    case KEY_NAMES:
-    case KEY_RANGES:
-    case KEY_TEXTS:
-        text_add(t, "`[]`");
-        break;
-    case KEY_MAP:
-    case KEY_SETS:
-        text_add(t, "`{}`");
-        break;
-    case KEY_SUB:
-    case KEY_MAYBE:
-    case KEY_NODE:
-        break;
-    }
+    key_default_words(key, &words);
+    if (words.size)
+        text_add(t, "`%s`", words.data);
+    text_free(&words);
 }
 
 static void put_row(struct text *t, const struct job_key *key)
 {
-    char range[256] = "", low[32], high[32];
+    char range[256];
     text_add(t, "| `%s`%s | ", key->name, key_simulates(key) ? "" : key_files(key) ? " \u2021" : " \u2020");
     if (key->type == KEY_VEC)
         text_add(t, "%zu ", key->n);
-    text_add(t, "%s%s", type_name(key), key->unit[0] ? ", " : "");
+    text_add(t, "%s%s", key_type_words(key), key->unit[0] ? ", " : "");
     put_cell(t, key->unit);
     text_add(t, " | ");
     put_default(t, key);
     text_add(t, " | ");
-    if (key->type == KEY_CHOICE)
-        key_allowed(key, range);
-    else if (key->type == KEY_NUM || key->type == KEY_CURVE || key->type == KEY_INT || key->type == KEY_VEC)
-        snprintf(range, sizeof range, "%s .. %s", key_number(key->min, low), key_number(key->max, high));
-    text_add(t, "%s | ", range);
+    text_add(t, "%s | ", key_range_words(key, range));
     put_cell(t, key->meaning);
     text_add(t, " | ");
     put_cell(t, key->source);

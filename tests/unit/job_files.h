@@ -104,6 +104,15 @@ static inline uint64_t hash_of_text(const char *text)
     return hash;
 }
 
+static inline uint64_t files_hash_of_text(const char *text)
+{
+    struct job *job = load_good(text);
+    uint64_t hash = 0;
+    assert_int_equal(job_files_hash(job, &hash), OK);
+    job_destroy(&job);
+    return hash;
+}
+
 /* `text` with its first `from` replaced by `to`; freed with free(). */
 static inline char *swapped(const char *text, const char *from, const char *to)
 {

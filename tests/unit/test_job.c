@@ -262,12 +262,12 @@ static void the_hash_ignores_how_a_job_is_written(void **state)
     static const char one[] = "name: a\nframes: 1-2\ndomain: {size_m: [1, 2, 3], spacing_m: 0.5}\n"
                               "scene: {sphere: {center_m: [0, 0, 0], radius_m: 1}}\nwind: {speed_m_s: 10}\n";
     static const char other[] =
-        "# another name, frames, order, spelling; defaults written out; cameras\n"
+        "# another name, other frames but for the first, order, spelling; defaults written out; cameras\n"
         "wind:\n    speed_m_s: {1500: 1.0e+1, ease: step}\n    direction: [1.0, -0.0, 0]\n"
         "scene:\n  sphere:\n    radius_m: +1.00\n    inert: false\n    center_m:\n    - -0\n    - 0\n    - "
         "0\n"
         "domain: {spacing_m: 5e-1, size_m: [1, 2.0, 3]}\n"
-        "frames: 1001-1100\nname: b\nfps: 30\ncameras: {c: {}}\noutput: {aov: {cameras: [c]}, up: z}\n"
+        "frames: 1-1100x3\nname: b\nfps: 30\ncameras: {c: {}}\noutput: {aov: {cameras: [c]}, up: z}\n"
         "checkpoint: {every: 3}\nstrata: []\nseed: 1\n";
     assert_true(hash_of_text(one) == hash_of_text(other));
 }
@@ -289,6 +289,7 @@ static void the_hash_sees_what_is_simulated(void **state)
         {"amplitude: 0.15", "amplitude: 0.16"},
         {"strong_m_per_kyr: 0.002", "strong_m_per_kyr: 0.003"},
         {"[0.8, 0.6, 0]", "[0.6, 0.8, 0]"},
+        {"1001-1110x2", "1000-1110x2"}, /* ages count from the first frame */
     };
     static const char *const same[][2] = {
         {"name: arch", "name: other"}, {"1001-1110x2", "1001-1200"},
@@ -298,7 +299,8 @@ static void the_hash_sees_what_is_simulated(void **state)
         {"# sandstone", "# granite"},  {"to_m: 48", "to_m: 48\n    color: [1, 1, 1]"},
         {"2.3e3", "2300.0"},           {"  top-2: {position_m: [0, 0, 99]}\n", "  top-2: {}\n  third: {}\n"},
     };
-    uint64_t hash = hash_of_text(good_job);
+    const bool in_files[] = {false, false, true, true, true, true, true, false, false, true, false, true};
+    uint64_t hash = hash_of_text(good_job), files = files_hash_of_text(good_job);
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         char *text = swapped(good_job, changes[i][0], changes[i][1]);
         if (hash_of_text(text) == hash)
@@ -309,6 +311,8 @@ static void the_hash_sees_what_is_simulated(void **state)
         char *text = swapped(good_job, same[i][0], same[i][1]);
         if (hash_of_text(text) != hash)
             fail_msg("%s changes the hash", same[i][1]);
+        if ((files_hash_of_text(text) != files) != in_files[i])
+            fail_msg("%s %s what files have", same[i][1], in_files[i] ? "does not change" : "changes");
         free(text);
     }
 }
@@ -404,16 +408,15 @@ static void a_job_without_files_has_no_inputs(void **state)
     job_destroy(&job);
 }
 
-/* HOODOO_UPDATE=1 build/tests/unit/test_job writes the page anew. */
-static void the_reference_page_is_up_to_date(void **state)
+/* HOODOO_UPDATE=1 build/tests/unit/test_job writes the files anew. */
+static void up_to_date(const char *file, status (*make)(struct text *out))
 {
-    (void)state;
     const char *top = getenv("HOODOO_TOP");
     char path[4096], *page = NULL;
     size_t n = 0;
     struct text t = {0};
-    snprintf(path, sizeof path, "%s/jobs/README.md", top ? top : ".");
-    assert_int_equal(job_reference(&t), OK);
+    snprintf(path, sizeof path, "%s/jobs/%s", top ? top : ".", file);
+    assert_int_equal(make(&t), OK);
     if (getenv("HOODOO_UPDATE"))
         assert_int_equal(atomic_file_write(path, t.data, t.size), OK);
     assert_int_equal(file_read(path, 1 << 20, &page, &n), OK);
@@ -421,6 +424,13 @@ static void the_reference_page_is_up_to_date(void **state)
         fail_msg("%s is not what the key table says; run test_job with HOODOO_UPDATE=1", path);
     free(page);
     text_free(&t);
+}
+
+static void reference_page_and_schema_are_up_to_date(void **state)
+{
+    (void)state;
+    up_to_date("README.md", job_reference);
+    up_to_date("schema.json", job_schema);
 }
 
 static void the_example_of_the_reference_page_loads(void **state)
@@ -456,7 +466,7 @@ int main(void)
         cmocka_unit_test(files_are_found_beside_the_job_and_hashed_by_content),
         cmocka_unit_test(later_keys_leave_the_hash_until_they_are_used),
         cmocka_unit_test(a_job_without_files_has_no_inputs),
-        cmocka_unit_test(the_reference_page_is_up_to_date),
+        cmocka_unit_test(reference_page_and_schema_are_up_to_date),
         cmocka_unit_test(the_example_of_the_reference_page_loads),
     };
     return cmocka_run_group_tests_name("job", tests, NULL, NULL);

@@ -1,0 +1,41 @@
+/* hoodoo keys: what may stand in a job, for people and for editors. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "base/text.h"
+#include "cli/cli.h"
+#include "job/job.h"
+
+enum { NARROW = 40, USUAL = 80, WIDE = 120 };
+
+/* Of the terminal, as far as lines can be read well. */
+static int width_here(void)
+{
+    struct winsize w;
+    if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_col == 0)
+        return USUAL;
+    return w.ws_col < NARROW ? NARROW : w.ws_col > WIDE ? WIDE : w.ws_col;
+}
+
+status cli_keys(int argc, char **argv)
+{
+    status st = OK;
+    struct words operands = {0};
+    struct text t = {0};
+    bool help = false, schema = false;
+    const struct option options[] = {
+        {"schema", NULL, OPTION_FLAG, &schema,
+         "print all keys as a JSON Schema, with which editors complete and check jobs"},
+    };
+    TRY(options_parse(&usage_keys, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
+    if (help)
+        goto done;
+    TRY(schema ? job_schema(&t) : job_keys(operands.n ? operands.word[0] : NULL, width_here(), &t));
+    fwrite(t.data, 1, t.size, stdout);
+done:
+    text_free(&t);
+    words_free(&operands);
+    return st;
+}
