@@ -96,6 +96,9 @@ static status check_heightfield(const struct yaml *map, const struct job_heightf
         if (!(h->max_m[i] > h->min_m[i]) && (i == 2 ? heights : job_sizes_heightfield(h)))
             return yaml_fail(place(map, "max_m"), NULL, "not above min_m on the %c axis (%g, %g)", "xyz"[i],
                              h -> max_m[i], h -> min_m[i]);
+    if ((h->origin_m[0] != 0 || h->origin_m[1] != 0) && job_sizes_heightfield(h))
+        return yaml_fail(place(map, "origin_m"), NULL,
+                         "given beside max_m, which says where the picture lies: leave one of them out");
     if (h->offset_m != 0 && heights)
         return yaml_fail(
             place(map, "offset_m"), NULL,

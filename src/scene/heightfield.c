@@ -179,7 +179,7 @@ static struct image_wish wish_of(const struct job_heightfield *job)
 
 static status take_extent(struct heightfield *f, const struct job_heightfield *job, const struct image *image)
 {
-    char what[300];
+    char what[400];
     if (image->map == IMAGE_NO_MAP)
         return fail(E_USAGE,
                     "%s: max_m is left out, and the file does not say how large its pixels are: give max_m",
@@ -201,11 +201,12 @@ static status take_extent(struct heightfield *f, const struct job_heightfield *j
         f->max[a] = f->min[a] + image->pixel[a] * (double)n;
     }
     snprintf(what, sizeof what,
-             "%zu x %zu pixels of %.6g x %.6g m by its own word: x %.10g to %.10g, y %.10g to %.10g m; its "
-             "left bottom corner is "
-             "at (%.10g, %.10g) on its map",
-             f->width, f->height, image->pixel[0], image->pixel[1], f->min[0], f->max[0], f->min[1],
-             f->max[1], image->corner[0], image->corner[1]);
+             "%zu x %zu pixels of %.6g x %.6g m by its own word%s: x %.10g to %.10g, y %.10g to %.10g m; its "
+             "left bottom corner is at "
+             "(%.10g, %.10g) on its map",
+             f->width, f->height, image->pixel[0], image->pixel[1],
+             image->map_named ? "" : ", which does not say that it means metres", f->min[0], f->max[0],
+             f->min[1], f->max[1], image->corner[0], image->corner[1]);
     image_say(false, job->file, what);
     return OK;
 }

@@ -175,6 +175,7 @@ static status take(const struct image_wish *w, struct reader_answer *answer, str
     out->width = (size_t)p.width;
     out->height = (size_t)p.height;
     out->map = (enum image_map)p.map;
+    out->map_named = p.named != 0;
     for (int a = 0; a < 2; a++) {
         out->pixel[a] = p.pixel[a];
         out->corner[a] = p.corner[a];

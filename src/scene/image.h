@@ -25,7 +25,7 @@
 enum image_nodata { IMAGE_REFUSE, IMAGE_EMPTY, IMAGE_FILL };
 enum image_alpha { IMAGE_COVERAGE, IMAGE_IGNORE };
 
-/* What 1 is: white of integers; what is stored as 1; or a metre, by what the file says of its values. */
+/* What 1 is: white of integers; 1 as it is stored, or as the file says that it is scaled; or a metre, likewise. */
 enum image_values { IMAGE_UNIT, IMAGE_STORED, IMAGE_METRES };
 
 struct image_wish {
@@ -57,6 +57,7 @@ struct image {
         has; /* of heights with nodata: empty, if some pixels have no value: 1 where there is one; else NULL. What has none
                            is filled from around it all the same */
     enum image_map map;
+    bool map_named; /* the file names the map's system of coordinates; else metres are a guess */
     double pixel[2],
         corner[2]; /* m, with IMAGE_MAP_METRES: of a pixel; where the left bottom corner is on the map */
 };

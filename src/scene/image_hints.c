@@ -159,7 +159,7 @@ static void find_meaning(TIFF *tiff, int channel, struct image_hints *h)
     }
 }
 
-/* A mask is a picture of its own, of the same size, behind the one it is for. */
+/* A mask is a picture of its own, of the same size, behind the one it is for; and so are smaller copies of that. */
 static void find_mask(TIFF *tiff, int part, struct image_hints *h)
 {
     uint32_t width = 0, height = 0, w = 0, high = 0, kind = 0;
@@ -172,6 +172,7 @@ static void find_mask(TIFF *tiff, int part, struct image_hints *h)
     TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &high);
     if ((kind & FILETYPE_MASK) && w == width && high == height)
         h->mask = part + 1;
+    h->belongs = (kind & (FILETYPE_MASK | FILETYPE_REDUCEDIMAGE)) != 0;
 }
 
 static void read_tiff(const char *path, int part, int channel, struct image_hints *h)

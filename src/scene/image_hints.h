@@ -18,6 +18,7 @@ struct image_hints {
     double scale, offset; /* values mean offset + scale * what is stored */
     double up;            /* m, the unit of heights; 0: not said */
     int mask;             /* the part that is its mask, or -1 */
+    bool belongs;         /* the next part is its mask, or the same picture in small */
     int orientation;      /* of EXIF; 0: not said */
     int map;              /* enum image_map */
     bool has_system;      /* whose coordinates are in metres or feet by what it says */

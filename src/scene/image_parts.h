@@ -35,6 +35,7 @@ struct image_part {
     double first_value;            /* as it is stored */
     double factor, offset;         /* values are offset + factor * what is stored */
     double pixel[2], corner[2];    /* m: see struct image */
+    uint32_t named;                /* 1: by a system of coordinates that the file names */
     uint32_t why, map;             /* enum image_why of the first; enum image_map */
 };
 

@@ -20,12 +20,24 @@ bool image_is_pgm(const char *path)
     return is;
 }
 
+/* The file is one picture of one channel. */
+static status check_choice(const struct image_made *m)
+{
+    const char *channel = m->word[ASK_CHANNEL], *part = m->word[ASK_PART];
+    if (*channel && strcmp(channel, "0") != 0)
+        return fail(E_USAGE, "%s: no channel '%.80s': it has one", m->path, channel);
+    if (*part && strcmp(part, "0") != 0)
+        return fail(E_USAGE, "%s: no part '%.80s': it is one picture", m->path, part);
+    return OK;
+}
+
 /* Rows of numbers of 1, 2 or 4 bytes; those of 4 are floats. */
 static status read_rows(struct image_made *m, FILE *f, size_t bytes, bool big_endian)
 {
     status st = OK;
     unsigned char *row = NULL;
     double *value = NULL;
+    TRY(check_choice(m));
     TRY(image_begin(m));
     TRY(memory_alloc(m->width * bytes, 1, "a row of an image", &row));
     TRY(memory_alloc(m->width, sizeof *value, "a row of an image", &value));

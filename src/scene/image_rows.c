@@ -45,22 +45,26 @@ static status set_values(struct image_made *m)
     p->offset = strtod(m->word[ASK_OFFSET], NULL);
     if (image_asks(m, ASK_VALUES, "unit") && m->whole)
         p->factor /= m->white;
-    if (image_asks(m, ASK_VALUES, "metres")) {
-        const double up = m->hints.up > 0 ? m->hints.up : 1;
-        if (m->hints.damaged_scale)
-            return fail(E_INPUT,
-                        "%s: it says that its values are to be scaled, and not by what number: give scale_m",
-                        m->path);
-        if (m->hints.has_scale) {
-            p->offset += p->factor * up * m->hints.offset;
-            p->factor *= m->hints.scale;
-            image_note(m, false, "its heights are %.10g + %.10g times what it stores, by its own word",
-                       m->hints.offset, m->hints.scale);
-        }
-        if (up < 1)
-            image_note(m, false, "its heights are in feet, %.10g m each", up);
-        p->factor *= up;
+    if (image_asks(m, ASK_VALUES, "unit"))
+        return OK;
+    const bool metres = image_asks(m, ASK_VALUES, "metres");
+    const double up = metres && m->hints.up > 0 ? m->hints.up : 1;
+    if (m->hints.damaged_scale && metres)
+        return fail(E_INPUT,
+                    "%s: it says that its values are to be scaled, and not by what number: give scale_m",
+                    m->path);
+    if (m->hints.damaged_scale)
+        image_note(m, true,
+                   "it says that its values are to be scaled, and not by what number, which is passed over");
+    if (m->hints.has_scale && !m->hints.damaged_scale) {
+        image_note(m, false, "its values are %.10g + %.10g times what it stores, by its own word",
+                   m->hints.offset, m->hints.scale);
+        p->offset += p->factor * up * m->hints.offset;
+        p->factor *= m->hints.scale;
     }
+    if (up < 1)
+        image_note(m, false, "its heights are in feet, %.10g m each", up);
+    p->factor *= up;
     return OK;
 }
 
@@ -71,6 +75,7 @@ static void set_turn(struct image_made *m)
     struct image_part *p = &m->part;
     int turn = m->orientation >= 1 && m->orientation <= 8 ? m->orientation : 1;
     p->map = (uint32_t)h->map;
+    p->named = h->has_system;
     if (h->map == IMAGE_MAP_METRES || h->map == IMAGE_MAP_DEGREES) {
         if (turn != 1)
             image_note(

@@ -13,7 +13,11 @@
 
 static status decode(struct image_made *m)
 {
-    if (image_asks(m, ASK_FORM, "r16") || image_asks(m, ASK_FORM, "r32"))
+    const bool raw = image_asks(m, ASK_FORM, "r16") || image_asks(m, ASK_FORM, "r32");
+    if (!raw && (!image_asks(m, ASK_WIDTH, "0") || !image_asks(m, ASK_HEIGHT, "0")))
+        return fail(E_USAGE, "%s: size_px is for raw values (.r16, .r32); this file says its size itself",
+                    m->path);
+    if (raw)
         return image_decode_raw(m);
     return image_is_pgm(m->open) ? image_decode_pgm(m) : image_decode(m);
 }

@@ -56,18 +56,8 @@ status pick_part(OIIO::ImageInput &in, struct image_made *m, int *part)
     const char *wish = m->word[ASK_PART];
     std::vector<std::string> names;
     *part = 0;
-    if (!*wish) {
-        if (in.seek_subimage(1, 0)) {
-            const std::string other = part_name(in.spec());
-            image_note(m, false,
-                       "it holds several pictures: the first is used (the next is %s; choose by 'part')",
-                       other.empty() ? "1" : other.c_str());
-        }
-        in.geterror();
-        return in.seek_subimage(0, 0)
-                   ? OK
-                   : fail(E_INPUT, "%s: damaged image: %s", m->path, in.geterror().c_str());
-    }
+    if (!*wish)
+        return OK;
     for (int i = 0; i < MOST_PARTS && in.seek_subimage(i, 0); i++) {
         names.push_back(part_name(in.spec()));
         if (names.back() == wish || (number_of(wish) == i && names.back().empty())) {
@@ -83,6 +73,19 @@ status pick_part(OIIO::ImageInput &in, struct image_made *m, int *part)
     }
     return fail(E_USAGE, "%s: no part '%.80s': there are %zu: %s", m->path, wish, names.size(),
                 list_of(names).c_str());
+}
+
+/* Nobody chose the first of several. */
+void mention_parts(OIIO::ImageInput &in, struct image_made *m)
+{
+    if (*m->word[ASK_PART] || m->hints.belongs || !in.seek_subimage(1, 0)) {
+        in.geterror();
+    } else {
+        const std::string other = part_name(in.spec());
+        image_note(m, false,
+                   "it holds several pictures: the first is used (the next is %s; choose by 'part')",
+                   other.empty() ? "1" : other.c_str());
+    }
 }
 
 int find_channel(const OIIO::ImageSpec &spec, const char *name)
@@ -434,6 +437,9 @@ status decode(struct image_made *m)
     if ((st = pick_channels(spec, m, &chosen)) != OK)
         return st;
     m->hints = image_hints_read(m->open, part, chosen.value[0]);
+    mention_parts(*in, m);
+    if (!in->seek_subimage(part, 0))
+        return fail(E_INPUT, "%s: damaged image: %s", m->path, in->geterror().c_str());
     picture p(*in, m, part, chosen);
     if ((st = p.begin()) == OK)
         st = p.read();

@@ -126,12 +126,13 @@ def plan(file, keys, domain, shape="heightfield", **more):
     return code, int(found[1]) if found else None, said
 
 
-def case(name, file, keys, wanted, says=None, domain=[16, 16, 16], fault=None, **more):
-    """`wanted`: voxels of rock; or the exit code of a refusal, negative. `says`: what stands in the log or the refusal."""
+def case(name, file, keys, wanted, says=None, domain=[16, 16, 16], fault=None, never=None, **more):
+    """`wanted`: voxels of rock; or the exit code of a refusal, negative. `says`: what stands in the log or the refusal, as `never` does not."""
     tried.add((fault or name).split(",")[0])
     code, voxels, said = plan(file, keys, domain, **more)
     good = code == -wanted if wanted < 0 else code == 0 and voxels == wanted
-    ok(good and (says is None or says in said), name, f"exit {code}, {voxels} voxels, wanted {wanted} and {says!r}", said[-1500:])
+    ok(good and (says is None or says in said) and (never is None or never not in said), name, f"exit {code}, {voxels} voxels, wanted {wanted} and {says!r}",
+       said[-1500:])
 
 
 # Windows of EXR: 16 x 16 pixels, of which the quarter on the bottom left is 5 m and the rest is black.
@@ -163,7 +164,7 @@ case("nodata-named-nan", "named.tif", METRES, 256 * 5)
 tiff("untold.tif", gap.astype("int16"))
 case("nodata-untold", "untold.tif", {**METRES, "nodata": "empty", "nodata_value": -9999}, (256 - 20) * 5)
 tiff("mask.tif", LEVEL.astype("uint16"), mask=numpy.where(gap < 0, 0, 255).astype("uint8"))
-case("mask", "mask.tif", {**METRES, "nodata": "empty"}, (256 - 20) * 5, "20 of 256 pixels")
+case("mask", "mask.tif", {**METRES, "nodata": "empty"}, (256 - 20) * 5, "20 of 256 pixels", never="several pictures")
 bands = numpy.stack([LEVEL] * 5 + [numpy.where(gap < 0, 0, 255)], 2).astype("uint8")
 tiff("alpha.tif", bands, {262: [2], 338: [0, 0, 2]})
 case("alpha", "alpha.tif", {**METRES, "nodata": "empty"}, (256 - 20) * 5)
@@ -198,6 +199,7 @@ tiff("scaled.tif", numpy.full((16, 16), 1050, "int16"), {**place, GDAL_META: ite
 case("scale-offset", "scaled.tif", {}, 256 * 5, "-100 + 0.1 times what it stores")
 two = numpy.stack([numpy.full((16, 16), 3), numpy.full((16, 16), 50)], 2).astype("int16")
 tiff("bands.tif", two, {**place, 338: [0], GDAL_META: items.format(1, 0, 0.1)})
+case("scale-offset, and the job's", "scaled.tif", {**METRES, "scale_m": 2}, 256 * 10, fault="scale-offset")
 case("scale-of-band", "bands.tif", {"channel": 1}, 256 * 5)
 tiff("broken.tif", two[:, :, 0], {**place, GDAL_META: items.format(0, 0, "abc")})
 case("scale-malformed", "broken.tif", {}, -3, "not by what number")
