@@ -9,8 +9,9 @@
 
 #include "base/memory.h"
 #include "scene/image.h"
+#include "scene/spread.h"
 
-enum { AWAY = 200, COLUMNS = 16 };
+enum { AWAY = 200 };
 
 struct heightfield {
     size_t width, height;
@@ -26,53 +27,6 @@ struct heightfield {
     unsigned char *has;
 };
 
-/* Floats that spread_max() needs beside a line. */
-static size_t spread_room(size_t n, size_t radius)
-{
-    return 2 * (n + 4 * radius + 1);
-}
-
-static float larger(float a, float b)
-{
-    return a > b ? a : b;
-}
-
-/* line[i] = the largest of line[i - radius .. i + radius], over n items: of blocks as long as that the maxima from their begins and
- * from their ends, of which every stretch needs two (van Herk, Gil and Werman). */
-static void spread_max(float *line, size_t n, size_t radius, float *room)
-{
-    const size_t length = 2 * radius + 1, padded = (n + 2 * radius + length - 1) / length * length;
-    float *from_begin = room, *from_end = room + padded;
-    for (size_t i = 0; i < padded; i++)
-        from_begin[i] = from_end[i] = i >= radius && i - radius < n ? line[i - radius] : -INFINITY;
-    for (size_t block = 0; block < padded; block += length)
-        for (size_t k = 1; k < length; k++) {
-            const size_t back = block + length - 1 - k;
-            from_begin[block + k] = larger(from_begin[block + k], from_begin[block + k - 1]);
-            from_end[back] = larger(from_end[back], from_end[back + 1]);
-        }
-    for (size_t i = 0; i < n; i++)
-        line[i] = larger(from_end[i], from_begin[i + 2 * radius]);
-}
-
-/* The same of columns, a cache line's at a time: `side` has COLUMNS * (height + COLUMNS) items, for columns that are a power of 2 apart
- * would meet in the cache. */
-static void spread_columns(float *field, size_t width, size_t height, size_t radius, float *side, float *room)
-{
-    const size_t apart = height + COLUMNS;
-    for (size_t x = 0; x < width; x += COLUMNS) {
-        const size_t n = width - x < COLUMNS ? width - x : COLUMNS;
-        for (size_t y = 0; y < height; y++)
-            for (size_t k = 0; k < n; k++)
-                side[k * apart + y] = field[y * width + x + k];
-        for (size_t k = 0; k < n; k++)
-            spread_max(side + k * apart, height, radius, room);
-        for (size_t y = 0; y < height; y++)
-            for (size_t k = 0; k < n; k++)
-                field[y * width + x + k] = side[k * apart + y];
-    }
-}
-
 static size_t pixels(double metres, double pixel, size_t limit)
 {
     double n = ceil(metres / pixel) + 1; /* + 1: bilinear values lean on the next pixel */
@@ -85,27 +39,17 @@ static status find_extremes(struct heightfield *f)
     status st = OK;
     const size_t n = f->width * f->height;
     const size_t rx = pixels(f->reach, f->dx, f->width), ry = pixels(f->reach, f->dy, f->height);
-    const size_t across = spread_room(f->width, rx), up = spread_room(f->height, ry);
-    float *room = NULL, *columns = NULL;
     TRY(memory_alloc(n, sizeof *f->low, "a heightfield", &f->low));
     TRY(memory_alloc(n, sizeof *f->high, "a heightfield", &f->high));
-    TRY(memory_alloc(across > up ? across : up, sizeof *room, "a heightfield", &room));
-    TRY(memory_alloc(COLUMNS * (f->height + COLUMNS), sizeof *columns, "a heightfield", &columns));
     for (size_t i = 0; i < n; i++) {
         f->high[i] = f->z[i];
         f->low[i] = -f->z[i];
     }
-    for (int side = 0; side < 2; side++) {
-        float *field = side ? f->high : f->low;
-        for (size_t y = 0; y < f->height; y++)
-            spread_max(field + y * f->width, f->width, rx, room);
-        spread_columns(field, f->width, f->height, ry, columns, room);
-    }
+    TRY(spread_largest(f->width, f->height, rx, ry, f->high));
+    TRY(spread_largest(f->width, f->height, rx, ry, f->low));
     for (size_t i = 0; i < n; i++)
         f->low[i] = -f->low[i];
 done:
-    free(room);
-    free(columns);
     return st;
 }
 
@@ -115,7 +59,7 @@ static double largest_slope(const struct heightfield *f, size_t step_x, size_t s
     for (size_t y = 0; y + step_y < f->height; y++)
         for (size_t x = 0; x + step_x < f->width; x++)
             largest =
-                larger(fabsf(f->z[(y + step_y) * f->width + x + step_x] - f->z[y * f->width + x]), largest);
+                fmaxf(fabsf(f->z[(y + step_y) * f->width + x + step_x] - f->z[y * f->width + x]), largest);
     return (double)largest / metres;
 }
 
