@@ -12,8 +12,12 @@
 #include "farm/local.h"
 #include "farm/openjd.h"
 #include "farm/slurm.h"
+#include "run/advice.h"
 
 #define TO_CHOICE (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")
+/* Wedges that are looked at: one is much like the next. */
+enum { WARNED = 3 };
+
 enum target { CHOICE_CONSTANTS(TO_CHOICE) };
 
 struct wanted {
@@ -228,6 +232,8 @@ status cli_submit(int argc, char **argv)
     }
     TRY(farm_load(operands.word[0], w.common.sets.word, w.common.sets.n, w.common.from, w.wedge, w.common.out,
                   &farm));
+    for (size_t i = 0; i < farm.n_wedges && i < WARNED; i++)
+        advices_log(farm.wedge[i].job);
     for (size_t i = 0; i < farm.n_wedges; i++) {
         TRY(farm_root(&farm, (int)farm.wedge[i].job->wedge.index, &root));
         farm.wedge[i].frame_seconds = farm_frame_seconds(root.text, farm.wedge[i].job->name);

@@ -122,7 +122,13 @@ static status list_meshes(struct stage *s, const struct stage_frames *known)
     struct usd_sequence *q = &s->sequence;
     int *there = NULL;
     size_t n, k = 0;
-    TRY(folder_list(s->root, s->job->name, FILE_MESH_USD, &there, &n));
+    st = folder_list(s->root, s->job->name, FILE_MESH_USD, &there, &n);
+    if (st == E_INPUT) { /* what stands in their place is no reason for a run to fail */
+        log_info("no meshes are in %s.usda: %s", s->job->name, status_message());
+        st = OK;
+        n = 0;
+    }
+    TRY(st);
     TRY(memory_alloc(n, sizeof *s->meshes, "frame numbers", &s->meshes));
     for (size_t i = 0; i < n; i++) {
         struct path path;

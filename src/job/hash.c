@@ -258,7 +258,7 @@ static status is_default(struct walk *w, enum job_section_id section, const stru
                          bool *out)
 {
     status st = OK;
-    struct walk preset = {0};
+    struct walk preset = {.of_files = w->of_files, .all = w->all};
     void *base = NULL;
     TRY(memory_alloc(1, job_sections[section].size, key->name, &base));
     TRY(read_default(key, NULL, key->name, base));
@@ -399,6 +399,20 @@ status job_differ(const struct job *one, const struct job *other, bool files, ch
 done:
     walk_end(&a);
     walk_end(&b);
+    return st;
+}
+
+status job_is_default(const struct job *job, const char *name, bool *out)
+{
+    status st = OK;
+    struct walk w = {.all = true};
+    const struct job_key *key = table_find(SECTION_job, name);
+    if (!key)
+        return fail(E_USAGE, "a job has no key '%s'", name);
+    TRY(walk_key(&w, key, job));
+    TRY(is_default(&w, SECTION_job, key, 0, out));
+done:
+    walk_end(&w);
     return st;
 }
 

@@ -212,6 +212,13 @@ MUST_USE status job_files_hash(const struct job *job, uint64_t *hash);
  * differ in nothing else. */
 MUST_USE status job_differ(const struct job *one, const struct job *other, bool files, char path[256]);
 
+/* Is this key of the job, a section or a list, what it is when it is left out? */
+MUST_USE status job_is_default(const struct job *job, const char *key, bool *out);
+
+/* Where a key of the job file stands, "cliff.yaml:12:5"; of one that is not written there, the nearest that holds it. Never fails: the
+ * file's name alone. */
+void job_key_place(const char *path, const char *key, char out[300]);
+
 /* A file the job reads (mesh, heightfield, jointmap), with its content hash. */
 struct job_input {
     const char *path; /* borrowed from the job */

@@ -13,6 +13,7 @@
 #include "frame/stage.h"
 #include "model/model.h"
 #include "output/product.h"
+#include "run/advice.h"
 #include "run/branch.h"
 #include "run/provenance.h"
 #include "run/room.h"
@@ -537,6 +538,8 @@ status run_job(struct job *job, const struct run_options *options)
         TRY(own_folder(&r));
     else
         lock_sweep(r.lock_path.text);
+    if (r.n_done == 0 && r.frames.first == job->frames.first && !*job->from)
+        advices_log(job);
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
     if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {

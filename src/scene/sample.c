@@ -305,6 +305,29 @@ done:
     return st;
 }
 
+/* Voxel by voxel, from the ground up to where the estimate has seen rock. */
+status scene_stands(const struct job *job, bool floats, const struct scene_size *size)
+{
+    status st = OK;
+    struct sampler s;
+    double seen = INFINITY;
+    bool found = false;
+    int k = 0;
+    TRY(sampler_init(&s, job, NULL, 1));
+    for (size_t i = 0; i < size->n_points; i++)
+        seen = fmin(seen, (double)size->point[i][2]);
+    for (; !found && k < s.n[2] && k * s.h < seen && (k == 0 || size->n_points); k++)
+        for (int at = 0; at < s.n[0] * s.n[1] && !found; at++)
+            found = coverage_holds_rock(s.solid, s.h, at % s.n[0], at / s.n[0], k);
+    if (!found && !size->n_points)
+        st = no_rock(&s);
+    else if (!floats && !(found && k == 1))
+        st = scene_floats(found ? (k - 1) * s.h : seen - 0.5 * s.h);
+done:
+    sampler_deinit(&s);
+    return st;
+}
+
 status scene_estimate(const struct job *job, struct scene_size *out)
 {
     status st = OK;

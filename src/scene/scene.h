@@ -98,4 +98,8 @@ struct scene_size {
 /* Files and shapes fail as in scene_sample(); an empty scene is 0 particles. */
 MUST_USE status scene_estimate(const struct job *job, struct scene_size *out);
 
+/* What scene_sample() and, for rock that `floats`, scene_grid() refuse: no rock in the domain, or none on the ground. `size` is
+ * scene_estimate()'s. E_USAGE. */
+MUST_USE status scene_stands(const struct job *job, bool floats, const struct scene_size *size);
+
 #endif

@@ -99,7 +99,8 @@ for up in "yz":
     code, said = hoodoo("run", job, "--out", up, "--set", f"output.up={up}", "--frames", "1001-1004", "--progress", "none")
     check(code == 0, f"{up} up: the job runs {said if code else ''}")
     value, face = meshes(up, 1004, "twelve")
-    check(sorted(os.listdir(up + "/mesh")) == ["twelve.1004.obj", "twelve.1004.ply"], f"{up} up: two files")
+    check(sorted(os.listdir(up + "/mesh")) == ["twelve.1004.obj", "twelve.1004.ply", "twelve.1004.usdc", "twelve.clips.usda"],
+          f"{up} up: PLY, OBJ, USD and what USD files have")
     at = places(value)
     kept[up] = at, face
     expected = json.load(open(up + "/frames/twelve.1004.json"))["statistics"]["volume_m3"]
@@ -223,7 +224,7 @@ hoodoo("mesh", "terrain", "--frames", "4", "--missing")
 check(os.path.exists("terrain/mesh/terrain.rocks.0004.obj"), "--missing sees that a rocks' file is missing")
 shutil.rmtree("terrain/mesh")
 hoodoo("mesh", "terrain", "--frames", "4", "--no-rocks")
-check(sorted(os.listdir("terrain/mesh")) == ["terrain.0004.obj", "terrain.0004.ply"], "--no-rocks")
+check(sorted(os.listdir("terrain/mesh")) == ["terrain.0004.obj", "terrain.0004.ply", "terrain.0004.usdc", "terrain.clips.usda"], "--no-rocks")
 
 def put_field(field):
     """In place of the frame's volumes, with the grids a mesh needs."""

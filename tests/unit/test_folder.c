@@ -199,7 +199,8 @@ static void hostile_manifests_are_refused(void **state)
     (void)state;
     static const char frame[] =
         "{\"kind\": \"hoodoo frame\", \"format\": %s, \"frame\": %s, \"job_xxh3\": "
-        "\"0123456789abcdef\", \"years\": 1, \"files\": [{\"path\": \"%s\", \"size\": %s, "
+        "\"0123456789abcdef\", \"output_xxh3\": \"0123456789abcdef\", \"years\": 1, \"files\": [{\"path\": "
+        "\"%s\", \"size\": %s, "
         "\"xxh3\": \"%s\"}], \"statistics\": {\"volume_m3\": 1, \"start_volume_m3\": 2, "
         "\"max_stress_Pa\": 3, \"stress_iterations\": 4}, \"ledger\": {\"start\": 1, \"rock\": "
         "1, \"deposit\": 0, \"fallen\": 0, \"left\": %s}";

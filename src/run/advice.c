@@ -1,0 +1,429 @@
+#include "run/advice.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "field/camera.h"
+#include "scene/scene.h"
+#include "shared/params.h"
+
+/* What all looks share. */
+struct view {
+    const struct job *job;
+    struct advices *out;
+    struct scene_size size;
+    struct solid *solid;
+    double low[3], high[3]; /* m: of the rock in the domain */
+    double kyr;             /* from the first frame to the last */
+};
+
+static status say(struct view *v, const char *key, const char *format, ...) PRINTF_LIKE(3, 4);
+static status say(struct view *v, const char *key, const char *format, ...)
+{
+    struct advices *a = v->out;
+    const status st = memory_grow(&a->one, &a->capacity, a->n + 1, sizeof *a->one, "advice");
+    if (st != OK)
+        return st;
+    struct advice *one = &a->one[a->n++];
+    va_list arguments;
+    va_start(arguments, format);
+    snprintf(one->key, sizeof one->key, "%s", key);
+    vsnprintf(one->text, sizeof one->text, format, arguments);
+    va_end(arguments);
+    return OK;
+}
+
+/* ---- the rock in its domain */
+
+static bool is_wall(const struct job *job, int axis, int high)
+{
+    static const unsigned side[2][2] = {{WALL_X_MIN, WALL_X_MAX}, {WALL_Y_MIN, WALL_Y_MAX}};
+    return axis < 2 && (job_walls(job) & side[axis][high]) != 0;
+}
+
+/* Out through a side or the top, where no wall says that the rock goes on. What is below the ground is meant. */
+static bool cut_off(const struct job *job, const double x[3])
+{
+    for (int a = 0; a < 3; a++)
+        if ((x[a] < 0 && a < 2 && !is_wall(job, a, 0)) ||
+            (x[a] > job->domain.size_m[a] && !is_wall(job, a, 1)))
+            return true;
+    return false;
+}
+
+/* Counted at the middles of a lattice over the scene's box. */
+static status look_at_domain(struct view *v)
+{
+    enum { ACROSS = 32 };
+    double low[3], high[3], x[3];
+    size_t all = 0, outside = 0;
+    if (!v->solid)
+        return OK;
+    solid_bounds(v->solid, low, high);
+    for (int a = 0; a < 3; a++) {
+        const double size = v->job->domain.size_m[a];
+        low[a] = fmax(low[a], -10 * size);
+        high[a] = fmin(high[a], 11 * size);
+        if (!(low[a] < high[a]))
+            return OK;
+    }
+    for (size_t i = 0; i < (size_t)ACROSS * ACROSS * ACROSS; i++) {
+        const size_t at[3] = {i % ACROSS, i / ACROSS % ACROSS, i / ACROSS / ACROSS};
+        for (int a = 0; a < 3; a++)
+            x[a] = low[a] + ((double)at[a] + 0.5) / ACROSS * (high[a] - low[a]);
+        if (x[2] < 0 || solid_at(v->solid, x).distance > 0)
+            continue;
+        all++;
+        outside += cut_off(v->job, x);
+    }
+    if (outside * 10 <= all)
+        return OK;
+    return say(v, "domain.size_m",
+               "about %.0f %% of the scene lies outside the domain and is cut off: it reaches from (%.4g, "
+               "%.4g) to (%.4g, %.4g, %.4g) m, "
+               "and the domain from 0 to (%.4g, %.4g, %.4g)",
+               100 * (double)outside / (double)all, low[0], low[1], high[0], high[1], high[2],
+               v->job->domain.size_m[0], v->job->domain.size_m[1], v->job->domain.size_m[2]);
+}
+
+/* ---- what is thinner than a particle */
+
+static status look_at_node(struct view *v, const struct job_node *node)
+{
+    status st = OK;
+    const double h = v->job->domain.spacing_m;
+    if (node->kind == NODE_SHAPE && node->shape == SHAPE_BOX) {
+        const struct job_box *b = &node->u.box;
+        for (int a = 0; a < 3; a++)
+            if ((b->max_m[a] - b->min_m[a]) * b->scale[a] < h)
+                return say(v, "scene",
+                           "a%s box of the scene is %.3g m thick, less than domain.spacing_m (%g): what is "
+                           "left of it depends on the "
+                           "spacing",
+                           b->inert ? "n inert" : "", (b->max_m[a] - b->min_m[a]) * b->scale[a], h);
+    }
+    for (size_t i = 0; i < node->n_child; i++)
+        TRY(look_at_node(v, node->child[i]));
+done:
+    return st;
+}
+
+static status look_at_sizes(struct view *v)
+{
+    status st = OK;
+    const struct job *job = v->job;
+    const double h = job->domain.spacing_m;
+    char key[64];
+    double below = -INFINITY;
+    if (job->scene)
+        TRY(look_at_node(v, job->scene));
+    for (size_t i = 0; i < job->n_strata; i++) {
+        const double top = job->strata[i].to_m, thick = top - below;
+        snprintf(key, sizeof key, "strata.%zu.to_m", i);
+        if (thick < h && top > v->low[2] && below < v->high[2])
+            TRY(say(
+                v, key,
+                "the layer is %.3g m thick, less than domain.spacing_m (%g): it is there or not by chance",
+                thick, h));
+        below = top;
+    }
+    if (job->noise.amplitude > 0 && job->noise.scale_m < 2 * h)
+        TRY(say(v, "noise.scale_m",
+                "features of %g m are finer than two spacings (%g m): another spacing is another rock",
+                job->noise.scale_m, 2 * h));
+done:
+    return st;
+}
+
+/* ---- stress and rates */
+
+static double curve_least(const struct curve *c)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < c->n; i++)
+        least = fmin(least, c->value[i]);
+    return least;
+}
+
+static double curve_most(const struct curve *c)
+{
+    double most = -INFINITY;
+    for (size_t i = 0; i < c->n; i++)
+        most = fmax(most, c->value[i]);
+    return most;
+}
+
+/* A column's foot carries density * gravity * height; within a factor of a few of that grains interlock somewhere and not
+ * everywhere, which is what makes arches and pillars (Arenite 8). Near the top no layer does, so the one that is nearest to it
+ * speaks for all. */
+static status look_at_interlocking(struct view *v)
+{
+    enum { FAR = 5 };
+    const struct job *job = v->job;
+    const double weight_of_metre = 1e-6 * job->rock.density_kg_m3 * job->rock.gravity_m_s2; /* MPa */
+    double below = -INFINITY, nearest = INFINITY, most = 0, height = 0;
+    size_t which = 0;
+    char key[64];
+    if (!job_model(job)->interlocks || !(weight_of_metre > 0))
+        return OK;
+    for (size_t i = 0; i < job->n_strata; i++) {
+        const struct job_layer *l = &job->strata[i];
+        const double bottom = fmax(below, v->low[2]), above = v->high[2] - bottom;
+        below = l->to_m;
+        if (bottom >= fmin(l->to_m, v->high[2]) || above <= 0)
+            continue;
+        const double least = curve_least(&l->interlock_MPa) / (weight_of_metre * above);
+        most = fmax(most, curve_most(&l->interlock_MPa) / (weight_of_metre * above));
+        if (least < nearest) {
+            nearest = least;
+            which = i;
+            height = above;
+        }
+    }
+    snprintf(key, sizeof key, "strata.%zu.interlock_MPa", which);
+    if (isfinite(nearest) && nearest > FAR)
+        return say(v, key,
+                   "interlocking holds from %.3g m of rock upwards, and no layer has nearly as much above "
+                   "its foot (this one %.3g m, which "
+                   "weighs %.3g MPa): no grains ever interlock, and stress changes nothing",
+                   nearest * height, height, weight_of_metre * height);
+    if (most > 0 && most < 1e-3)
+        return say(v, key,
+                   "all layers interlock from %.2g of what rock weighs upwards: everything does from the "
+                   "start, and weathers at "
+                   "strong_m_per_kyr",
+                   most);
+    return OK;
+}
+
+static status look_at_time(struct view *v)
+{
+    const struct job *job = v->job;
+    const double across = fmin(v->high[0] - v->low[0], v->high[1] - v->low[1]), h = job->domain.spacing_m;
+    double most = 0;
+    size_t which = 0;
+    char key[64];
+    if (v->kyr <= 0 || job_model(job)->terrain || !job->n_strata)
+        return OK;
+    for (size_t i = 0; i < job->n_strata; i++) {
+        const double rate = curve_most(&job->strata[i].weak_m_per_kyr);
+        which = rate > most ? i : which;
+        most = fmax(most, rate);
+    }
+    snprintf(key, sizeof key, "strata.%zu.weak_m_per_kyr", which);
+    if (most * v->kyr > 20 * across)
+        return say(v, key,
+                   "this layer retreats %.3g m in the job's %.4g kyr, and the rock is %.3g m across: little "
+                   "will be left long before the end",
+                   most * v->kyr, v->kyr, across);
+    if (most * v->kyr < 0.1 * h && v->kyr > 0)
+        return say(v, key,
+                   "the softest layer retreats %.2g m in the job's %.4g kyr, a small part of "
+                   "domain.spacing_m (%g): hardly anything will "
+                   "change",
+                   most * v->kyr, v->kyr, h);
+    return OK;
+}
+
+/* ---- cameras */
+
+static bool sees(const struct camera *c, const struct scene_size *size)
+{
+    for (size_t i = 0; i < size->n_points; i++) {
+        const double x[3] = {(double)size->point[i][0], (double)size->point[i][1], (double)size->point[i][2]};
+        double px[2];
+        if (camera_project(c, x, px) && px[0] >= 0 && px[0] < c->width && px[1] >= 0 && px[1] < c->height)
+            return true;
+    }
+    return false;
+}
+
+static status look_at_cameras(struct view *v)
+{
+    status st = OK;
+    const struct job *job = v->job;
+    for (size_t i = 0; i < job->n_cameras; i++) {
+        const int frame[] = {job->frames.first, (job->frames.first + job->frames.last) / 2, job->frames.last};
+        char key[160];
+        snprintf(key, sizeof key, "cameras.%.64s", job->cameras[i].name);
+        for (int k = 0; k < 3; k++) {
+            const struct camera c = camera_of(&job->cameras[i], frame[k]);
+            const char *wrong = v->solid && k == 0 && solid_at(v->solid, c.eye).distance < 0
+                                    ? "stands inside the rock"
+                                : c.eye[2] < 0                            ? "stands below the ground"
+                                : v->size.n_points && !sees(&c, &v->size) ? "does not see the rock"
+                                                                          : NULL;
+            if (!wrong)
+                continue;
+            TRY(say(v, key, "in frame %d it %s, from (%.4g, %.4g, %.4g) m", frame[k], wrong, c.eye[0],
+                    c.eye[1], c.eye[2]));
+            break;
+        }
+        for (size_t j = 0; j < i; j++)
+            if (strcasecmp(job->cameras[i].name, job->cameras[j].name) == 0)
+                TRY(say(v, key,
+                        "its name differs from '%s' in case alone: on some disks their files are the same",
+                        job->cameras[j].name));
+    }
+done:
+    return st;
+}
+
+/* ---- what is not used */
+
+static status look_at_model(struct view *v)
+{
+    static const struct {
+        const char *section;
+        unsigned models; /* that have it */
+    } used[] = {
+        {"wind", OF_MODEL(ARENITE)},       {"rain", OF_MODEL(ARENITE)},     {"sources", OF_MODEL(ARENITE)},
+        {"deposition", OF_MODEL(ARENITE)}, {"collapse", OF_MODEL(ARENITE)}, {"vegetation", OF_MODEL(ARENITE)},
+        {"erosion", OF_MODEL(ARENITE)},    {"goblins", OF_MODEL(GOBLINS)},  {"arches", OF_MODEL(ARCHES)},
+    };
+    status st = OK;
+    for (size_t i = 0; i < sizeof used / sizeof *used; i++) {
+        bool preset = true;
+        if (used[i].models & (1U << v->job->model))
+            continue;
+        TRY(job_is_default(v->job, used[i].section, &preset));
+        if (!preset)
+            TRY(say(v, used[i].section, "model: %s has no %s: these keys change nothing",
+                    job_model(v->job)->name, used[i].section));
+    }
+done:
+    return st;
+}
+
+static bool meets(struct frame_range a, struct frame_range b)
+{
+    return a.first <= b.last && a.last >= b.first;
+}
+
+static status look_at_frames(struct view *v)
+{
+    status st = OK;
+    const struct job *job = v->job;
+    char key[64], range[48];
+    for (size_t i = 0; i < job->n_edits; i++)
+        if (job->edits[i].frame > job->frames.last || job->edits[i].frame <= job->frames.first) {
+            snprintf(key, sizeof key, "edits.%zu.frame", i);
+            TRY(say(v, key, "frame %d is not among the frames after the first (%s): this edit is never made",
+                    (int)job->edits[i].frame, range_text(job->frames, range)));
+        }
+    for (size_t i = 0; i < job->wind.n_gusts; i++)
+        if (!meets(job->wind.gusts[i].frames, job->frames)) {
+            snprintf(key, sizeof key, "wind.gusts.%zu.frames", i);
+            TRY(say(v, key, "none of the job's frames (%s) are among these", range_text(job->frames, range)));
+        }
+    for (size_t i = 0; i < job->arches.n_operations; i++)
+        if (!meets(job->arches.operations[i].frames, job->frames)) {
+            snprintf(key, sizeof key, "arches.operations.%zu.frames", i);
+            TRY(say(v, key, "none of the job's frames (%s) are among these: the tool is never used",
+                    range_text(job->frames, range)));
+        }
+done:
+    return st;
+}
+
+/* Does a line of points come near the domain? */
+static status look_at_paths(struct view *v)
+{
+    status st = OK;
+    const struct job *job = v->job;
+    char key[64];
+    for (size_t i = 0; i < job->arches.n_operations; i++) {
+        const struct job_operation *o = &job->arches.operations[i];
+        bool near = o->n_points_m == 0;
+        for (size_t p = 0; p < o->n_points_m && !near; p++) {
+            near = true;
+            for (int a = 0; a < 3; a++)
+                near &= o->points_m[p][a] > -o->points_m[p][3] &&
+                        o->points_m[p][a] < job->domain.size_m[a] + o->points_m[p][3];
+        }
+        snprintf(key, sizeof key, "arches.operations.%zu.points_m", i);
+        if (!near && o->n_points_m < 2)
+            TRY(say(v, key, "the tool is outside the domain: it changes nothing"));
+    }
+    for (size_t i = 0; i < job->n_sources; i++) {
+        const struct job_source *s = &job->sources[i];
+        bool inside = false;
+        for (size_t p = 0; p < s->n_path_m; p++)
+            inside |= s->path_m[p][0] >= 0 && s->path_m[p][0] <= job->domain.size_m[0] &&
+                      s->path_m[p][1] >= 0 && s->path_m[p][1] <= job->domain.size_m[1];
+        snprintf(key, sizeof key, "sources.%zu.path_m", i);
+        if (!inside)
+            TRY(say(v, key, "no point of it is in the domain"));
+    }
+done:
+    return st;
+}
+
+/* ---- all */
+
+/* The box of the looked-at voxels. */
+static void bound(struct view *v)
+{
+    for (int a = 0; a < 3; a++) {
+        v->low[a] = INFINITY;
+        v->high[a] = -INFINITY;
+        for (size_t i = 0; i < v->size.n_points; i++) {
+            v->low[a] = fmin(v->low[a], (double)v->size.point[i][a]);
+            v->high[a] = fmax(v->high[a], (double)v->size.point[i][a]);
+        }
+    }
+}
+
+status advices_of(const struct job *job, struct advices *out)
+{
+    static status (*const looks[])(struct view * v) = {look_at_domain, look_at_sizes, look_at_interlocking,
+                                                       look_at_time,   look_at_model, look_at_cameras,
+                                                       look_at_frames, look_at_paths};
+    status st = OK;
+    struct view v = {.job = job, .out = out};
+    v.kyr = job->clock.seconds_per_frame > 0 ? 0 : 1e-3 * job_years(job, job->frames.first, job->frames.last);
+    if (job->scene)
+        TRY(solid_create(job->scene, 0.5 * job->domain.spacing_m, job->domain.spacing_m, &v.solid));
+    TRY(scene_estimate(job, &v.size));
+    if (!job_model(job)->terrain)
+        TRY(scene_stands(job, job->model == MODEL_GOBLINS && job->goblins.floats, &v.size));
+    bound(&v);
+    for (size_t i = 0; i < sizeof looks / sizeof *looks; i++)
+        if (v.size.n_points > 0 || looks[i] == look_at_domain)
+            TRY(looks[i](&v));
+done:
+    solid_destroy(&v.solid);
+    free(v.size.point);
+    return st;
+}
+
+void advices_free(struct advices *a)
+{
+    free(a->one);
+    *a = (struct advices){0};
+}
+
+void advices_log(const struct job *job)
+{
+    enum { QUICK = 4 << 20, MOST = 12 };
+    struct advices a = {0};
+    struct job_input *input = NULL;
+    size_t n = 0;
+    uint64_t bytes = 0;
+    const bool read = job_inputs(job, &input, &n) == OK;
+    for (size_t i = 0; i < n; i++)
+        bytes += input[i].size;
+    free(input);
+    /* What is wrong is found again by who runs it, and said there. */
+    if (read && bytes <= QUICK && advices_of(job, &a) == OK)
+        for (size_t i = 0; i < a.n && i < MOST; i++)
+            log_warn("%s%s%s: %s", job->wedge.index ? job->name : "", job->wedge.index ? ": " : "",
+                     a.one[i].key, a.one[i].text);
+    advices_free(&a);
+}

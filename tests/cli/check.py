@@ -1,0 +1,94 @@
+"""hoodoo check: what a supervisor would see is said before anything runs, with the place in the file; what is sound is let alone."""
+import copy
+import glob
+import json
+import os
+import sys
+import time
+
+from script import TOP, finish, hoodoo, ok
+
+sys.dont_write_bytecode = True
+GOOD = {
+    "hoodoo": 1, "name": "block", "frames": "1001-1050", "clock": {"years_per_frame": 500}, "domain": {"size_m": [40, 30, 30], "spacing_m": 0.5},
+    "scene": {"box": {"min_m": [8, 8, 0], "max_m": [32, 22, 24]}}, "strata": [{"to_m": 10, "interlock_MPa": 0.5}, {"interlock_MPa": 0.5}],
+    "cameras": {"main": {"orbit": {"target_m": [20, 15, 12], "distance_m": 70}}},
+}
+
+
+def edited(path, value):
+    job = copy.deepcopy(GOOD)
+    at = job
+    *parents, last = path.split("/")
+    for part in parents:
+        at = at[int(part)] if isinstance(at, list) else at.setdefault(part, {})
+    if isinstance(at, list):
+        at[int(last)] = value
+    else:
+        at[last] = value
+    return job
+
+
+def check(job, *options):
+    with open("job.json", "w") as file:
+        json.dump(job, file, indent=1)
+    code, said = hoodoo("check", "job.json", "--json", *options)
+    return code, json.loads(said) if said.lstrip().startswith("[") else said
+
+
+# What was edited, the key that is named, words of the sentence.
+SURPRISES = [
+    ("domain/size_m", [20, 30, 30], "domain.size_m", "cut off"),
+    ("scene", {"box": {"min_m": [-20, 8, 0], "max_m": [32, 22, 24]}}, "domain.size_m", "cut off"),
+    ("scene", {"union": [GOOD["scene"], {"box": {"min_m": [10, 10, 24], "max_m": [30, 20, 24.2], "inert": True}}]}, "scene", "0.2 m thick"),
+    ("strata", [{"to_m": 10}, {"to_m": 10.1}, {"to_m": 24}], "strata.1.to_m", "0.1 m thick"),
+    ("noise", {"amplitude": 0.2, "scale_m": 0.6}, "noise.scale_m", "finer"),
+    ("strata", [{"interlock_MPa": 200000}], "strata.0.interlock_MPa", "no grains ever interlock"),
+    ("strata", [{"interlock_MPa": 30}], "strata.0.interlock_MPa", "no grains ever interlock"),
+    ("strata", [{"interlock_MPa": 1e-5}], "strata.0.interlock_MPa", "from the start"),
+    ("strata", [{"weak_m_per_kyr": 50, "interlock_MPa": 0.5}], "strata.0.weak_m_per_kyr", "little will be left"),
+    ("strata", [{"weak_m_per_kyr": 0.0001, "interlock_MPa": 0.5}], "strata.0.weak_m_per_kyr", "hardly anything"),
+    ("clock/years_per_frame", 1, "strata.0.weak_m_per_kyr", "hardly anything"),
+    ("cameras/main", {"position_m": [20, 15, 12], "target_m": [20, 15, 50]}, "cameras.main", "inside the rock"),
+    ("cameras/main", {"position_m": [-40, 15, 12], "target_m": [-80, 15, 12]}, "cameras.main", "does not see"),
+    ("cameras/main", {"position_m": [-40, 15, -3], "target_m": [20, 15, 12]}, "cameras.main", "below the ground"),
+    ("cameras/main", {"position_m": {1001: [-40, 15, 12], 1050: [20, 15, 400]}, "target_m": {1001: [20, 15, 12], 1050: [20, 15.1, 900]}}, "cameras.main", "does not see"),
+    ("cameras/Main", GOOD["cameras"]["main"], "cameras.Main", "case alone"),
+    ("edits", [{"frame": 1100, "set": {"wind.speed_m_s": 3}}], "edits.0.frame", "never made"),
+    ("wind", {"gusts": [{"frames": "2001-2010", "factor": 2}]}, "wind.gusts.0.frames", "none of the job's frames"),
+    ("sources", [{"path_m": [[100, 100, 5]], "m3_per_yr": 10}], "sources.0.path_m", "in the domain"),
+    ("goblins", {"threshold": 0.1}, "goblins", "model: arenite has no goblins"),
+]
+for path, value, key, words in SURPRISES:
+    code, found = check(edited(path, value))
+    named = [w for w in found if isinstance(w, dict) and w["key"] == key and words in w["warning"]]
+    ok(code == 0 and named, f"{path}: {json.dumps(value)[:60]} -> {key}: {words}", code, found)
+other = {**edited("wind", {"speed_m_s": 14}), "model": "goblins", "rain": {"m_per_yr": 1}}
+code, found = check(other)
+ok(code == 0 and {"wind", "rain"} <= {w["key"] for w in found}, "goblins have no wind and no rain", found)
+code, found = check(edited("strata", [{"to_m": 10}, {"to_m": 10.1}, {"to_m": 24}]))
+place = found[0]["place"].split(":")
+line = open("job.json").read().splitlines()[int(place[1]) - 1]
+ok(place[0] == "job.json" and '"to_m"' in line and "10.1" in line, "a warning names the line where its key stands", found, line)
+code, found = check({**GOOD, "wedge": {"over": [{"key": "domain.size_m", "values": [[40, 30, 30], [20, 30, 30]]}]}})
+ok(code == 0 and [w.get("wedge") for w in found] == [2], "each wedge is looked at", found)
+code, found = check(GOOD)
+ok(code == 0 and found == [], "a sound job has nothing", found)
+code, said = check(GOOD, "--strict")
+ok(code == 0, "nor with --strict", said)
+code, said = hoodoo("check", "job.json", "--set", "domain.size_m=[20, 30, 30]", "--strict")
+ok(code == 2 and "cut off" in said, "--strict makes a warning an error", code, said)
+# What loading refuses, check does, too, and what nothing stands of.
+for job, words in [(edited("wind", {"sped_m_s": 3}), "speed_m_s"), (edited("scene", {"box": {"min_m": [8, 8, 5], "max_m": [32, 22, 24]}}), "ground"),
+                   (edited("scene", {"box": {"min_m": [100, 8, 0], "max_m": [132, 22, 24]}}), "no rock")]:
+    code, said = check(job)
+    ok(code == 2 and words in str(said), f"refused: {words}", code, said)
+for path in sorted(glob.glob(os.path.join(TOP, "jobs/*.yaml"))):
+    code, said = hoodoo("check", path)
+    ok(code == 0 and "nothing to say" in said, os.path.basename(path) + " has no warning", said)
+began = os.times()
+hoodoo("check", os.path.join(TOP, "jobs/demo.yaml"))
+ended = os.times()
+cpu = ended.children_user + ended.children_system - began.children_user - began.children_system
+ok(cpu < 0.15, f"the demo is checked in {1000 * cpu:.0f} ms of CPU")
+finish()
