@@ -221,6 +221,18 @@ static bool is_name(const struct job_section *s, const struct job_key *key)
     return key->type == KEY_NAME && s != &job_sections[SECTION_job];
 }
 
+/* A mapping that holds a required key is required itself. */
+static bool required(const struct job_key *key)
+{
+    if (key->type != KEY_SUB)
+        return key_required(key);
+    const struct job_section *child = &job_sections[key->child];
+    for (size_t i = 0; i < child->n; i++)
+        if (required(&child->key[i]))
+            return true;
+    return false;
+}
+
 static void section(struct text *t, const struct job_section *s)
 {
     json_object(t, s->name);
@@ -234,7 +246,7 @@ static void section(struct text *t, const struct job_section *s)
     json_end_object(t);
     json_array(t, "required");
     for (size_t i = 0; i < s->n; i++)
-        if (!is_name(s, &s->key[i]) && key_required(&s->key[i]))
+        if (!is_name(s, &s->key[i]) && required(&s->key[i]))
             json_text(t, NULL, s->key[i].name);
     json_end_array(t);
     json_end_object(t);

@@ -50,7 +50,7 @@ def manifest(out, name, frame):
 
 def measures(m):
     """All but its files, and how long its stress took: a goblin's is for showing alone."""
-    told = {key: value for key, value in m.items() if key not in ("files", "self_xxh3")}
+    told = {key: value for key, value in m.items() if key not in ("files", "output_xxh3", "self_xxh3")}
     told["statistics"] = {key: value for key, value in m["statistics"].items() if key != "stress_iterations"}
     return told
 
