@@ -1,7 +1,7 @@
 # hoodoo: build, demo, test. `make help` lists the targets.
 
 PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa-vulkan-drivers \
-	libopenvdb-dev libboost-dev libopenexr-dev libopenimageio-dev openimageio-tools libtiff-dev libfyaml-dev libzstd-dev \
+	libopenvdb-dev libboost-dev libassimp-dev libmuparser-dev libopenexr-dev libopenimageio-dev openimageio-tools libtiff-dev libfyaml-dev libzstd-dev \
 	libseccomp-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
 	libcgal-dev libeigen3-dev gdal-bin
@@ -85,7 +85,7 @@ $(SHARE)/%_shim.o: %_shim.cpp | $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && $(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
 # What opens other people's files, and what needs OpenVDB, stands beside hoodoo and is started or loaded when it is needed.
-BESIDE = $(addprefix $(SHARE)/,hoodoo-read hoodoo-read-image hoodoo-vdb.so)
+BESIDE = $(addprefix $(SHARE)/,hoodoo-read hoodoo-read-image hoodoo-read-mesh hoodoo-vdb.so)
 $(BUILD)/hoodoo: | $(BESIDE)
 $(BUILD)/hoodoo-read: $(BUILD)/src/read.o $(BUILD)/libhoodoo.a
 	@echo "link $@"
@@ -93,14 +93,17 @@ $(BUILD)/hoodoo-read: $(BUILD)/src/read.o $(BUILD)/libhoodoo.a
 $(BUILD)/hoodoo-read-image: $(BUILD)/src/read_image.o $(BUILD)/libhoodoo.a
 	@echo "link $@"
 	$(Q)$(CXX) $(OPT) -o $@ $^ -lOpenImageIO -lOpenImageIO_Util -ltiff -lseccomp
+$(BUILD)/hoodoo-read-mesh: $(BUILD)/src/read_mesh.o $(BUILD)/libhoodoo.a
+	@echo "link $@"
+	$(Q)$(CXX) $(OPT) -o $@ $^ -lassimp -lxxhash -lseccomp
 
-VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,output/vdb_bytes output/vdb_points output/vdb_volumes scene/mesh_sdf) \
+VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,output/vdb_bytes output/vdb_points output/vdb_volumes scene/mesh_sdf scene/function) \
 	$(patsubst %,$(BUILD)/src/%.o,base/hash base/memory base/status base/text base/version job/values particles/rock)
 $(VDB_OBJ): private PIC = -fPIC
 $(VDB_OBJ): src/vdb.map
 $(BUILD)/hoodoo-vdb.so: $(VDB_OBJ) src/vdb.map
 	@echo "link $@"
-	$(Q)$(CXX) $(OPT) -shared -Wl,--version-script=src/vdb.map -Wl,-Bsymbolic -Wl,-z,defs -o $@ $(VDB_OBJ) $(VDB_LIBS)
+	$(Q)$(CXX) $(OPT) -shared -Wl,--version-script=src/vdb.map -Wl,-Bsymbolic -Wl,-z,defs -o $@ $(VDB_OBJ) $(VDB_LIBS) -lmuparser
 
 # What is simulated and what is in a frame's files comes from these objects. Their hash tells builds apart that may give
 # other numbers: objects and not sources, since compiler and flags count and comments do not. Debug information, which

@@ -16,6 +16,7 @@ int main(int argc, char **argv)
         {"vdb.points", MEMORY, vdb_serve_points},
         {"vdb.surface", MEMORY, vdb_serve_surface},
         {"vdb.at", MEMORY, vdb_serve_at},
+        {"vdb.shape", MEMORY, vdb_serve_shape},
         {"exr.check", MEMORY, exr_serve_check},
         {"exr.describe", MEMORY, exr_serve_describe},
     };

@@ -18,6 +18,7 @@ enum random_purpose {
     RANDOM_DEPOSIT = 5,
     RANDOM_PLANTS = 6,
     RANDOM_PILES = 7,
+    RANDOM_FUNCTION = 9,
     RANDOM_PAINT = 20
 };
 

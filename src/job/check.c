@@ -187,6 +187,9 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
             return st;
         return check_corners(map, ((const struct job_jointmap *)base)->min_m,
                              ((const struct job_jointmap *)base)->max_m);
+    case SECTION_function:
+        return check_corners(map, ((const struct job_function *)base)->min_m,
+                             ((const struct job_function *)base)->max_m);
     case SECTION_stroke:
         if (((const struct job_stroke *)base)->n_path_m == 0)
             return yaml_fail(place(map, "path_m"), NULL, "no point: a stroke has at least one");

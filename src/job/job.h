@@ -39,7 +39,9 @@ enum job_shape {
     SHAPE_HEIGHTFIELD,
     SHAPE_JOINTMAP,
     SHAPE_STROKE,
-    SHAPE_STACKS
+    SHAPE_STACKS,
+    SHAPE_VOLUME,
+    SHAPE_FUNCTION
 };
 
 /* What an edit sets. */
@@ -109,6 +111,8 @@ struct job_node {
         struct job_jointmap jointmap;
         struct job_stroke stroke;
         struct job_stacks stacks;
+        struct job_volume volume;
+        struct job_function function;
         struct job_group group; /* operators */
     } u;
 };

@@ -15,7 +15,7 @@ enum job_section_id {
 
 /* The shapes of a CSG node are the sections before `group`, so that a job_shape is its own section. */
 enum { SHAPES = SECTION_group };
-_Static_assert((int)SHAPE_BOX == (int)SECTION_box && (int)SHAPE_STACKS == (int)SECTION_group - 1,
+_Static_assert((int)SHAPE_BOX == (int)SECTION_box && (int)SHAPE_FUNCTION == (int)SECTION_group - 1,
                "enum job_shape and keys.def differ");
 
 enum key_type {

@@ -10,6 +10,7 @@
  * vdb.at NORMALS OPTIONAL NAME...   input: positions float[n][3]. If NORMALS is 1, float[n][3] of `surface`; then for
  *                                   each name float[n], 0 for those of the last OPTIONAL that are not in the file.
  *                                   NAME.x, .y or .z: of a vector, in the simulator's axes
+ * vdb.shape GRID ISO                as reader/mesh_part.h says
  */
 #ifndef HOODOO_VDB_SERVE_H
 #define HOODOO_VDB_SERVE_H
@@ -51,6 +52,7 @@ MUST_USE status vdb_serve_lattices(const struct serve_question *question, struct
 MUST_USE status vdb_serve_volumes(const struct serve_question *question, struct serve_answer *answer);
 MUST_USE status vdb_serve_points(const struct serve_question *question, struct serve_answer *answer);
 MUST_USE status vdb_serve_surface(const struct serve_question *question, struct serve_answer *answer);
+MUST_USE status vdb_serve_shape(const struct serve_question *question, struct serve_answer *answer);
 MUST_USE status vdb_serve_at(const struct serve_question *question, struct serve_answer *answer);
 
 #ifdef __cplusplus

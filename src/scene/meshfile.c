@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "reader/mesh_part.h"
 #include "scene/meshread.h"
 
 #define MESH_FILE_LIMIT ((size_t)8 << 30)
@@ -113,18 +114,26 @@ done:
 
 status mesh_read(const char *path, struct mesh *mesh)
 {
+    static status (*const read[])(struct reader *, struct mesh *) = {
+        [MESH_OBJ] = obj_read, [MESH_PLY] = ply_read, [MESH_STL] = stl_read, [MESH_OFF] = off_read};
     status st = OK;
     char *bytes = NULL;
     size_t size = 0;
+    enum mesh_format format;
+    struct mesh_part part;
     *mesh = (struct mesh){0};
-    TRY(file_read(path, MESH_FILE_LIMIT, &bytes, &size));
-    struct reader r = {.path = path, .begin = bytes, .at = bytes, .end = bytes + size, .line = 1};
-    if (size >= 4 && memcmp(bytes, "ply", 3) == 0 && (bytes[3] == '\n' || bytes[3] == '\r'))
-        TRY(ply_read(&r, mesh));
-    else
-        TRY(obj_read(&r, mesh));
+    TRY(mesh_kind(path, &format));
+    if (format == MESH_GLTF || format == MESH_GLB) {
+        const char *const word[] = {format == MESH_GLB ? "glb" : "gltf", NULL};
+        TRY(mesh_ask("hoodoo-read-mesh", "mesh", path, word, &part, mesh));
+        mesh->y_up = true;
+    } else {
+        TRY(file_read(path, MESH_FILE_LIMIT, &bytes, &size));
+        struct reader r = {.path = path, .begin = bytes, .at = bytes, .end = bytes + size, .line = 1};
+        TRY(read[format](&r, mesh));
+    }
     if (mesh->n_triangles == 0)
-        st = fail(E_INPUT, "%s: no faces: neither an OBJ nor a PLY mesh, or an empty one", path);
+        st = fail(E_INPUT, "%s: no faces: no OBJ, PLY, STL, glTF, GLB or OFF mesh, or an empty one", path);
 done:
     free(bytes);
     if (st != OK)

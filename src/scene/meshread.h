@@ -26,7 +26,18 @@ MUST_USE status reader_integer(struct reader *r, int64_t *out);
 MUST_USE status mesh_add_vertex(struct mesh *mesh, const double x[3]);
 MUST_USE status mesh_add_triangle(struct mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
 
+/* What the file is, by its content, or where that says nothing by its name. E_INPUT: a kind that nobody here reads. */
+enum mesh_format { MESH_OBJ, MESH_PLY, MESH_STL, MESH_OFF, MESH_GLTF, MESH_GLB };
+MUST_USE status mesh_kind(const char *path, enum mesh_format *format);
+
+/* A mesh by a program of its own (reader/mesh_part.h). */
+struct mesh_part;
+MUST_USE status mesh_ask(const char *program, const char *kind, const char *path, const char *const *word,
+                         struct mesh_part *part, struct mesh *mesh);
+
 MUST_USE status obj_read(struct reader *r, struct mesh *mesh);
+MUST_USE status stl_read(struct reader *r, struct mesh *mesh);
+MUST_USE status off_read(struct reader *r, struct mesh *mesh);
 MUST_USE status ply_read(struct reader *r, struct mesh *mesh);
 
 #endif

@@ -1,10 +1,12 @@
 #include "scene/meshsolid.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/log.h"
+#include "reader/mesh_part.h"
 #include "scene/meshread.h"
 #include "scene/meshtidy.h"
 #include "scene/winding.h"
@@ -25,23 +27,23 @@ struct work {
     struct winding *winding;
 };
 
-static status place_vertices(struct mesh *mesh, const struct job_mesh *job, const struct placement *place,
-                             double min[3], double max[3])
+static status place_vertices(struct mesh *mesh, const char *path, bool y_up, bool auto_origin,
+                             const struct placement *place, double min[3], double max[3])
 {
     double origin[3] = {0, 0, 0};
-    for (size_t i = 0; i < mesh->n_vertices && job->up == MESH_UP_Y; i++) {
+    for (size_t i = 0; i < mesh->n_vertices && y_up; i++) {
         double *v = mesh->vertex[i], y = v[1];
         v[1] = -v[2];
         v[2] = y;
     }
-    for (int a = 0; a < 3 && job->origin == MESH_ORIGIN_AUTO; a++) {
+    for (int a = 0; a < 3 && auto_origin; a++) {
         origin[a] = INFINITY;
         for (size_t i = 0; i < mesh->n_vertices; i++)
             origin[a] = fmin(origin[a], mesh->vertex[i][a]);
     }
-    if (job->origin == MESH_ORIGIN_AUTO)
+    if (auto_origin)
         log_info("%s: its origin is put at the lowest corner around it, (%.10g, %.10g, %.10g) m with z up",
-                 job->file, origin[0], origin[1], origin[2]);
+                 path, origin[0], origin[1], origin[2]);
     for (size_t i = 0; i < mesh->n_vertices; i++) {
         double *v = mesh->vertex[i];
         const double local[3] = {v[0] - origin[0], v[1] - origin[1], v[2] - origin[2]};
@@ -52,7 +54,7 @@ static status place_vertices(struct mesh *mesh, const struct job_mesh *job, cons
                     E_INPUT,
                     "%s: vertex %zu stands at (%.10g, %.10g, %.10g) m, farther than 1e6 m: scale the mesh "
                     "down, or give origin: auto where it has the coordinates of a map",
-                    job->file, i + 1, v[0], v[1], v[2]);
+                    path, i + 1, v[0], v[1], v[2]);
             min[a] = fmin(min[a], v[a]);
             max[a] = fmax(max[a], v[a]);
         }
@@ -241,31 +243,77 @@ done:
     return st;
 }
 
+/* Of the mesh in w, which goes. */
+static status make(struct work *w, double fill, double detail, double reach, struct vdb_sdf **out,
+                   double min[3], double max[3])
+{
+    status st = OK;
+    memcpy(min, w->min, sizeof w->min);
+    memcpy(max, w->max, sizeof w->max);
+    w->voxel = choose_voxel(w, detail, reach);
+    w->band = fmax(reach, 3 * w->voxel);
+    /* Single precision's rounding, or what no spacing can show, but not so much that faces would go. */
+    const double tolerance = fmin(fmax(longest_side(w) * 0x1p-20, w->voxel / 1000), w->voxel / 8);
+    TRY(mesh_tidy(&w->mesh, w->path, tolerance, &w->open));
+    TRY(winding_create((const double(*)[3])w->mesh.vertex, w->mesh.n_vertices,
+                       (const uint32_t(*)[3])w->mesh.triangle, w->mesh.n_triangles, w->open.n ? 2 : 1.5,
+                       &w->winding));
+    if (w->open.n > 0)
+        TRY(sample_open(w, fill, out));
+    else
+        TRY(sample(w, w->voxel, w->band, 0, out));
+done:
+    winding_destroy(&w->winding);
+    free(w->open.edge);
+    return st;
+}
+
+static const struct work nothing_yet = {.min = {INFINITY, INFINITY, INFINITY},
+                                        .max = {-INFINITY, -INFINITY, -INFINITY}};
+
 status mesh_solid(const struct job_mesh *job, const struct placement *place, double detail, double reach,
                   struct vdb_sdf **out, double min[3], double max[3])
 {
     status st = OK;
-    struct work w = {
-        .path = job->file, .min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
+    struct work w = nothing_yet;
+    w.path = job->file;
     TRY(mesh_read(job->file, &w.mesh));
-    TRY(place_vertices(&w.mesh, job, place, w.min, w.max));
-    memcpy(min, w.min, sizeof w.min);
-    memcpy(max, w.max, sizeof w.max);
-    w.voxel = choose_voxel(&w, detail, reach);
-    w.band = fmax(reach, 3 * w.voxel);
-    /* Single precision's rounding, or what no spacing can show, but not so much that faces would go. */
-    const double tolerance = fmin(fmax(longest_side(&w) * 0x1p-20, w.voxel / 1000), w.voxel / 8);
-    TRY(mesh_tidy(&w.mesh, w.path, tolerance, &w.open));
-    TRY(winding_create((const double(*)[3])w.mesh.vertex, w.mesh.n_vertices,
-                       (const uint32_t(*)[3])w.mesh.triangle, w.mesh.n_triangles, w.open.n ? 2 : 1.5,
-                       &w.winding));
-    if (w.open.n > 0)
-        TRY(sample_open(&w, job->fill_holes_m, out));
-    else
-        TRY(sample(&w, w.voxel, w.band, 0, out));
+    if (w.mesh.y_up && job->up != MESH_UP_Y)
+        log_warn(
+            "%s: in glTF files y is up, but this mesh is read with z up, as mesh.up says or leaves it: give "
+            "up: y unless it lies on its side",
+            job->file);
+    TRY(place_vertices(&w.mesh, job->file, job->up == MESH_UP_Y, job->origin == MESH_ORIGIN_AUTO, place,
+                       w.min, w.max));
+    TRY(make(&w, job->fill_holes_m, detail, reach, out, min, max));
 done:
-    winding_destroy(&w.winding);
-    free(w.open.edge);
+    mesh_free(&w.mesh);
+    return st;
+}
+
+status volume_solid(const struct job_volume *job, const struct placement *place, double detail, double reach,
+                    struct vdb_sdf **out, double min[3], double max[3])
+{
+    status st = OK;
+    struct work w = nothing_yet;
+    struct mesh_part part;
+    char density[32];
+    w.path = job->file;
+    snprintf(density, sizeof density, "%.9g", job->density);
+    TRY(mesh_ask("hoodoo-read", "vdb.shape", job->file, (const char *const[]){job->grid, density, NULL},
+                 &part, &w.mesh));
+    const bool y_up = job->up == VOLUME_UP_Y || (job->up == VOLUME_UP_FILE && part.y_up);
+    log_note("%s: grid '%s' is taken as %s%s, with %c up", job->file, part.grid,
+             part.is_fog ? "a fog, where it is denser than " : "a level set", part.is_fog ? density : "",
+             y_up ? 'y' : 'z');
+    if (w.mesh.n_triangles == 0) {
+        st = fail(E_INPUT, "%s: grid '%s' has no surface%s%s", job->file, part.grid,
+                  part.is_fog ? " at a density of " : "", part.is_fog ? density : "");
+        goto done;
+    }
+    TRY(place_vertices(&w.mesh, job->file, y_up, false, place, w.min, w.max));
+    TRY(make(&w, 0, detail, reach, out, min, max));
+done:
     mesh_free(&w.mesh);
     return st;
 }

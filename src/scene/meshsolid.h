@@ -1,4 +1,4 @@
-/* A mesh file as a solid standing in the world. */
+/* A mesh file, or the surface of an OpenVDB grid, as a solid standing in the world. */
 #ifndef HOODOO_MESHSOLID_H
 #define HOODOO_MESHSOLID_H
 
@@ -9,5 +9,9 @@
  * missing, damaged or hostile, or its surface has gaps that are wider than job->fill_holes_m and a spacing. */
 MUST_USE status mesh_solid(const struct job_mesh *job, const struct placement *place, double detail,
                            double reach, struct vdb_sdf **out, double min[3], double max[3]);
+
+/* E_INPUT: the file is missing, damaged or hostile, or has no such grid or surface. */
+MUST_USE status volume_solid(const struct job_volume *job, const struct placement *place, double detail,
+                             double reach, struct vdb_sdf **out, double min[3], double max[3]);
 
 #endif

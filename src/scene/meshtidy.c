@@ -90,6 +90,13 @@ status mesh_tidy(struct mesh *mesh, const char *path, double tolerance, struct m
         goto done;
     }
     TRY(mesh_turn_outwards(mesh, open, &turned));
+    if (open->n == 0 && is_flat(mesh)) {
+        st = fail(E_INPUT,
+                  "%s: its faces cancel each other: there is one for either side of each: remove the doubles "
+                  "(in Blender: Mesh > Clean Up > Merge by Distance, or export without both sides)",
+                  path);
+        goto done;
+    }
     if (turned > 0)
         log_info("%s: %zu of its parts were inside out: turned over", path, turned);
 done:

@@ -47,7 +47,7 @@ static double sphere_distance(const double center[3], double radius, const doubl
 
 double shape_distance(const struct shape *shape, const double x[3])
 {
-    if (shape->kind == SHAPE_MESH)
+    if (shape->kind == SHAPE_MESH || shape->kind == SHAPE_VOLUME)
         return vdb_sdf_at(shape->u.mesh, x);
     double p[3], d = INFINITY;
     placement_apply(shape->place.local_from_world, x, p);
@@ -79,7 +79,11 @@ double shape_distance(const struct shape *shape, const double x[3])
     case SHAPE_STACKS:
         d = terrain_shape_distance(shape->u.terrain, p);
         break;
+    case SHAPE_FUNCTION:
+        d = function_distance(shape->u.function, p);
+        break;
     case SHAPE_MESH:
+    case SHAPE_VOLUME:
         break;
     }
     return d * shape->place.shrink;
@@ -205,6 +209,16 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
     case SHAPE_MESH:
         TRY(mesh_solid(&node->u.mesh, place, detail, reach, &s->u.mesh, s->min, s->max));
         break;
+    case SHAPE_VOLUME:
+        TRY(volume_solid(&node->u.volume, place, detail, reach, &s->u.mesh, s->min, s->max));
+        break;
+    case SHAPE_FUNCTION: {
+        const struct job_function *f = &node->u.function;
+        TRY(check_corners("function", f->min_m, f->max_m));
+        TRY(function_create(f, detail / place->shrink, &s->u.function));
+        placement_box(place, f->min_m, f->max_m, s->min, s->max);
+        break;
+    }
     case SHAPE_HEIGHTFIELD: {
         const struct job_heightfield *h = &node->u.heightfield;
         double lo[3], hi[3];
@@ -242,7 +256,7 @@ done:
 
 void shape_deinit(struct shape *shape)
 {
-    if (shape->kind == SHAPE_MESH)
+    if (shape->kind == SHAPE_MESH || shape->kind == SHAPE_VOLUME)
         vdb_sdf_destroy(&shape->u.mesh);
     if (shape->kind == SHAPE_HEIGHTFIELD)
         heightfield_destroy(&shape->u.heightfield);
@@ -252,4 +266,6 @@ void shape_deinit(struct shape *shape)
         stroke_destroy(&shape->u.stroke);
     if (shape->kind == SHAPE_STACKS)
         terrain_shape_destroy(&shape->u.terrain);
+    if (shape->kind == SHAPE_FUNCTION)
+        function_destroy(&shape->u.function);
 }

@@ -2,6 +2,7 @@
 #ifndef HOODOO_SHAPE_H
 #define HOODOO_SHAPE_H
 
+#include "scene/function.h"
 #include "scene/heightfield.h"
 #include "scene/jointmap.h"
 #include "scene/mesh_sdf.h"
@@ -22,11 +23,12 @@ struct shape {
         struct {
             double normal[3], offset; /* unit; inside where x . normal <= offset */
         } plane;
-        struct vdb_sdf *mesh; /* already in the world: its vertices were placed */
+        struct vdb_sdf *mesh; /* of SHAPE_VOLUME, too; already in the world: its vertices were placed */
         struct heightfield *heightfield;
         struct jointmap *jointmap;
         struct stroke *stroke;
         struct terrain_shape *terrain;
+        struct function *function;
     } u;
 };
 

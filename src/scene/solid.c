@@ -68,7 +68,8 @@ status solid_create(const struct job_node *node, double detail, double reach, st
     struct placement world = placement_identity();
     if (!node)
         return fail(E_USAGE,
-                    "scene: no shape: give a box, sphere, cylinder, plane, mesh, heightfield or jointmap");
+                    "scene: no shape: give a box, sphere, cylinder, plane, mesh, volume, heightfield, "
+                    "function or jointmap");
     return create(node, &world, detail, reach, out);
 }
 
@@ -109,7 +110,7 @@ static int beyond(const struct solid *s, const double x[3], double distance)
  * extents. */
 static enum solid_share shape_in_box(const struct solid *s, const double min[3], const double max[3])
 {
-    if (s->shape.kind == SHAPE_MESH || s->shape.kind == SHAPE_STACKS)
+    if (s->shape.kind == SHAPE_MESH || s->shape.kind == SHAPE_VOLUME || s->shape.kind == SHAPE_STACKS)
         return SOLID_SOME;
     for (int a = 0; a < 3; a++)
         if (min[a] >= s->max[a] || max[a] <= s->min[a])

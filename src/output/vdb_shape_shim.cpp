@@ -1,0 +1,123 @@
+/* The surface of any file's level set or fog as triangles. Runs in hoodoo-read. */
+#include "output/vdb_shim.hpp"
+
+extern "C" {
+#include "output/vdb_serve.h"
+#include "reader/mesh_part.h"
+}
+
+#include <openvdb/tools/Interpolation.h>
+#include <openvdb/tools/VolumeToMesh.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+namespace
+{
+using openvdb::FloatGrid;
+using openvdb::GridBase;
+using openvdb::Vec3d;
+
+/* The grid of that name; "": the only or first that has floats. What may be asked for is in the message. */
+FloatGrid::Ptr choose(const vdb::file &file, const std::string &name)
+{
+    std::string there;
+    for (const GridBase::Ptr &grid : *file.grids) {
+        const bool floats = grid->isType<FloatGrid>() || grid->isType<openvdb::DoubleGrid>();
+        there += (there.empty() ? "'" : ", '") + grid->getName() + "'" + (floats ? "" : " (no floats)");
+        if (!(name.empty() ? floats : grid->getName() == name))
+            continue;
+        if (!floats)
+            throw std::runtime_error("grid '" + name + "' does not hold floats");
+        if (const auto same = openvdb::gridPtrCast<FloatGrid>(grid))
+            return same;
+        const auto wide = openvdb::gridPtrCast<openvdb::DoubleGrid>(grid);
+        const auto tree = std::make_shared<openvdb::FloatTree>(wide->tree());
+        const auto made = FloatGrid::create(tree);
+        made->setTransform(wide->transform().copy());
+        made->setGridClass(wide->getGridClass());
+        made->setName(wide->getName());
+        return made;
+    }
+    throw std::runtime_error(name.empty() ? "it has no grid of floats"
+                                          : "it has no grid '" + name + "': there is " +
+                                                (there.empty() ? "none" : there));
+}
+
+/* The library interpolates straight, and puts vertices in the middle of what they stand for; both take off what is round, half a percent of
+ * a ball of 15 voxels' radius. They go to where the grid has the value by parabolas. */
+void settle(const FloatGrid &grid, double iso, openvdb::Vec3s &point)
+{
+    const FloatGrid::ConstAccessor at = grid.getConstAccessor();
+    const Vec3d first = grid.worldToIndex(Vec3d(point));
+    Vec3d x = first;
+    for (int step = 0; step < 4; step++) {
+        Vec3d slope;
+        for (int a = 0; a < 3; a++) {
+            Vec3d d(0);
+            d[a] = 0.25;
+            slope[a] = 2 * (double(openvdb::tools::QuadraticSampler::sample(at, x + d)) -
+                            double(openvdb::tools::QuadraticSampler::sample(at, x - d)));
+        }
+        const double square = slope.lengthSqr();
+        if (!(square > 0))
+            return;
+        x -= slope * ((double(openvdb::tools::QuadraticSampler::sample(at, x)) - iso) / square);
+        if (!((x - first).lengthSqr() < 1))
+            return;
+    }
+    point = openvdb::Vec3s(grid.indexToWorld(x));
+}
+
+status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct serve_answer *answer)
+{
+    std::vector<openvdb::Vec3s> point;
+    std::vector<openvdb::Vec3I> triangle;
+    std::vector<openvdb::Vec4I> quad;
+    openvdb::tools::volumeToMesh(grid, point, triangle, quad, iso, 0);
+    for (openvdb::Vec3s &p : point)
+        settle(grid, iso, p);
+    struct mesh_part part = {};
+    part.n_vertices = point.size();
+    part.n_triangles = triangle.size() + 2 * quad.size();
+    part.y_up = y_up;
+    part.is_fog = is_fog;
+    std::strncpy(part.grid, grid.getName().c_str(), sizeof part.grid - 1);
+    status st = serve_put(answer, &part, sizeof part);
+    std::vector<double> place;
+    for (const openvdb::Vec3s &p : point)
+        place.insert(place.end(), {double(p[0]), double(p[1]), double(p[2])});
+    if (st == OK)
+        st = serve_put(answer, place.data(), place.size() * sizeof place[0]);
+    std::vector<uint32_t> corner;
+    /* Of a level set the library's faces are clockwise from outside; what a fog holds is above its value. */
+    const auto put = [&](uint32_t a, uint32_t b, uint32_t c) {
+        corner.insert(corner.end(), {a, is_fog ? b : c, is_fog ? c : b});
+    };
+    for (const openvdb::Vec3I &t : triangle)
+        put(t[0], t[1], t[2]);
+    for (const openvdb::Vec4I &f : quad) {
+        put(f[0], f[1], f[2]);
+        put(f[0], f[2], f[3]);
+    }
+    return st == OK ? serve_put(answer, corner.data(), corner.size() * sizeof corner[0]) : st;
+}
+} // namespace
+
+extern "C" status vdb_serve_shape(const struct serve_question *q, struct serve_answer *answer)
+try {
+    vdb::file file;
+    status st = q->n_words == 2 ? vdb::load(q->path, &file)
+                                : fail(E_INPUT, "%s: its reader was told too little", q->path);
+    if (st != OK)
+        return st;
+    const FloatGrid::Ptr grid = choose(file, q->word[0]);
+    /* Files that do not say what they hold hold a fog where nothing is below 0. */
+    bool is_fog = grid->getGridClass() == openvdb::GRID_FOG_VOLUME;
+    if (grid->getGridClass() != openvdb::GRID_FOG_VOLUME && grid->getGridClass() != openvdb::GRID_LEVEL_SET)
+        is_fog = !(grid->background() > 0);
+    return send(*grid, is_fog ? std::atof(q->word[1]) : 0, is_fog, file.y_up, answer);
+}
+SHIM_CATCH(E_INPUT, q->path)

@@ -1,0 +1,74 @@
+"""OpenVDB files as shapes: hoodoo's own volumes give their rock again, level sets and fogs of others what they hold, and what is none is
+refused."""
+import json
+import math
+import os
+import subprocess
+
+import numpy as np
+import pyopenvdb
+
+HOODOO = os.environ["HOODOO"]
+JOB = """hoodoo: 1
+name: {name}
+frames: 1-1
+clock: {{years_per_frame: 1}}
+domain: {{size_m: [14, 14, 12], spacing_m: 0.25}}
+scene: {scene}
+collapse: {{blocks: vanish}}
+stress: {{max_iterations: 1}}
+"""
+
+
+def check(good, what, *notes):
+    print("ok" if good else "not ok", what, *notes, flush=True)
+
+
+def run(name, scene):
+    """Cubic metres of rock, or what it said."""
+    with open(f"{name}.yaml", "w") as f:
+        f.write(JOB.format(name=name, scene=scene))
+    said = subprocess.run([HOODOO, "run", f"{name}.yaml", "--out", name, "--progress", "none"], capture_output=True, text=True)
+    if said.returncode:
+        return said.stderr
+    with open(f"{name}/frames/{name}.0001.json") as f:
+        return json.load(f)["statistics"]["volume_m3"]
+
+
+def near(value, wanted, share=0.005):
+    return isinstance(value, float | int) and abs(value / wanted - 1) <= share
+
+
+SHAPE = "{sphere: {center_m: [7, 7, 4], radius_m: 6}}"
+first = run("first", SHAPE)
+check(isinstance(first, float | int), "a first run", first)
+volume = run("again", "{volume: {file: first/volumes/first.0001.vdb}}")
+check(near(volume, first), "its volumes are its rock again", volume, first)
+
+ball = 4 / 3 * math.pi * 27
+level = pyopenvdb.createLevelSetSphere(radius=3, center=(6, 6, 3), voxelSize=0.2)
+level.name = "ball"
+fog = pyopenvdb.FloatGrid()
+at = np.indices((60, 60, 60)) * 0.2
+fog.copyFromArray(np.clip(0.5 + 3 - np.sqrt((at[0] - 6) ** 2 + (at[1] - 6) ** 2 + (at[2] - 3) ** 2), 0, 1))
+fog.transform = pyopenvdb.createLinearTransform(0.2)
+fog.gridClass = pyopenvdb.GridClass.FOG_VOLUME
+fog.name = "density"
+flags = pyopenvdb.BoolGrid()
+flags.name = "flags"
+pyopenvdb.write("other.vdb", grids=[flags, fog, level])
+for name, more in (("fog", ""), ("level", ", grid: ball")):
+    volume = run(name, "{volume: {file: other.vdb%s}}" % more)
+    check(near(volume, ball), f"a ball of another program's{more or ', the first grid with floats'}", volume, ball)
+volume = run("thin", "{volume: {file: other.vdb, grid: density, density: 0.9, translate_m: [0, 0, -0.5]}}")
+check(near(volume, 4 / 3 * math.pi * 2.6 ** 3, 0.01), "a fog where it is denser", volume)
+
+for name, more, word in (("none", ", grid: cloud", "'ball'"), ("flag", ", grid: flags", "floats"), ("empty", ", grid: density, density: 2", "no surface")):
+    said = run(name, "{volume: {file: other.vdb%s}}" % more)
+    check(isinstance(said, str) and "other.vdb" in said and word in said, f"refused{more}", str(said)[-300:])
+with open("other.vdb", "rb") as f:
+    whole = f.read()
+with open("cut.vdb", "wb") as f:
+    f.write(whole[: len(whole) // 2])
+said = run("cut", "{volume: {file: cut.vdb}}")
+check(isinstance(said, str) and "cut.vdb" in said, "and a file that is cut short", str(said)[-300:])
