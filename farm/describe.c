@@ -3,6 +3,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "farm/command.h"
+#include "run/room.h"
+
 enum { ROWS = 100 };
 
 static void put_wedges(const struct farm *f, bool words, struct text *out)
@@ -37,9 +40,34 @@ static void put_after(const struct farm_graph *g, const struct farm_task *t, boo
     json_end_array(out);
 }
 
-void farm_describe(const struct farm *f, bool words, struct text *out)
+/* What another farm needs to run it. Paths are this machine's. */
+static status put_command(const struct farm *f, const struct farm_task *t, const char *device,
+                          struct text *out)
+{
+    status st = OK;
+    struct farm_command c;
+    struct path log;
+    const struct model_estimate *e = &f->wedge[0].estimate;
+    const bool gpu = farm_wants_gpu(t->kind, device);
+    TRY(farm_command(f, t, device ? device : "auto", 0, &c));
+    json_array(out, "argv");
+    for (size_t i = 0; i < c.n; i++)
+        json_text(out, NULL, c.argv[i]);
+    json_end_array(out);
+    json_bool(out, "gpu", gpu);
+    if (t->kind == FARM_SIM)
+        json_integer(out, "memory_bytes",
+                     (int64_t)(e->host_bytes + room_process(NULL, e) + (gpu ? 0 : e->device_bytes)));
+    TRY(farm_log_path(f, t, &log));
+    json_text(out, "log", log.text);
+done:
+    return st;
+}
+
+status farm_describe(const struct farm *f, bool words, const char *device, struct text *out)
 {
     const struct farm_graph *g = &f->graph;
+    status st = OK;
     char frames[48];
     double seconds = 0;
     uint64_t disk = 0;
@@ -62,6 +90,8 @@ void farm_describe(const struct farm *f, bool words, struct text *out)
         json_number(out, "estimated_seconds", ceil(t->seconds));
         json_integer(out, "device_bytes", (int64_t)t->device_bytes);
         json_integer(out, "disk_bytes", (int64_t)t->disk_bytes);
+        if (!words)
+            TRY(put_command(f, t, device, out));
         json_end_object(out);
     }
     json_end_array(out);
@@ -70,4 +100,6 @@ void farm_describe(const struct farm *f, bool words, struct text *out)
     json_integer(out, "task_count", (int64_t)g->n);
     json_number(out, "tasks_seconds", ceil(seconds));
     json_integer(out, "tasks_disk_bytes", (int64_t)disk);
+done:
+    return st;
 }

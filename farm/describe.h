@@ -5,8 +5,9 @@
 #include "base/text.h"
 #include "farm/farm.h"
 
-/* Members "wedges" (if there are any) and "tasks" of the object under way. `words`: flat rows, and no more
- * of them than a person reads. */
-void farm_describe(const struct farm *f, bool words, struct text *out);
+/* Members "wedges" (if there are any) and "tasks" of the object under way. `words`: flat rows, and no more of them than a person
+ * reads. Otherwise each has all that a farm needs to run it: its command as a list, what it waits for, what it takes, where it
+ * logs. `device`: for --device, or NULL. E_USAGE: a command is too long. */
+MUST_USE status farm_describe(const struct farm *f, bool words, const char *device, struct text *out);
 
 #endif

@@ -1,5 +1,7 @@
 #include "farm/kinds.h"
 
+#include <string.h>
+
 #include "farm/graph.h"
 
 static size_t wants_meshes(const struct job *job)
@@ -74,4 +76,9 @@ bool farm_kind_is_cut(enum farm_kind kind)
 {
     const enum farm_cut cut = farm_kinds[kind].cut;
     return cut == CUT_BLOCKS || cut == CUT_CHUNKS || cut == CUT_LIST || cut == CUT_VIEWS;
+}
+
+bool farm_wants_gpu(enum farm_kind kind, const char *device)
+{
+    return farm_kinds[kind].device && !(device && strcmp(device, "cpu") == 0);
 }

@@ -58,4 +58,7 @@ extern const struct farm_kind_info farm_kinds[FARM_KINDS];
 /* Are there several tasks of the kind, for parts of what it makes? */
 bool farm_kind_is_cut(enum farm_kind kind);
 
+/* Does a task of this kind want a GPU, given --device? `device`: NULL for any; the CPU is none. */
+bool farm_wants_gpu(enum farm_kind kind, const char *device);
+
 #endif

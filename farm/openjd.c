@@ -132,6 +132,7 @@ struct step {
     char after[AFTER_MAX][STEP_NAME];
     size_t n_after;
     const char *chunks; /* the range of a step in chunks, or NULL */
+    const char *device; /* as --device has it, or NULL */
     struct command_values values;
 };
 
@@ -178,10 +179,15 @@ static void put_host(const struct step *s, struct text *t)
     const struct model_estimate *e = &s->farm->wedge[0].estimate;
     json_object(t, "hostRequirements");
     if (farm_kinds[s->kind].device) {
+        /* Without a GPU its memory is the machine's. */
+        const bool gpu = farm_wants_gpu(s->kind, s->device);
+        const uint64_t host = e->host_bytes + room_process(NULL, e) + (gpu ? 0 : e->device_bytes);
         json_array(t, "amounts");
-        put_amount(t, "amount.worker.gpu", 1);
-        put_amount(t, "amount.worker.gpu.memory", (int64_t)(e->device_bytes / MIB) + 1);
-        put_amount(t, "amount.worker.memory", (int64_t)((e->host_bytes + room_process(NULL, e)) / MIB) + 1);
+        if (gpu) {
+            put_amount(t, "amount.worker.gpu", 1);
+            put_amount(t, "amount.worker.gpu.memory", (int64_t)(e->device_bytes / MIB) + 1);
+        }
+        put_amount(t, "amount.worker.memory", (int64_t)(host / MIB) + 1);
         json_end_array(t);
     }
     json_array(t, "attributes");
@@ -244,7 +250,7 @@ static status put_step(const struct step *s, struct text *t)
     return st;
 }
 
-static struct step step_of(const struct farm *f, enum farm_kind kind)
+static struct step step_of(const struct farm *f, enum farm_kind kind, const char *device)
 {
     const struct job *job = f->wedge[0].job;
     const struct command_values values = {.job = "{{Param.JobFile}}",
@@ -257,7 +263,7 @@ static struct step step_of(const struct farm *f, enum farm_kind kind)
                                           .map = "{{Session.PathMappingRulesFile}}",
                                           .gaps = "--allow-none",
                                           .progress = "openjd"};
-    struct step s = {.farm = f, .kind = kind, .values = values};
+    struct step s = {.farm = f, .kind = kind, .values = values, .device = device};
     snprintf(s.name, sizeof s.name, "%s", farm_kinds[kind].step);
     return s;
 }
@@ -275,7 +281,7 @@ static void name_after_frames(struct step *s, const char *frames)
 }
 
 /* What is derived from a block's frames, in chunks of those from the first to the last that have it. */
-static status put_derived(const struct farm *f, enum farm_kind kind, const char *block,
+static status put_derived(const struct farm *f, const char *device, enum farm_kind kind, const char *block,
                           struct frame_range frames, struct text *t)
 {
     const struct job *job = f->wedge[0].job;
@@ -287,7 +293,7 @@ static status put_derived(const struct farm *f, enum farm_kind kind, const char 
             taken = (struct frame_range){taken.step ? taken.first : frame, frame, 1};
     if (!taken.step || (info->wanted && !info->wanted(job)))
         return OK;
-    struct step s = step_of(f, kind);
+    struct step s = step_of(f, kind, device);
     snprintf(chunks, sizeof chunks, "%d-%d", taken.first, taken.last);
     name_after_frames(&s, range_text(frames, text));
     add_after(&s, block);
@@ -296,11 +302,12 @@ static status put_derived(const struct farm *f, enum farm_kind kind, const char 
 }
 
 /* A block, and what is derived from it. `name` is that of the block before it and becomes its own. */
-static status put_block(const struct farm *f, struct frame_range frames, char name[STEP_NAME], struct text *t)
+static status put_block(const struct farm *f, const char *device, struct frame_range frames,
+                        char name[STEP_NAME], struct text *t)
 {
     status st = OK;
     char text[48];
-    struct step s = step_of(f, FARM_SIM);
+    struct step s = step_of(f, FARM_SIM, device);
     s.values.frames = range_text(frames, text);
     name_after_frames(&s, text);
     add_after(&s, name);
@@ -308,7 +315,7 @@ static status put_block(const struct farm *f, struct frame_range frames, char na
     TRY(put_step(&s, t));
     for (int k = 0; k < FARM_KINDS; k++)
         if (farm_kinds[k].cut == CUT_CHUNKS)
-            TRY(put_derived(f, (enum farm_kind)k, name, frames, t));
+            TRY(put_derived(f, device, (enum farm_kind)k, name, frames, t));
 done:
     return st;
 }
@@ -325,7 +332,8 @@ static void add_all_after(struct step *s, const char *last_sim)
 }
 
 /* What is made of all frames together, of lists of them, or of views of the last. */
-static status put_finish(const struct farm *f, enum farm_kind kind, const char *last_sim, struct text *t)
+static status put_finish(const struct farm *f, const char *device, enum farm_kind kind, const char *last_sim,
+                         struct text *t)
 {
     status st = OK;
     const struct job *job = f->wedge[0].job;
@@ -336,7 +344,7 @@ static status put_finish(const struct farm *f, enum farm_kind kind, const char *
     snprintf(views, sizeof views, "%d", (int)job->farm.turntable);
     snprintf(list, sizeof list, last > 0 ? "0-%d" : "%d", last);
     for (size_t i = 0; i < n; i++) {
-        struct step s = step_of(f, kind);
+        struct step s = step_of(f, kind, device);
         s.values.views = views;
         s.chunks = info->cut == CUT_LIST ? "{{Param.StillFrames}}" : info->cut == CUT_VIEWS ? list : NULL;
         if (info->value) {
@@ -350,17 +358,17 @@ done:
     return st;
 }
 
-static status put_steps(const struct farm *f, struct text *t)
+static status put_steps(const struct farm *f, const char *device, struct text *t)
 {
     status st = OK;
     char last_sim[STEP_NAME] = "";
     json_array(t, "steps");
     for (size_t i = 0; i < f->graph.n; i++)
         if (in_template(f, &f->graph.task[i], FARM_SIM))
-            TRY(put_block(f, f->graph.task[i].frames, last_sim, t));
+            TRY(put_block(f, device, f->graph.task[i].frames, last_sim, t));
     for (int k = 0; k < FARM_KINDS; k++)
         if (farm_kinds[k].cut != CUT_BLOCKS && farm_kinds[k].cut != CUT_CHUNKS && has(f, (enum farm_kind)k))
-            TRY(put_finish(f, (enum farm_kind)k, last_sim, t));
+            TRY(put_finish(f, device, (enum farm_kind)k, last_sim, t));
     json_end_array(t);
 done:
     return st;
@@ -383,7 +391,7 @@ status openjd_template(const struct farm *f, const char *device, struct text *t)
     snprintf(name, sizeof name, "hoodoo %s", f->base->name);
     json_text(t, "name", name);
     TRY(put_parameters(f, device, t));
-    TRY(put_steps(f, t));
+    TRY(put_steps(f, device, t));
     json_end_object(t);
     TRY(text_status(t));
 done:

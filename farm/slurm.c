@@ -180,7 +180,7 @@ static void words_of(const struct farm *f, const struct slurm_options *o, const 
     word(w, t->data ? t->data : "");
     word(w, "--nodes=1");
     word(w, "--ntasks=1");
-    if (farm_kinds[task->kind].device)
+    if (farm_wants_gpu(task->kind, o->device))
         word(w, "--gres=gpu:1");
     if (b->n > 1) {
         t = made(w);

@@ -24,7 +24,8 @@
     X(verify, "OUT", "re-read every file against its manifest; names each damaged or missing one")           \
     X(aov, "OUT", "render AOVs again from the frames' VDBs: other cameras, resolution, layers")              \
     X(mesh, "OUT", "a surface mesh per frame (PLY, OBJ, USD)")                                               \
-    X(submit, "JOB [ARG...]", "hand it to this machine's devices, to Slurm, or write an OpenJD template")    \
+    X(submit, "JOB [ARG...]",                                                                                \
+      "hand it to this machine's devices, to Slurm, or write its tasks for OpenJD or any other farm")        \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
     X(report, "OUT", "one static HTML page: pictures, curves, provenance, timing")                           \
     X(inspect, "FILE", "what a checkpoint, VDB, EXR or manifest holds, in words or --json")                  \

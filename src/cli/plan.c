@@ -85,7 +85,7 @@ static void describe_memory(const struct model_estimate *e, const struct gpu *gp
 }
 
 /* `gpu` may be NULL: what only a device knows is left out. */
-static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t)
+static status answer(struct farm *f, struct gpu *gpu, bool words, const char *device, struct text *t)
 {
     status st = OK;
     const struct job *job = f->wedge[0].job;
@@ -129,7 +129,7 @@ static status answer(struct farm *f, struct gpu *gpu, bool words, struct text *t
     }
     if (gpu)
         json_bool(t, "fits_in_memory", room_enough(room_free(gpu), room_needed(gpu, &e)));
-    farm_describe(f, words, t);
+    TRY(farm_describe(f, words, device, t));
     json_end_object(t);
     TRY(text_status(t));
 done:
@@ -152,9 +152,10 @@ status cli_plan(int argc, char **argv)
     if (help)
         goto done;
     TRY(farm_load(operands.word[0], c.sets.word, c.sets.n, c.from, wedge, c.out, &farm));
-    if (!c.device || strcmp(c.device, "none") != 0)
+    const bool none = c.device && strcmp(c.device, "none") == 0;
+    if (!none)
         TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
-    TRY(answer(&farm, gpu, !c.json, &t));
+    TRY(answer(&farm, gpu, !c.json, none ? NULL : c.device, &t));
     TRY(words_print(&t, c.json));
 done:
     text_free(&t);

@@ -1,4 +1,4 @@
-/* hoodoo submit JOB --to local|slurm|openjd: the job's tasks, to this machine's devices or to a scheduler. */
+/* hoodoo submit JOB --to local|slurm|openjd|tasks: the job's tasks, to this machine's devices, to a scheduler, or as data. */
 #include <stdio.h>
 
 #include "base/atomic_file.h"
@@ -14,7 +14,7 @@
 #include "farm/slurm.h"
 #include "run/advice.h"
 
-#define TO_CHOICE (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")
+#define TO_CHOICE (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")(TO_TASKS, "tasks")
 /* Wedges that are looked at: one is much like the next. */
 enum { WARNED = 3 };
 
@@ -171,16 +171,32 @@ done:
 
 /* ---- the verb */
 
-static status print_tasks(const struct farm *f, bool as_json)
+static status print_tasks(const struct wanted *w, const struct farm *f, bool as_json)
 {
+    status st = OK;
     struct text t = {0};
     json_object(&t, NULL);
+    if (as_json)
+        json_integer(&t, "format", 1);
     json_text(&t, "name", f->base->name);
     json_text(&t, "folder", f->root.text);
-    farm_describe(f, !as_json, &t);
+    TRY(farm_describe(f, !as_json, w->common.device, &t));
     json_end_object(&t);
-    status st = words_print(&t, as_json);
+    TRY(words_print(&t, as_json));
+done:
     text_free(&t);
+    return st;
+}
+
+/* ---- any other farm: what to run, in which order */
+
+static status to_tasks(const struct wanted *w, struct farm *f)
+{
+    status st = OK;
+    if (!w->dry_run)
+        TRY(farm_freeze(f));
+    TRY(print_tasks(w, f, true));
+done:
     return st;
 }
 
@@ -191,11 +207,13 @@ static status dispatch(const struct wanted *w, const struct words *operands, str
                     operands->word[1]);
     switch ((enum target)w->to) {
     case TO_LOCAL:
-        return w->dry_run ? print_tasks(f, w->common.json) : to_local(w, f);
+        return w->dry_run ? print_tasks(w, f, w->common.json) : to_local(w, f);
     case TO_SLURM:
         return to_slurm(w, operands, f);
     case TO_OPENJD:
         return to_openjd(w, f);
+    case TO_TASKS:
+        return to_tasks(w, f);
     }
     return OK;
 }
@@ -210,7 +228,9 @@ status cli_submit(int argc, char **argv)
     bool help = false;
     const struct option options[] = {
         {"to", CHOICE_TEXT(TO_CHOICE), OPTION_CHOICE, &w.to,
-         "this machine's devices; sbatch; or a job template (jobtemplate-2023-09)"},
+         "this machine's devices; sbatch; a job template (jobtemplate-2023-09); or, for any other farm, the "
+         "tasks as "
+         "JSON on stdout: each with its command, what it waits for and what it takes"},
         OPTION_OUT(&w.common),
         {"dry-run", NULL, OPTION_FLAG, &w.dry_run, "print what would be submitted, and do nothing"},
         {"gpus", "LIST", OPTION_TEXT, &w.gpus, "local: a worker for each of these devices, such as 0,1"},
@@ -227,7 +247,7 @@ status cli_submit(int argc, char **argv)
     if (help)
         goto done;
     if (w.to < 0) {
-        st = fail(E_USAGE, "submit: --to is missing: --to local, --to slurm or --to openjd");
+        st = fail(E_USAGE, "submit: --to is missing: --to local, slurm, openjd or tasks");
         goto done;
     }
     TRY(farm_load(operands.word[0], w.common.sets.word, w.common.sets.n, w.common.from, w.wedge, w.common.out,
