@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "base/nearest.h"
+#include "base/text.h"
 
 status words_add(struct words *w, const char *word)
 {
@@ -32,18 +33,41 @@ void common_free(struct common *c)
 
 /* ---- help */
 
+/* A term, and behind it in lines of its own column what it means. */
+static void add_help(struct text *t, const char *term, const char *meaning)
+{
+    enum { COLUMN = 28, WIDTH = 80 };
+    const bool fits = strlen(term) + 4 <= COLUMN;
+    text_add(t, "  %-*s%s", COLUMN - 3, term, fits ? "" : "\n");
+    text_add_wrapped(t, meaning, fits ? COLUMN - 1 : 0, COLUMN, WIDTH);
+}
+
 static void print_help(const struct usage *usage, const struct option *options, size_t n)
 {
-    printf("usage: hoodoo %s%s%s%s\n\n%s\n\n", usage->verb, n ? " [OPTIONS]" : "",
-           *usage->operands ? " " : "", usage->operands, usage->summary);
+    enum { LONGEST = 76 };
+    struct text t = {0};
+    char term[256];
+    text_add(&t, "usage: hoodoo %s%s%s%s\n\n", usage->verb, n ? " [OPTIONS]" : "",
+             *usage->operands ? " " : "", usage->operands);
+    text_add_wrapped(&t, usage->summary, 0, 0, 80);
+    text_add(&t, "\n");
     for (size_t i = 0; i < n; i++) {
         const struct option *o = &options[i];
-        int width = printf("  --%s%s%s", o->name, o->value ? " " : "", o->value ? o->value : "");
-        if (width > 26)
-            width = printf("\n") - 1;
-        printf("%*s  %s\n", 26 - width, "", o->help);
+        struct text meaning = {0};
+        snprintf(term, sizeof term, "--%s%s%s", o->name, o->value ? " " : "", o->value ? o->value : "");
+        if (strlen(term) > LONGEST) { /* a long list of words goes with what it means */
+            snprintf(term, sizeof term, "--%s WORD", o->name);
+            for (const char *s = o->value; *s; s++)
+                text_add(&meaning, "%.*s", *s == '|' ? 2 : 1, *s == '|' ? ", " : s);
+            text_add(&meaning, ": ");
+        }
+        text_add(&meaning, "%s", o->help);
+        add_help(&t, term, meaning.data ? meaning.data : "");
+        text_free(&meaning);
     }
-    printf("  %-24s  %s\n", "-h, --help", "this text");
+    add_help(&t, "-h, --help", "this text");
+    printf("%s", t.data ? t.data : "");
+    text_free(&t);
 }
 
 /* ---- values */

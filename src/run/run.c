@@ -449,6 +449,7 @@ static status simulate(struct run *r)
 {
     status st = OK;
     int last = r->last_missing;
+    char range[48];
     /* Frames after it are done, and so are the checkpoints they need. */
     bool repair = last < r->frames.last;
     /* A checkpoint's own frame may be the first one missing. */
@@ -483,6 +484,8 @@ static status simulate(struct run *r)
         fresh = true;
     }
     TRY(writer_finish(&r->writer));
+    log_info("frames %s are in %s, for other programs as %s/%s.usda", range_text(r->frames, range),
+             r->options->root, r->options->root, r->job->name);
 done:
     return st;
 }

@@ -20,7 +20,7 @@ one_line() {
 }
 
 help_is_good() {
-    says 0 "$@" && [ ! -s err ] && grep -q '^usage: hoodoo' out
+    says 0 "$@" && [ ! -s err ] && grep -q '^usage: hoodoo' out && ! grep -n '.\{81\}' out
 }
 
 refused() {
