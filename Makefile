@@ -231,11 +231,17 @@ test-tsan: $(BUILD)/.deps-dev $(SHARED)
 test-sanitized: $(BUILD)/.deps-test $(filter $(BUILD)/tests/unit/% $(BUILD)/tests/gpu/%,$(TEST_BIN))
 	$(Q)sh tests/run.sh $(BUILD) unit gpu
 
-## install: copy hoodoo to PREFIX/bin and its helpers to PREFIX/libexec/hoodoo (default /usr/local)
+## install: copy hoodoo to PREFIX/bin, its helpers to PREFIX/libexec/hoodoo, page, completion, examples and licence to PREFIX/share (default /usr/local)
 PREFIX = /usr/local
 install: $(BUILD)/hoodoo
 	install -D -m 755 $(BUILD)/hoodoo $(DESTDIR)$(PREFIX)/bin/hoodoo
 	install -D -m 755 -t $(DESTDIR)$(PREFIX)/libexec/hoodoo $(BESIDE)
+	sh src/cli/man.sh $(BUILD)/hoodoo > $(BUILD)/hoodoo.1 && install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/man/man1 $(BUILD)/hoodoo.1
+	install -D -m 644 src/cli/complete/hoodoo.bash $(DESTDIR)$(PREFIX)/share/bash-completion/completions/hoodoo
+	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/zsh/site-functions src/cli/complete/_hoodoo
+	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d src/cli/complete/hoodoo.fish
+	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/hoodoo/jobs jobs/*.yaml jobs/*.png jobs/*.json jobs/README.md
+	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/doc/hoodoo LICENSE CHANGELOG.md README.md
 
 ## clean: remove what was built (out/ stays)
 clean:

@@ -24,15 +24,21 @@ status cli_keys(int argc, char **argv)
     status st = OK;
     struct words operands = {0};
     struct text t = {0};
-    bool help = false, schema = false;
+    bool help = false, schema = false, list = false;
     const struct option options[] = {
+        {"list", NULL, OPTION_FLAG, &list, "print the path of every key, a line each, for completion"},
         {"schema", NULL, OPTION_FLAG, &schema,
          "print all keys as a JSON Schema, with which editors complete and check jobs"},
     };
     TRY(options_parse(&usage_keys, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(schema ? job_schema(&t) : job_keys(operands.n ? operands.word[0] : NULL, width_here(), &t));
+    if (schema)
+        TRY(job_schema(&t));
+    else if (list)
+        TRY(job_keys_list(&t));
+    else
+        TRY(job_keys(operands.n ? operands.word[0] : NULL, width_here(), &t));
     fwrite(t.data, 1, t.size, stdout);
 done:
     text_free(&t);

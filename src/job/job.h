@@ -236,6 +236,9 @@ MUST_USE status job_inputs(const struct job *job, struct job_input **out, size_t
  * "strata.0.to_m"), or every key that has the word in its path, meaning or unit. E_USAGE: none has; the nearest is named. */
 MUST_USE status job_keys(const char *what, int width, struct text *out);
 
+/* The path of every key, a line each: "strata.N.to_m", "scene.box.min_m". */
+MUST_USE status job_keys_list(struct text *out);
+
 /* The keys as a JSON Schema. */
 MUST_USE status job_schema(struct text *out);
 

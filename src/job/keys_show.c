@@ -228,6 +228,19 @@ done:
 
 /* ---- all */
 
+static void list_key(void *user, const char *path, const struct job_key *key)
+{
+    if (!holds_keys(key))
+        text_add(user, "%s\n", path);
+}
+
+status job_keys_list(struct text *out)
+{
+    struct visit v = {.key = list_key, .user = out};
+    visit_all(&v);
+    return text_status(out);
+}
+
 static void show_overview(struct text *t, int width)
 {
     const struct job_section *s = &job_sections[SECTION_job];

@@ -71,6 +71,22 @@ with open("map.yaml", "w") as f:
     f.write("hoodoo: 1\nname: map\nmodel: goblins\nframes: 1-1\nclock: {years_per_frame: 10}\ndomain: {size_m: [4, 4, 4], spacing_m: 0.5}\n"
             "scene: {jointmap: {file: grey.pgm, min_m: [0, 0, 0], max_m: [4, 4, 3]}}\nstrata: [{weak_m_per_kyr: 1, bubble: {radius_m: 1}}]\n")
 hoodoo = os.path.join(there, "bin/hoodoo")
+page = open(os.path.join(there, "share/man/man1/hoodoo.1")).read()
+ok(page.startswith(".TH HOODOO 1") and all(f".SH HOODOO {v}\n" in page for v in ("RUN", "CHECK", "SUBMIT", "DEVICES")) and ".SH EXIT STATUS" in page and "\\-\\-frames" in page,
+   "a manual page of every verb", page[:300])
+
+
+def completed(*words):
+    """What bash offers for the last word."""
+    script = (f"source {there}/share/bash-completion/completions/hoodoo; COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; "
+              f"[ ${{#COMP_WORDS[@]}} = {len(words)} ] || COMP_WORDS+=(''); _hoodoo {hoodoo}; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
+    return subprocess.run(["bash", "-c", script], capture_output=True, text=True, env={**clean, "PATH": f"{there}/bin:{clean['PATH']}"}).stdout.split()
+
+
+ok({"run", "plan", "check", "preview"} <= set(completed("hoodoo", "''")) and completed("hoodoo", "prev") == ["preview"], "bash completes verbs", completed("hoodoo", "''"))
+ok("--frames" in completed("hoodoo", "run", "--fr"), "and options", completed("hoodoo", "run", "--fr"))
+ok("wind.speed_m_s=" in completed("hoodoo", "run", "--set", "wind.sp"), "and keys", completed("hoodoo", "run", "--set", "wind.sp"))
+ok("butte" in completed("hoodoo", "new", "--like", "bu"), "and examples", completed("hoodoo", "new", "--like", "bu"))
 said = subprocess.run([hoodoo, "run", "map.yaml", "--out", "map"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=clean, text=True)
 ok(said.returncode == 0 and os.path.exists("map/volumes/map.0001.vdb"), "an installed hoodoo reads an image and writes OpenVDB", said.stdout[-500:])
 said = subprocess.run([hoodoo, "verify", "map"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=clean, text=True)
