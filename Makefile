@@ -4,7 +4,7 @@ PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa
 	libopenvdb-dev libboost-dev libassimp-dev libmuparser-dev libopenexr-dev libopenimageio-dev openimageio-tools libtiff-dev libfyaml-dev libzstd-dev \
 	libseccomp-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
-	libcgal-dev libeigen3-dev gdal-bin
+	libcgal-dev libcgal-demo libeigen3-dev gdal-bin
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0
 DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev
