@@ -141,8 +141,8 @@ with open("run/job.yaml", "w") as file:
 code, said = verify("run")
 ok(code == 3 and "damaged job.yaml: it is not the frames' job" in said and "1 damaged" in said, "verify: an edited job.yaml is named", code, said)
 fresh()
-code, said = run("run", "--set", "output.owner=somebody", "--set", "fps=25")
-ok(code == 0 and "continuing" in said, "what changes no simulation may change: it goes on", code, said)
+code, said = run("run", "--set", "checkpoint.keep=4", "--set", "farm.retries=1", "--set", "cameras.spare={orbit: {distance_m: 9}}")
+ok(code == 0 and "continuing" in said, "what is in no frame may change: it goes on", code, said)
 fresh()
 with open("run/job.yaml", "w") as file:
     file.write("hoodoo: 1\nname: [\n")
