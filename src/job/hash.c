@@ -423,6 +423,7 @@ status job_inputs(const struct job *job, struct job_input **out, size_t *n)
     *out = NULL;
     *n = 0;
     TRY(walk_section(&w, SECTION_job, job));
+    TRY(text_status(&w.canonical));
     if (!w.inputs)
         TRY(memory_alloc(0, sizeof *w.inputs, "the job's input files", &w.inputs));
     *out = w.inputs;

@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "field/camera.h"
+#include "job/table.h"
 #include "scene/scene.h"
 #include "shared/params.h"
 
@@ -168,7 +169,9 @@ static status look_at_interlocking(struct view *v)
     const struct job *job = v->job;
     const double weight_of_metre = 1e-6 * job->rock.density_kg_m3 * job->rock.gravity_m_s2; /* MPa */
     double below = -INFINITY, nearest = INFINITY, most = 0, height = 0;
+    const double preset = table_find(SECTION_layer, "interlock_MPa")->number;
     size_t which = 0;
+    bool typed = false; /* nobody is told of a number that nobody gave */
     char key[64];
     if (!job_model(job)->interlocks || !(weight_of_metre > 0))
         return OK;
@@ -178,6 +181,7 @@ static status look_at_interlocking(struct view *v)
         below = l->to_m;
         if (bottom >= fmin(l->to_m, v->high[2]) || above <= 0)
             continue;
+        typed |= l->interlock_MPa.n > 1 || l->interlock_MPa.value[0] != preset;
         const double least = curve_least(&l->interlock_MPa) / (weight_of_metre * above);
         most = fmax(most, curve_most(&l->interlock_MPa) / (weight_of_metre * above));
         if (least < nearest) {
@@ -187,6 +191,8 @@ static status look_at_interlocking(struct view *v)
         }
     }
     snprintf(key, sizeof key, "strata.%zu.interlock_MPa", which);
+    if (!typed)
+        return OK;
     if (isfinite(nearest) && nearest > FAR)
         return say(v, key,
                    "interlocking holds from %.3g m of rock upwards, and no layer has nearly as much above "
@@ -409,21 +415,25 @@ void advices_free(struct advices *a)
     *a = (struct advices){0};
 }
 
-void advices_log(const struct job *job)
+status advices_log(const struct job *job)
 {
     enum { QUICK = 4 << 20, MOST = 12 };
+    status st = OK;
     struct advices a = {0};
     struct job_input *input = NULL;
     size_t n = 0;
     uint64_t bytes = 0;
-    const bool read = job_inputs(job, &input, &n) == OK;
+    TRY(job_inputs(job, &input, &n));
     for (size_t i = 0; i < n; i++)
         bytes += input[i].size;
+    if (bytes > QUICK)
+        goto done;
+    TRY(advices_of(job, &a));
+    for (size_t i = 0; i < a.n && i < MOST; i++)
+        log_warn("%s%s%s: %s", job->wedge.index ? job->name : "", job->wedge.index ? ": " : "", a.one[i].key,
+                 a.one[i].text);
+done:
     free(input);
-    /* What is wrong is found again by who runs it, and said there. */
-    if (read && bytes <= QUICK && advices_of(job, &a) == OK)
-        for (size_t i = 0; i < a.n && i < MOST; i++)
-            log_warn("%s%s%s: %s", job->wedge.index ? job->name : "", job->wedge.index ? ": " : "",
-                     a.one[i].key, a.one[i].text);
     advices_free(&a);
+    return st == E_MEMORY ? st : OK;
 }

@@ -21,7 +21,8 @@ struct advices {
 MUST_USE status advices_of(const struct job *job, struct advices *out);
 void advices_free(struct advices *a);
 
-/* As warnings in the log, for who is about to run it. Nothing of jobs whose files take long to read: hoodoo check says it. */
-void advices_log(const struct job *job);
+/* As warnings in the log, for who is about to run it. Nothing of jobs whose files take long to read: hoodoo check says it. What is
+ * wrong is found again by who runs it, and said there. E_MEMORY. */
+MUST_USE status advices_log(const struct job *job);
 
 #endif

@@ -11,7 +11,7 @@ ALL = os.environ.get("NO_MEMORY") == "all"
 ONLY = os.environ.get("ONLY", "").split()
 SHIM, NOTES = HERE + "/no_memory.so", HERE + "/notes"
 DEADLINE_S = 600
-NOISE = ("hoodoo: about ", "hoodoo: device time", "hoodoo: continuing ", "hoodoo: frames ")
+NOISE = ("hoodoo: warning: arches.operations", "hoodoo: about ", "hoodoo: device time", "hoodoo: continuing ", "hoodoo: frames ")
 # What a run may lose and still be done; it says so in its log.
 BY_DESIGN = ("log/timing.jsonl: out of memory", "out: old checkpoints stay: out of memory")
 random.seed(int(os.environ.get("SEED", "1")))
