@@ -10,6 +10,7 @@
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static FILE *file;
 static void (*guard)(bool before);
+static _Thread_local bool hushed;
 
 status log_open(const char *path)
 {
@@ -31,9 +32,18 @@ void log_set_guard(void (*g)(bool before))
     guard = g;
 }
 
+bool log_hush(bool on)
+{
+    const bool before = hushed;
+    hushed = on;
+    return before;
+}
+
 static void say(bool to_stderr, const char *prefix, const char *format, va_list args)
 {
     char line[2300];
+    if (hushed)
+        return;
     vsnprintf(line, sizeof line, format, args);
     for (char *c = line; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f)

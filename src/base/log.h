@@ -24,6 +24,9 @@ void log_info(const char *format, ...) PRINTF_LIKE(1, 2);
 void log_note(const char *format, ...) PRINTF_LIKE(1, 2);
 void log_warn(const char *format, ...) PRINTF_LIKE(1, 2);
 
+/* Whether this thread's lines are dropped: for who reads again what is read, and said, elsewhere. Returns what was so before. */
+bool log_hush(bool hushed);
+
 /* The line of a failure: "hoodoo: MESSAGE". */
 void log_error(const char *message);
 

@@ -37,7 +37,7 @@ static status check_one(struct found *f, const struct job *job)
 {
     status st = OK;
     struct advices a = {0};
-    TRY(advices_of(job, &a));
+    TRY(advices_of(job, true, &a));
     for (size_t i = 0; i < a.n; i++)
         print_one(f, job, &a.one[i]);
 done:

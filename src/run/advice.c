@@ -93,6 +93,38 @@ static status look_at_domain(struct view *v)
                v->job->domain.size_m[0], v->job->domain.size_m[1], v->job->domain.size_m[2]);
 }
 
+/* ---- what files hold */
+
+/* The log says of each file how much rock it is, by its own measure and as it is sampled; where the two differ it is another rock
+ * than whoever made the file has seen. */
+static status look_at_inputs(struct view *v)
+{
+    status st = OK;
+    struct scene_input *in = NULL;
+    size_t n = 0;
+    const double h = v->job->domain.spacing_m;
+    TRY(scene_inputs(v->job, &in, &n));
+    log_hush(false);
+    for (size_t i = 0; i < n; i++) {
+        const double off = in[i].sampled_m3 / in[i].own_m3 - 1;
+        if (!(in[i].own_m3 > 0))
+            log_info("%s: %.4g m3 as it is sampled every %g m", in[i].file, in[i].sampled_m3, h);
+        else if (fabs(off) <= 0.05)
+            log_info("%s: %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m", in[i].file,
+                     in[i].own_m3, in[i].sampled_m3, h);
+        else
+            TRY(say(v, "scene",
+                    "%.300s holds %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m, %.0f "
+                    "%% %s",
+                    in[i].file, in[i].own_m3, in[i].sampled_m3, h, 100 * fabs(off),
+                    off > 0 ? "more" : "less"));
+    }
+done:
+    log_hush(true);
+    free(in);
+    return st;
+}
+
 /* ---- what is thinner than a particle */
 
 static status look_at_node(struct view *v, const struct job_node *node)
@@ -386,16 +418,19 @@ static void bound(struct view *v)
     }
 }
 
-status advices_of(const struct job *job, struct advices *out)
+status advices_of(const struct job *job, bool heard, struct advices *out)
 {
-    static status (*const looks[])(struct view * v) = {look_at_domain, look_at_sizes, look_at_interlocking,
-                                                       look_at_time,   look_at_model, look_at_cameras,
-                                                       look_at_frames, look_at_paths};
+    static status (*const looks[])(struct view * v) = {look_at_domain,       look_at_inputs, look_at_sizes,
+                                                       look_at_interlocking, look_at_time,   look_at_model,
+                                                       look_at_cameras,      look_at_frames, look_at_paths};
     status st = OK;
     struct view v = {.job = job, .out = out};
+    /* Files are read several times here, and say the same each time. */
+    const bool before = log_hush(!heard);
     v.kyr = job->clock.seconds_per_frame > 0 ? 0 : 1e-3 * job_years(job, job->frames.first, job->frames.last);
     if (job->scene)
         TRY(solid_create(job->scene, 0.5 * job->domain.spacing_m, job->domain.spacing_m, &v.solid));
+    log_hush(true);
     TRY(scene_estimate(job, &v.size));
     if (!job_model(job)->terrain)
         TRY(scene_stands(job, job->model == MODEL_GOBLINS && job->goblins.floats, &v.size));
@@ -404,6 +439,7 @@ status advices_of(const struct job *job, struct advices *out)
         if (v.size.n_points > 0 || looks[i] == look_at_domain)
             TRY(looks[i](&v));
 done:
+    log_hush(before);
     solid_destroy(&v.solid);
     free(v.size.point);
     return st;
@@ -428,7 +464,7 @@ status advices_log(const struct job *job)
         bytes += input[i].size;
     if (bytes > QUICK)
         goto done;
-    TRY(advices_of(job, &a));
+    TRY(advices_of(job, false, &a));
     for (size_t i = 0; i < a.n && i < MOST; i++)
         log_warn("%s%s%s: %s", job->wedge.index ? job->name : "", job->wedge.index ? ": " : "", a.one[i].key,
                  a.one[i].text);

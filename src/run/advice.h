@@ -16,9 +16,9 @@ struct advices {
     struct advice *one; /* owned; advices_free() */
 };
 
-/* Of one job: a wedge, or the only one. E_USAGE: it cannot be run at all, for nothing of its scene stands. Otherwise as
+/* Of one job: a wedge, or the only one. `heard`: what reading its files says is not said elsewhere. E_USAGE: it cannot be run at all, for nothing of its scene stands. Otherwise as
  * scene_estimate(). */
-MUST_USE status advices_of(const struct job *job, struct advices *out);
+MUST_USE status advices_of(const struct job *job, bool heard, struct advices *out);
 void advices_free(struct advices *a);
 
 /* As warnings in the log, for who is about to run it. Nothing of jobs whose files take long to read: hoodoo check says it. What is

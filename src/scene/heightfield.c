@@ -222,6 +222,16 @@ void heightfield_bounds(const struct heightfield *field, double min[3], double m
     }
 }
 
+/* The integral of bilinear values whose outermost go on is the pixels' sum. */
+double heightfield_volume(const struct heightfield *f)
+{
+    double sum = 0;
+    for (size_t i = 0; i < f->width * f->height; i++)
+        if (!f->has || f->has[i])
+            sum += fmax((double)f->z[i] - f->min[2], 0);
+    return sum * f->dx * f->dy;
+}
+
 static double clamp(double x, double lo, double hi)
 {
     return fmin(fmax(x, lo), hi);

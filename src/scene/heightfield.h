@@ -19,6 +19,9 @@ void heightfield_destroy(struct heightfield **field);
 /* m, negative inside; the sign is exact, the size at most the true distance. */
 double heightfield_distance(const struct heightfield *field, const double x[3]);
 
+/* m3 between min_m.z and the ground, as the pixels have it. */
+double heightfield_volume(const struct heightfield *field);
+
 /* A box around it, m. */
 void heightfield_bounds(const struct heightfield *field, double min[3], double max[3]);
 

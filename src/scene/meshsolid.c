@@ -7,6 +7,7 @@
 
 #include "base/log.h"
 #include "reader/mesh_part.h"
+#include "scene/meshedges.h"
 #include "scene/meshread.h"
 #include "scene/meshtidy.h"
 #include "scene/winding.h"
@@ -23,6 +24,7 @@ struct work {
     struct mesh mesh;
     double min[3], max[3]; /* m */
     double voxel, band;    /* m */
+    double own_m3;
     struct mesh_open open;
     struct winding *winding;
 };
@@ -255,6 +257,7 @@ static status make(struct work *w, double fill, double detail, double reach, str
     /* Single precision's rounding, or what no spacing can show, but not so much that faces would go. */
     const double tolerance = fmin(fmax(longest_side(w) * 0x1p-20, w->voxel / 1000), w->voxel / 8);
     TRY(mesh_tidy(&w->mesh, w->path, tolerance, &w->open));
+    w->own_m3 = w->open.n ? (double)NAN : fabs(mesh_volume(&w->mesh));
     TRY(winding_create((const double(*)[3])w->mesh.vertex, w->mesh.n_vertices,
                        (const uint32_t(*)[3])w->mesh.triangle, w->mesh.n_triangles, w->open.n ? 2 : 1.5,
                        &w->winding));
@@ -272,7 +275,7 @@ static const struct work nothing_yet = {.min = {INFINITY, INFINITY, INFINITY},
                                         .max = {-INFINITY, -INFINITY, -INFINITY}};
 
 status mesh_solid(const struct job_mesh *job, const struct placement *place, double detail, double reach,
-                  struct vdb_sdf **out, double min[3], double max[3])
+                  struct vdb_sdf **out, double min[3], double max[3], double *own_m3)
 {
     status st = OK;
     struct work w = nothing_yet;
@@ -286,13 +289,14 @@ status mesh_solid(const struct job_mesh *job, const struct placement *place, dou
     TRY(place_vertices(&w.mesh, job->file, job->up == MESH_UP_Y, job->origin == MESH_ORIGIN_AUTO, place,
                        w.min, w.max));
     TRY(make(&w, job->fill_holes_m, detail, reach, out, min, max));
+    *own_m3 = w.own_m3;
 done:
     mesh_free(&w.mesh);
     return st;
 }
 
 status volume_solid(const struct job_volume *job, const struct placement *place, double detail, double reach,
-                    struct vdb_sdf **out, double min[3], double max[3])
+                    struct vdb_sdf **out, double min[3], double max[3], double *own_m3)
 {
     status st = OK;
     struct work w = nothing_yet;
@@ -313,6 +317,7 @@ status volume_solid(const struct job_volume *job, const struct placement *place,
     }
     TRY(place_vertices(&w.mesh, job->file, y_up, false, place, w.min, w.max));
     TRY(make(&w, 0, detail, reach, out, min, max));
+    *own_m3 = w.own_m3;
 done:
     mesh_free(&w.mesh);
     return st;

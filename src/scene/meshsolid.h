@@ -5,13 +5,15 @@
 #include "scene/mesh_sdf.h"
 #include "scene/placement.h"
 
-/* `detail`, `reach`: as for solid_create(). min and max come back as the box around it. E_INPUT: the file is
+/* `detail`, `reach`: as for solid_create(). min and max come back as the box around it, *own_m3 as
+ * what its triangles enclose, NAN of an open mesh. E_INPUT: the file is
  * missing, damaged or hostile, or its surface has gaps that are wider than job->fill_holes_m and a spacing. */
 MUST_USE status mesh_solid(const struct job_mesh *job, const struct placement *place, double detail,
-                           double reach, struct vdb_sdf **out, double min[3], double max[3]);
+                           double reach, struct vdb_sdf **out, double min[3], double max[3], double *own_m3);
 
 /* E_INPUT: the file is missing, damaged or hostile, or has no such grid or surface. */
 MUST_USE status volume_solid(const struct job_volume *job, const struct placement *place, double detail,
-                             double reach, struct vdb_sdf **out, double min[3], double max[3]);
+                             double reach, struct vdb_sdf **out, double min[3], double max[3],
+                             double *own_m3);
 
 #endif

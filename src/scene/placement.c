@@ -133,3 +133,11 @@ void placement_box_local(const struct placement *place, const double min[3], con
 {
     widen(place->local_from_world, min, max, lo, hi);
 }
+
+double placement_growth(const struct placement *place)
+{
+    const double(*m)[4] = place->world_from_local;
+    return fabs(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
+}

@@ -17,6 +17,9 @@ struct placement placement_identity(void);
 /* `node`'s own scale, rotation, translation and inert flag, below `parent`. */
 struct placement placement_below(const struct placement *parent, const struct job_node *node);
 
+/* How many times larger volumes are in the world. */
+double placement_growth(const struct placement *place);
+
 void placement_apply(const double m[3][4], const double x[3], double out[3]);
 
 /* Widens min..max of the world by the local box lo..hi. */

@@ -26,6 +26,10 @@ struct solid;
 MUST_USE status solid_create(const struct job_node *node, double detail, double reach, struct solid **out);
 void solid_destroy(struct solid **solid);
 
+/* What its file holds by the file's own measure, m3 in the world: a closed mesh's signed volume, a heightfield's integral. NAN where
+ * it has none, or is no single shape of a file. */
+double solid_own_m3(const struct solid *solid);
+
 /* A box around it, m; infinite where a plane leaves it open, min > max where nothing is left. */
 void solid_bounds(const struct solid *solid, double min[3], double max[3]);
 
@@ -101,5 +105,13 @@ MUST_USE status scene_estimate(const struct job *job, struct scene_size *out);
 /* What scene_sample() and, for rock that `floats`, scene_grid() refuse: no rock in the domain, or none on the ground. `size` is
  * scene_estimate()'s. E_USAGE. */
 MUST_USE status scene_stands(const struct job *job, bool floats, const struct scene_size *size);
+
+/* The scene's shapes that come from files, each alone: what the file holds by its own measure (or NAN), and what comes of it as it is
+ * sampled at the job's spacing, within a percent or so. *out is the caller's to free(). E_USAGE, E_INPUT: as scene_sample(). */
+struct scene_input {
+    const char *file; /* the job's */
+    double own_m3, sampled_m3;
+};
+MUST_USE status scene_inputs(const struct job *job, struct scene_input **out, size_t *n);
 
 #endif

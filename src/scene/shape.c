@@ -182,6 +182,7 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         .place = *place,
         .min = {INFINITY, INFINITY, INFINITY},
         .max = {-INFINITY, -INFINITY, -INFINITY},
+        .own_m3 = (double)NAN,
     };
     switch (node->shape) {
     case SHAPE_BOX:
@@ -207,10 +208,10 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         TRY(plane_init(s, &node->u.plane));
         break;
     case SHAPE_MESH:
-        TRY(mesh_solid(&node->u.mesh, place, detail, reach, &s->u.mesh, s->min, s->max));
+        TRY(mesh_solid(&node->u.mesh, place, detail, reach, &s->u.mesh, s->min, s->max, &s->own_m3));
         break;
     case SHAPE_VOLUME:
-        TRY(volume_solid(&node->u.volume, place, detail, reach, &s->u.mesh, s->min, s->max));
+        TRY(volume_solid(&node->u.volume, place, detail, reach, &s->u.mesh, s->min, s->max, &s->own_m3));
         break;
     case SHAPE_FUNCTION: {
         const struct job_function *f = &node->u.function;
@@ -224,6 +225,7 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         double lo[3], hi[3];
         TRY(heightfield_create(h, reach / place->shrink, &s->u.heightfield));
         heightfield_bounds(s->u.heightfield, lo, hi);
+        s->own_m3 = heightfield_volume(s->u.heightfield) * placement_growth(place);
         placement_box(place, lo, hi, s->min, s->max);
         break;
     }

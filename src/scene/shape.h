@@ -14,6 +14,7 @@ struct shape {
     enum job_shape kind;
     struct placement place;
     double min[3], max[3]; /* m, in the world; infinite for a plane */
+    double own_m3;         /* what its file holds by the file's own measure; NAN: nothing says so */
     union {
         struct job_box box;
         struct job_sphere sphere;

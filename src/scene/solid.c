@@ -87,6 +87,11 @@ void solid_destroy(struct solid **solid)
     *solid = NULL;
 }
 
+double solid_own_m3(const struct solid *solid)
+{
+    return solid->kind == NODE_SHAPE ? solid->shape.own_m3 : (double)NAN;
+}
+
 void solid_bounds(const struct solid *solid, double min[3], double max[3])
 {
     for (int a = 0; a < 3; a++) {

@@ -66,6 +66,34 @@ for path, value, key, words in SURPRISES:
 other = {**edited("wind", {"speed_m_s": 14}), "model": "goblins", "rain": {"m_per_yr": 1}}
 code, found = check(other)
 ok(code == 0 and {"wind", "rain"} <= {w["key"] for w in found}, "goblins have no wind and no rain", found)
+
+
+def obj(name, *boxes):
+    """Boxes as closed meshes, each lo, hi and whether it is turned inside out."""
+    with open(name, "w") as file:
+        for i, (lo, hi, inner) in enumerate(boxes):
+            for corner in range(8):
+                file.write("v %g %g %g\n" % tuple((hi if corner >> a & 1 else lo)[a] for a in range(3)))
+            for face in ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6)):
+                file.write("f %s\n" % " ".join(str(8 * i + v) for v in (reversed(face) if inner else face)))
+
+
+# What files hold, by their own measure and as they are sampled.
+OUTER, INNER = ((8, 8, 0), (32, 22, 24)), ((12, 12, 4), (28, 18, 20))
+obj("solid.obj", (*OUTER, False))
+obj("hollow.obj", (*OUTER, False), (*INNER, True))
+obj("double.obj", (*OUTER, False), (*INNER, False))
+obj("plate.obj", ((8.05, 8, 0), (8.35, 22, 24), False))
+VOLUME = 24 * 14 * 24
+for name, own in (("solid", VOLUME), ("hollow", VOLUME - 16 * 6 * 16)):
+    with open("job.json", "w") as file:
+        json.dump({**GOOD, "scene": {"mesh": {"file": name + ".obj"}}}, file)
+    code, said = hoodoo("check", "job.json")
+    numbers = [float(word) for line in said.splitlines() if " by its own measure, and " in line for word in line.split(".obj: ")[1].replace(" m3", "").split() if word[0].isdigit()]
+    ok(code == 0 and len(numbers) == 3 and abs(numbers[0] / own - 1) < 0.001 and abs(numbers[1] / own - 1) < 0.02, f"{name}.obj holds {own} m3, and so it is sampled", said)
+for name, words in (("double", "less"), ("plate", "%")):
+    code, said = hoodoo("check", "job.json", "--set", f"scene={{mesh: {{file: {os.path.abspath(name)}.obj}}}}", "--set", "cameras={}")
+    ok(code == 0 and "by its own measure" in said and "scene" in said and words in said, f"{name}.obj is another rock than it says", said)
 code, found = check(edited("strata", [{"to_m": 10}, {"to_m": 10.1}, {"to_m": 24}]))
 place = found[0]["place"].split(":")
 line = open("job.json").read().splitlines()[int(place[1]) - 1]

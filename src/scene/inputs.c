@@ -1,0 +1,89 @@
+/* Do files come out as large as they say they are? Sampling may be too coarse for what is in them, or its inside another than was
+ * meant: then a run is of a wrong rock, and nothing else tells. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "scene/coverage.h"
+#include "scene/scene.h"
+
+/* About so many voxels are looked at, each in a block of its own. */
+enum { LOOKED_AT = 1 << 15 };
+
+/* m3 of a solid with a finite box, sampled every h metres: one voxel of every block, at a place hashed from the block. */
+static double sampled_volume(const struct solid *solid, double h)
+{
+    double low[3], high[3], total = 1;
+    int first[3], n[3];
+    solid_bounds(solid, low, high);
+    for (int a = 0; a < 3; a++) {
+        first[a] = (int)floor(low[a] / h) - 1;
+        n[a] = (int)ceil(high[a] / h) + 1 - first[a];
+        total *= n[a];
+    }
+    const int side = (int)ceil(cbrt(total / LOOKED_AT) - 1e-9);
+    int blocks[3];
+    for (int a = 0; a < 3; a++)
+        blocks[a] = (n[a] + side - 1) / side;
+    uint64_t sum = 0;
+#pragma omp parallel for reduction(+ : sum) collapse(2)
+    for (int k = 0; k < blocks[2]; k++)
+        for (int j = 0; j < blocks[1]; j++)
+            for (int i = 0; i < blocks[0]; i++) {
+                const int block[3] = {i, j, k};
+                const uint32_t number = (uint32_t)((k * blocks[1] + j) * blocks[0] + i);
+                int voxel[3];
+                for (uint32_t a = 0; a < 3; a++)
+                    voxel[a] = first[a] + block[a] * side +
+                               (int)(random_hash(number, a, 0, RANDOM_ESTIMATE) % (uint32_t)side);
+                sum += coverage_of_voxel(solid, h, voxel[0], voxel[1], voxel[2]);
+            }
+    return (double)sum / COVERAGE_FULL * pow(side * h, 3);
+}
+
+/* Where its placement makes it smaller or larger, that is measured too: both are in the world. */
+static status measure(const struct job *job, const struct job_node *node, const char *file,
+                      struct scene_input **out, size_t *n, size_t *capacity)
+{
+    status st = OK;
+    struct solid *solid = NULL;
+    const double h = job->domain.spacing_m;
+    TRY(solid_create(node, 0.5 * h, COVERAGE_REACH * h, &solid));
+    TRY(memory_grow(out, capacity, *n + 1, sizeof **out, "the scene's files"));
+    (*out)[(*n)++] = (struct scene_input){file, solid_own_m3(solid), sampled_volume(solid, h)};
+done:
+    solid_destroy(&solid);
+    return st;
+}
+
+static status walk(const struct job *job, const struct job_node *node, struct scene_input **out, size_t *n,
+                   size_t *capacity)
+{
+    status st = OK;
+    const char *file = node->kind != NODE_SHAPE           ? NULL
+                       : node->shape == SHAPE_MESH        ? node->u.mesh.file
+                       : node->shape == SHAPE_VOLUME      ? node->u.volume.file
+                       : node->shape == SHAPE_HEIGHTFIELD ? node->u.heightfield.file
+                                                          : NULL;
+    if (file)
+        TRY(measure(job, node, file, out, n, capacity));
+    for (size_t i = 0; i < node->n_child; i++)
+        TRY(walk(job, node->child[i], out, n, capacity));
+done:
+    return st;
+}
+
+status scene_inputs(const struct job *job, struct scene_input **out, size_t *n)
+{
+    size_t capacity = 0;
+    *out = NULL;
+    *n = 0;
+    const status st = job->scene ? walk(job, job->scene, out, n, &capacity) : OK;
+    if (st != OK) {
+        free(*out);
+        *out = NULL;
+        *n = 0;
+    }
+    return st;
+}
