@@ -1,6 +1,7 @@
 /* What the table's ranges cannot say: values that must fit each other. */
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/nearest.h"
 #include "job/parse.h"
@@ -227,6 +228,19 @@ static status check_strata(const struct yaml *root, const struct job *job)
     return OK;
 }
 
+/* On some disks their files would be the same. */
+static status check_camera_names(const struct yaml *root, const struct job *job)
+{
+    const struct yaml *map = yaml_get(root, "cameras");
+    for (size_t i = 0; map && i < job->n_cameras; i++)
+        for (size_t k = 0; k < i; k++)
+            if (strcasecmp(job->cameras[i].name, job->cameras[k].name) == 0)
+                return yaml_fail_key(yaml_get(map, job->cameras[i].name),
+                                     "differs from '%s' in case alone; files are named by cameras",
+                                     job->cameras[k].name);
+    return OK;
+}
+
 static status check_farm_cameras(const struct yaml *root, const struct job *job)
 {
     const struct yaml *farm = yaml_get(root, "farm"), *list = farm ? yaml_get(farm, "cameras") : NULL;
@@ -433,6 +447,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_edits(root, job));
     TRY(check_wedge(root, &job->wedge));
     TRY(check_aov_layers(root, job));
+    TRY(check_camera_names(root, job));
     TRY(check_farm_cameras(root, job));
     TRY(check_farm_show(root, job));
 done:

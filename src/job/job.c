@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
@@ -105,6 +106,19 @@ static status folder_of(const char *path, char **out)
     if (!*out)
         st = fail(E_INPUT, "%s: %s", path, strerror(errno));
     free(copy);
+    return st;
+}
+
+/* The folder of the job itself, where `path` is a link to it; NULL if it is none. */
+static status folder_behind(const char *path, char **out)
+{
+    struct stat info;
+    *out = NULL;
+    if (lstat(path, &info) != 0 || !S_ISLNK(info.st_mode))
+        return OK;
+    char *real = realpath(path, NULL);
+    const status st = real ? folder_of(real, out) : fail(E_INPUT, "%s: %s", path, strerror(errno));
+    free(real);
     return st;
 }
 
@@ -211,12 +225,13 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     struct yaml_tree tree = {0};
     struct yaml *root = NULL;
     struct job *job = NULL;
-    char *bytes = NULL, *folder = NULL;
+    char *bytes = NULL, *folder = NULL, *behind = NULL;
     size_t n = 0;
     status st = OK;
     *out = NULL;
     TRY(file_read(path, YAML_BYTES, &bytes, &n));
     TRY(folder_of(path, &folder));
+    TRY(folder_behind(path, &behind));
     TRY(yaml_parse(&tree, bytes, n, &source, &root));
     if (root->kind != YAML_MAP) {
         st = yaml_fail(root, NULL,
@@ -233,13 +248,16 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     read_default_sides(root, job);
     TRY(check_job(root, job));
     TRY(read_edited_jobs(&tree, root, folder, job));
-    TRY(read_wedge_csv(folder, job));
+    if (behind)
+        TRY(map_beside_link(job, folder, behind));
+    TRY(read_wedge_csv(folder, behind, job));
     *out = job;
     job = NULL;
 done:
     job_destroy(&job);
     yaml_free(&tree);
     free(folder);
+    free(behind);
     free(bytes);
     return st;
 }

@@ -54,7 +54,10 @@ MUST_USE status read_default_layer(const struct yaml *root, struct job *job);
 void free_section(enum job_section_id section, void *base);
 
 /* Fills job->wedge.over from job->wedge.csv, relative to `folder`. E_INPUT names the file and line. */
-MUST_USE status read_wedge_csv(const char *folder, struct job *job);
+MUST_USE status read_wedge_csv(const char *folder, const char *behind, struct job *job);
+
+/* The job's files that are not in the folder `link` or below it, where they are in or below `real`. */
+MUST_USE status map_beside_link(struct job *job, const char *link, const char *real);
 
 /* What one key's range cannot say. check_section() looks at one mapping, check_job() at all. */
 MUST_USE status check_section(enum job_section_id section, const struct yaml *map, const void *base);

@@ -1,10 +1,13 @@
-/* OpenJD's path mapping (pathmapping-1.0): where this machine finds what another one's job names. */
+/* Where the files that a job names are to be found: by OpenJD's path mapping (pathmapping-1.0) on another machine, or beside the job
+ * itself where it was loaded through a link. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "base/json.h"
+#include "base/log.h"
 #include "base/memory.h"
 #include "job/parse.h"
 
@@ -17,6 +20,7 @@ struct rule {
 struct rules {
     struct rule *rule;
     size_t n;
+    bool missing; /* only files that are not there, where they are there then */
 };
 
 /* Is `path` the rule's, or below it? */
@@ -49,6 +53,12 @@ static status map_path(const struct rules *rules, char **path)
     if (st != OK)
         return st;
     snprintf(mapped, size, "%s%s%s", best->to, *rest && *rest != '/' ? "/" : "", rest);
+    if (rules->missing && (access(*path, F_OK) == 0 || access(mapped, F_OK) != 0)) {
+        free(mapped);
+        return OK;
+    }
+    if (rules->missing)
+        log_info("%s is not there; the job is a link, and beside the job itself is %s", *path, mapped);
     free(*path);
     *path = mapped;
     return OK;
@@ -90,6 +100,13 @@ static status map_section(const struct rules *rules, enum job_section_id section
         }
     }
     return st;
+}
+
+status map_beside_link(struct job *job, const char *link, const char *real)
+{
+    struct rule rule = {link, real};
+    const struct rules rules = {&rule, 1, true};
+    return map_section(&rules, SECTION_job, job);
 }
 
 status job_map_paths(struct job *job, const char *file)

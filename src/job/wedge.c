@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
@@ -212,7 +213,23 @@ done:
     return st;
 }
 
-status read_wedge_csv(const char *folder, struct job *job)
+/* What spreadsheets call CSV as well, said as what it is. */
+static status check_kind(const struct csv *c)
+{
+    const size_t n = (size_t)(c->end - c->at);
+    const char *end = memchr(c->at, '\n', n);
+    const size_t first = end ? (size_t)(end - c->at) : n;
+    if (n >= 2 && (memcmp(c->at, "\xff\xfe", 2) == 0 || memcmp(c->at, "\xfe\xff", 2) == 0))
+        return fail(E_INPUT, "%s: it is UTF-16; save it as UTF-8", c->path);
+    if (memchr(c->at, ',', first))
+        return OK;
+    if (memchr(c->at, ';', first) || memchr(c->at, '\t', first))
+        return fail(E_INPUT, "%s:1: its fields are separated by %s; commas are wanted", c->path,
+                    memchr(c->at, ';', first) ? "semicolons" : "tabs");
+    return OK;
+}
+
+status read_wedge_csv(const char *folder, const char *behind, struct job *job)
 {
     status st = OK;
     struct job_wedge *w = &job->wedge;
@@ -224,10 +241,13 @@ status read_wedge_csv(const char *folder, struct job *job)
     st = *w->csv == '/' ? path_format(&path, "%s", w->csv) : path_join(&path, folder, w->csv);
     if (st != OK)
         return fail(E_INPUT, "wedge.csv: %s", status_message());
+    if (behind && *w->csv != '/' && access(path.text, F_OK) != 0)
+        TRY(path_join(&path, behind, w->csv));
     TRY(file_read(path.text, YAML_BYTES, &bytes, &n));
     struct csv csv = {.path = path.text, .at = bytes, .end = bytes + n, .line = 1};
     if (n >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
         csv.at += 3; /* spreadsheets begin with a byte order mark */
+    TRY(check_kind(&csv));
     TRY(csv_rows(w, &csv));
     w->combine = WEDGE_ZIP;
     *w->csv = '\0'; /* the rows are the job's now */

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 #include "base/log.h"
 #include "base/memory.h"
@@ -303,11 +302,6 @@ static status look_at_cameras(struct view *v)
                     c.eye[1], c.eye[2]));
             break;
         }
-        for (size_t j = 0; j < i; j++)
-            if (strcasecmp(job->cameras[i].name, job->cameras[j].name) == 0)
-                TRY(say(v, key,
-                        "its name differs from '%s' in case alone: on some disks their files are the same",
-                        job->cameras[j].name));
     }
 done:
     return st;

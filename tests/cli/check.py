@@ -53,7 +53,6 @@ SURPRISES = [
     ("cameras/main", {"position_m": [-40, 15, 12], "target_m": [-80, 15, 12]}, "cameras.main", "does not see"),
     ("cameras/main", {"position_m": [-40, 15, -3], "target_m": [20, 15, 12]}, "cameras.main", "below the ground"),
     ("cameras/main", {"position_m": {1001: [-40, 15, 12], 1050: [20, 15, 400]}, "target_m": {1001: [20, 15, 12], 1050: [20, 15.1, 900]}}, "cameras.main", "does not see"),
-    ("cameras/Main", GOOD["cameras"]["main"], "cameras.Main", "case alone"),
     ("edits", [{"frame": 1100, "set": {"wind.speed_m_s": 3}}], "edits.0.frame", "never made"),
     ("wind", {"gusts": [{"frames": "2001-2010", "factor": 2}]}, "wind.gusts.0.frames", "none of the job's frames"),
     ("sources", [{"path_m": [[100, 100, 5]], "m3_per_yr": 10}], "sources.0.path_m", "in the domain"),
@@ -107,10 +106,28 @@ ok(code == 0, "nor with --strict", said)
 code, said = hoodoo("check", "job.json", "--set", "domain.size_m=[20, 30, 30]", "--strict")
 ok(code == 2 and "cut off" in said, "--strict makes a warning an error", code, said)
 # What loading refuses, check does, too, and what nothing stands of.
-for job, words in [(edited("wind", {"sped_m_s": 3}), "speed_m_s"), (edited("scene", {"box": {"min_m": [8, 8, 5], "max_m": [32, 22, 24]}}), "ground"),
+for job, words in [(edited("cameras/Main", GOOD["cameras"]["main"]), "case alone"), (edited("wind", {"sped_m_s": 3}), "speed_m_s"), (edited("scene", {"box": {"min_m": [8, 8, 5], "max_m": [32, 22, 24]}}), "ground"),
                    (edited("scene", {"box": {"min_m": [100, 8, 0], "max_m": [132, 22, 24]}}), "no rock")]:
     code, said = check(job)
     ok(code == 2 and words in str(said), f"refused: {words}", code, said)
+# A job that is a link finds its files beside itself, and else beside the job it is a link to.
+os.makedirs("shot/real", exist_ok=True)
+obj("shot/real/rock.obj", (*OUTER, False))
+with open("shot/real/linked.json", "w") as file:
+    json.dump({**GOOD, "scene": {"mesh": {"file": "rock.obj"}}, "wedge": {"csv": "wedges.csv"}}, file)
+with open("shot/real/wedges.csv", "w") as file:
+    file.write("seed\n1\n2\n")
+os.symlink("real/linked.json", "shot/job.json")
+code, said = hoodoo("check", "shot/job.json")
+ok(code == 0 and "shot/real/rock.obj: 8064 m3" in said and "is a link" in said, "a link's files are beside the job itself, and that is said", said)
+obj("shot/rock.obj", (*INNER, False))
+code, said = hoodoo("check", "shot/job.json", "--set", "scene.mesh.translate_m=[0, 0, -4]")
+ok(code == 0 and "shot/rock.obj: 1536 m3" in said, "unless they are beside the link", said)
+for name, text, words in (("semi", b"seed;fps\n1;24\n", "semicolons"), ("tabs", b"seed\tfps\n1\t24\n", "tabs"), ("wide", "seed,fps\n1,24\n".encode("utf-16"), "UTF-16")):
+    with open(name + ".csv", "wb") as file:
+        file.write(text)
+    code, said = check({**GOOD, "wedge": {"csv": name + ".csv"}})
+    ok(code == 3 and words in said, f"a CSV of {words} is named as that", code, said)
 for path in sorted(glob.glob(os.path.join(TOP, "jobs/*.yaml"))):
     code, said = hoodoo("check", path)
     ok(code == 0 and "nothing to say" in said, os.path.basename(path) + " has no warning", said)
