@@ -20,8 +20,8 @@ static void print_one(struct found *f, const struct job *job, const struct advic
     job_key_place(f->path, a->key, place);
     f->n++;
     if (!f->json) {
-        printf("%s: %s%s%s%s: %s\n", place, job_wedges(job) ? "" : "", job->wedge.index ? job->name : "",
-               job->wedge.index ? ": " : "", a->key, a->text);
+        printf("%s: %s%s%s: %s\n", place, job->wedge.index ? job->name : "", job->wedge.index ? ": " : "",
+               a->key, a->text);
         return;
     }
     json_object(&f->json_text, NULL);

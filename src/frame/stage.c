@@ -137,11 +137,14 @@ static status list_meshes(struct stage *s, const struct stage_frames *known)
             k++;
         if (k == known->n || known->frame[k].number != there[i])
             continue;
-        TRY(folder_name(&path, s->job->name, FILE_MESH_USD, there[i], NULL));
-        st = product_read(s->root, path.text, &product);
-        if (st == OK)
-            st = product_check(s->root, s->job->name, &product, false);
-        product_free(&product);
+        /* Reading a record for each at every checkpoint would be quadratic over a run: only at its end. */
+        if (s->last) {
+            TRY(folder_name(&path, s->job->name, FILE_MESH_USD, there[i], NULL));
+            st = product_read(s->root, path.text, &product);
+            if (st == OK)
+                st = product_check(s->root, s->job->name, &product, false);
+            product_free(&product);
+        }
         if (st == E_MEMORY)
             goto done;
         if (st == OK)

@@ -37,7 +37,6 @@ struct run {
     bool papers;           /* run.json or job.yaml is lost or is not this job: to be written anew */
     uint64_t files_hash;
     struct frame_range other; /* frames whose files other settings gave; step 0: none */
-    char differs[256];        /* in what, or "" */
     int first_missing;        /* last + 1: none */
     int last_missing;
     size_t n_done;
@@ -159,12 +158,41 @@ status run_other_job(const char *root, const char *path, const struct job *their
                  "have two ages; use another --out, or start over with hoodoo run --resume never",
                  root, theirs->frames.first, ours->frames.first);
     else
-        st = fail(E_CHECKPOINT,
-                  "%s holds another job: %s differs in %s, which is simulated; use another --out, or start "
-                  "over with "
-                  "hoodoo run --resume never",
-                  root, path, key);
+        st = fail(
+            E_CHECKPOINT,
+            "%s holds another job: %s differs in %s, which is simulated; use another --out, or start over "
+            "with hoodoo run --resume never",
+            root, path, key);
 done:
+    return st;
+}
+
+static status unlike(const char *root, struct frame_range frames, const char *key)
+{
+    char range[48];
+    return fail(E_CHECKPOINT,
+                "%s: frames %s were written with another %s than the job has now, and frames of a folder are "
+                "written alike; take the old value back, use another --out, or start over with hoodoo run "
+                "--resume never (hoodoo aov makes pictures of other cameras from frames that are done)",
+                root, range_text(frames, range), key);
+}
+
+status run_other_files(const char *root, const struct job *theirs, const struct job *ours)
+{
+    status st = OK;
+    uint64_t hash, other;
+    int *frames = NULL;
+    size_t n = 0;
+    char key[256];
+    TRY(job_files_hash(theirs, &hash));
+    TRY(job_files_hash(ours, &other));
+    TRY(folder_frames(root, ours->name, &frames, &n));
+    if (n == 0 || hash == other)
+        goto done;
+    TRY(job_differ(theirs, ours, true, key));
+    st = unlike(root, (struct frame_range){frames[0], frames[n - 1], 1}, key);
+done:
+    free(frames);
     return st;
 }
 
@@ -179,7 +207,6 @@ static status compare_words(struct run *r, struct job *theirs)
     TRY(job_resolved(theirs, &old));
     TRY(job_resolved(r->job, &new));
     r->papers = old.size != new.size || memcmp(old.data, new.data, new.size) != 0;
-    TRY(job_differ(theirs, r->job, true, r->differs));
 done:
     text_free(&old);
     text_free(&new);
@@ -218,39 +245,12 @@ static status check_owner(struct run *r)
         r->papers = true;
     } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
         st = run_other_job(r->options->root, path.text, theirs, r->job);
-    } else
+    } else {
+        TRY(run_other_files(r->options->root, theirs, r->job));
         TRY(compare_words(r, theirs));
+    }
 done:
     job_destroy(&theirs);
-    return st;
-}
-
-static status unlike(const char *root, struct frame_range frames, const char *key)
-{
-    char range[48];
-    return fail(E_CHECKPOINT,
-                "%s: frames %s were written with another %s than the job has now, and frames of a folder are "
-                "written alike; take the old value back, use another --out, or start over with hoodoo run "
-                "--resume never (hoodoo aov makes pictures of other cameras from frames that are done)",
-                root, range_text(frames, range), key);
-}
-
-status run_other_files(const char *root, const struct job *theirs, const struct job *ours)
-{
-    status st = OK;
-    uint64_t hash, other;
-    int *frames = NULL;
-    size_t n = 0;
-    char key[256];
-    TRY(job_files_hash(theirs, &hash));
-    TRY(job_files_hash(ours, &other));
-    TRY(folder_frames(root, ours->name, &frames, &n));
-    if (n == 0 || hash == other)
-        goto done;
-    TRY(job_differ(theirs, ours, true, key));
-    st = unlike(root, (struct frame_range){frames[0], frames[n - 1], 1}, key);
-done:
-    free(frames);
     return st;
 }
 
@@ -535,8 +535,7 @@ status run_job(struct job *job, const struct run_options *options)
     if (!options->repair)
         TRY(survey(&r));
     if (options->resume != RUN_NEVER && r.other.step)
-        TRY(unlike(options->root, r.other,
-                   *r.differs ? r.differs : "setting of output, cameras, fps or colours"));
+        TRY(unlike(options->root, r.other, "setting of output, cameras, fps or colours"));
     if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
         TRY(own_folder(&r));
     else

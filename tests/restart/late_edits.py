@@ -57,6 +57,8 @@ REFUSED = {
 for key, edit in REFUSED.items():
     code, said = run(edit)
     ok(code == 7 and key in said and "--out" in said, f"another {key} is refused, and named", code, said)
+code, said = run({"output": {"up": "z"}}, "--frames", "1003-1003")
+ok(code == 7 and "output.up" in said and "1001-1002" in said, "also where only later frames are asked for", said)
 code, said = run({"frames": "998-1003"})
 ok(code == 7 and "1001" in said and "998" in said, "head handles are refused: ages count from the first frame", said)
 code, said = run({"frames": "1002-1004"})
