@@ -4,7 +4,8 @@ PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa
 	libopenvdb-dev libboost-dev libassimp-dev libmuparser-dev libopenexr-dev libopenimageio-dev openimageio-tools libtiff-dev libfyaml-dev libzstd-dev \
 	libseccomp-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
-	libcgal-dev libcgal-demo libeigen3-dev gdal-bin
+	libcgal-dev libeigen3-dev gdal-bin
+LONG_PACKAGES = libcgal-demo
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0
 DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev
@@ -57,6 +58,9 @@ $(BUILD)/.deps: Makefile
 deps-test: $(BUILD)/.deps-test
 $(BUILD)/.deps-test: Makefile $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) && touch $@
+deps-long: $(BUILD)/.deps-long
+$(BUILD)/.deps-long: Makefile $(BUILD)/.deps-test
+	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(LONG_PACKAGES) && touch $@
 deps-dev: $(BUILD)/.deps-dev
 $(BUILD)/.deps-dev: Makefile $(BUILD)/.deps-test
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(DEV_PACKAGES) && touch $@
@@ -186,7 +190,7 @@ test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers $(BUILD)/venv-usd/.done
 	$(Q)sh tests/run.sh $(BUILD) peers
 
 ## test-long: the slow proofs: every interruption, resolution, sweeps
-test-long: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
+test-long: $(BUILD)/hoodoo $(BUILD)/.deps-long $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) long
 
 FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/killed.py restart/full_disk.sh
@@ -251,7 +255,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-dev deps-peers demo test test-later test-peers test-long faults bench reference format lint test-asan test-tsan test-sanitized install clean help
+.PHONY: all deps deps-test deps-long deps-dev deps-peers demo test test-later test-peers test-long faults bench reference format lint test-asan test-tsan test-sanitized install clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
