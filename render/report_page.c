@@ -45,6 +45,8 @@ struct phrase phrase_age(double years)
 {
     if (years >= 1000)
         return phrase("%.*f kyr", years < 9995 ? 2 : 1, years / 1000);
+    if (years > 0 && years < 1)
+        return phrase("%s days", phrase_number(365.25 * years).text);
     return phrase("%s yr", phrase_number(years).text);
 }
 

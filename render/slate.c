@@ -206,10 +206,14 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
 void slate_when(const struct job *job, int frame, char out[96])
 {
     double frames = frame - job->frames.first, years = job_years(job, job->frames.first, frame);
-    if (job->clock.seconds_per_frame > 0)
+    if (job_model(job)->terrain) /* tools take no time that anybody knows */
+        snprintf(out, 96, "frame %d", frame);
+    else if (job->clock.seconds_per_frame > 0)
         snprintf(out, 96, "frame %d   %.2f s", frame, frames * job->clock.seconds_per_frame);
     else if (years >= 1000)
         snprintf(out, 96, "frame %d   %.1f kyr", frame, years / 1000);
+    else if (years > 0 && years < 1)
+        snprintf(out, 96, "frame %d   %.0f days", frame, 365.25 * years);
     else
-        snprintf(out, 96, "frame %d   %.0f yr", frame, years);
+        snprintf(out, 96, "frame %d   %.*f yr", frame, years > 0 && years < 10 ? 1 : 0, years);
 }

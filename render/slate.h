@@ -37,7 +37,7 @@ MUST_USE status slate_write_bar(const struct slate *s, const char *path);
 void slate_command(const struct slate *s, const char *from, const char *bar, const char *to,
                    struct slate_command *out);
 
-/* "frame 1061   55.2 kyr"; of a shot in real time seconds. */
+/* "frame 1061   55.2 kyr"; days where it is less than a year, seconds of a shot in real time, no time of terrain. */
 void slate_when(const struct job *job, int frame, char out[96]);
 
 #endif
