@@ -30,6 +30,11 @@ cat <<'EOF'
 .fi
 .SH ENVIRONMENT
 .TP
+.B HOODOO_DEVICE
+what
+.B \-\-device
+is where it is left out
+.TP
 .B HOODOO_CACHE
 the folder where compiled shaders are kept
 .TP

@@ -96,12 +96,13 @@ void common_free(struct common *c);
 #define OPTION_DEVICE(c)                                                                                     \
     {                                                                                                        \
         "device", "WHICH", OPTION_TEXT, &(c)->device,                                                        \
-            "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default auto)"                             \
+            "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS or slurm (default HOODOO_DEVICE, or auto)"           \
     }
 #define OPTION_DEVICE_OR_NONE(c)                                                                             \
     {                                                                                                        \
         "device", "WHICH", OPTION_TEXT, &(c)->device,                                                        \
-            "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS, slurm or none: look at no device (default auto)"    \
+            "auto, cpu, an INDEX, uuid:HEX, pci:ADDRESS, slurm or none: look at no device "                  \
+            "(default HOODOO_DEVICE, or auto)"                                                               \
     }
 #define OPTION_SET(c)                                                                                        \
     {                                                                                                        \

@@ -253,7 +253,8 @@ status gpu_create(const struct gpu_options *options, struct gpu **out)
     TRY(instance_create(&gpu->instance));
     TRY(enumerate(gpu->instance, &physical, &info, &n));
     const char *ids = getenv("SLURM_STEP_GPUS");
-    TRY(gpu_choose(options->device, ids ? ids : getenv("SLURM_JOB_GPUS"), info, n, &chosen));
+    const char *given = options->device ? options->device : getenv("HOODOO_DEVICE");
+    TRY(gpu_choose(given && *given ? given : NULL, ids ? ids : getenv("SLURM_JOB_GPUS"), info, n, &chosen));
     gpu->info = info[chosen];
     gpu->physical = physical[chosen];
     TRY(device_open(gpu));

@@ -59,6 +59,11 @@ for words, ms in ((("--version",), CPU_MS), (("-h",), CPU_MS), (("plan", "--devi
     took, bound = cpu_ms(HOODOO, *words), ms * slower * BESIDE_OTHERS
     ok(took <= bound, f"hoodoo {' '.join(words[:3])} takes at most {bound:.0f} ms of CPU time beside other tests", f"{took:.1f} ms, on a machine {slower:.1f} times slower")
 
+said = subprocess.run([HOODOO, "plan", DEMO], capture_output=True, text=True, env={**os.environ, "HOODOO_DEVICE": "99"})
+ok(said.returncode == 6 and "--device 99" in said.stderr, "HOODOO_DEVICE stands in for --device", said.stderr)
+said = subprocess.run([HOODOO, "plan", DEMO, "--device", "cpu"], capture_output=True, text=True, env={**os.environ, "HOODOO_DEVICE": "99"})
+ok(said.returncode == 0, "and gives way to it", said.stderr)
+
 # What is installed finds what it was installed with.
 there = os.path.abspath("there")
 made = subprocess.run(["make", "-s", "-C", TOP, "install", f"BUILD={os.path.dirname(HOODOO)}", f"PREFIX={there}", "Q=@"], stdout=subprocess.PIPE,
