@@ -200,12 +200,12 @@ static void value(struct text *t, const struct job_key *key)
 /* What stands beside a key: its meaning with the unit, and its default where that is one word or number. */
 static void property(struct text *t, const struct job_key *key)
 {
-    char about[1200];
+    char meaning[1200];
     json_object(t, key->name);
     value(t, key);
-    snprintf(about, sizeof about, "%s%s%s%s", key->meaning, *key->unit ? " [" : "", key->unit,
+    snprintf(meaning, sizeof meaning, "%s%s%s%s", key->meaning, *key->unit ? " [" : "", key->unit,
              *key->unit ? "]" : "");
-    json_text(t, "description", about);
+    json_text(t, "description", meaning);
     if ((key->type == KEY_NUM || key->type == KEY_INT || key->type == KEY_CURVE) && !isnan(key->number))
         json_number(t, "default", key->number);
     else if (key->type == KEY_BOOL && !isnan(key->number))

@@ -427,7 +427,7 @@ status advices_of(const struct job *job, bool heard, struct advices *out)
     log_hush(true);
     TRY(scene_estimate(job, &v.size));
     if (!job_model(job)->terrain)
-        TRY(scene_stands(job, job->model == MODEL_GOBLINS && job->goblins.floats, &v.size));
+        TRY(scene_stands(job, job->goblins.floats, &v.size));
     bound(&v);
     for (size_t i = 0; i < sizeof looks / sizeof *looks; i++)
         if (v.size.n_points > 0 || looks[i] == look_at_domain)

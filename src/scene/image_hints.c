@@ -26,8 +26,8 @@ enum {
     KEY_RASTER = 1025,
     KEY_UNIT = 3076,
     KEY_UNIT_UP = 4099,
-    MODEL_PROJECTED = 1,
-    MODEL_GEOGRAPHIC = 2,
+    KIND_PROJECTED = 1,
+    KIND_GEOGRAPHIC = 2,
     RASTER_POINTS = 2,
     UNIT_FOOT = 9002,
     UNIT_SURVEY_FOOT = 9003
@@ -111,15 +111,15 @@ static bool looks_like_degrees(const struct image_hints *h)
 
 static void find_map(TIFF *tiff, struct image_hints *h)
 {
-    const unsigned model = geo_key(tiff, KEY_MODEL);
+    const unsigned kind = geo_key(tiff, KEY_MODEL);
     const double unit = unit_of(geo_key(tiff, KEY_UNIT)), up = unit_of(geo_key(tiff, KEY_UNIT_UP));
     h->map = (int)find_place(tiff, h);
-    h->has_system = model == MODEL_PROJECTED;
+    h->has_system = kind == KIND_PROJECTED;
     if (geo_key(tiff, KEY_UNIT_UP))
         h->up = up;
     if (h->map != IMAGE_MAP_METRES)
         return;
-    if (model == MODEL_GEOGRAPHIC || (model != MODEL_PROJECTED && looks_like_degrees(h)))
+    if (kind == KIND_GEOGRAPHIC || (kind != KIND_PROJECTED && looks_like_degrees(h)))
         h->map = IMAGE_MAP_DEGREES;
     for (int i = 0; h->map == IMAGE_MAP_METRES && i < 2; i++) {
         h->pixel[i] *= unit;
