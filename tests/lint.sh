@@ -57,7 +57,7 @@ rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*
 # A folder may include those of lower rank, and itself. One that is not named here is a process, a solver or what makes files: 3.
 rank() {
     case $1 in
-    base) echo 0 ;; gpu | job | mesh | reader) echo 1 ;; particles | stacks) echo 2 ;;
+    base) echo 0 ;; gpu | job | mesh | reader) echo 1 ;; particles | stacks | geology) echo 2 ;;
     frame | checkpoint) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; cli) echo 9 ;; *) echo 3 ;;
     esac
 }

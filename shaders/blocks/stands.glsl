@@ -1,5 +1,5 @@
 // Does what stands on the ground hold a particle of this phase in this voxel? The voxel, or one across a face of
-// it, must belong to a block that does. Deposits lie loose, grain by grain: they stay if the rock that the column
+// it, where it is not solid itself, must belong to a block that does. Deposits lie loose, grain by grain: they stay if the rock that the column
 // of deposits below them lies on stays, however thin it is; what lies on nothing is deposition's to move. Needs
 // READ_U of solid, root, words, start and phase, and particles/within.glsl.
 
@@ -13,9 +13,18 @@ bool stands(ivec3 v)
     return LOAD_U(solid, s) != 0u && LOAD_U(root, s) < ground;
 }
 
+// Solid, and beside a joint perhaps: its own block is what counts.
+bool has_block(ivec3 v)
+{
+    uint s = voxel_slot(v);
+    return s != NOT_HELD && LOAD_U(solid, s) != 0u;
+}
+
 bool holds(ivec3 v)
 {
-    return stands(v) || stands(v - ivec3(0, 0, 1)) || stands(v + ivec3(0, 0, 1)) || stands(v - ivec3(1, 0, 0)) ||
+    if (stands(v) || has_block(v))
+        return stands(v);
+    return stands(v - ivec3(0, 0, 1)) || stands(v + ivec3(0, 0, 1)) || stands(v - ivec3(1, 0, 0)) ||
            stands(v + ivec3(1, 0, 0)) || stands(v - ivec3(0, 1, 0)) || stands(v + ivec3(0, 1, 0));
 }
 

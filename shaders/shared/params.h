@@ -76,6 +76,26 @@ struct voxel_params {
 };
 SHARED_SIZE(voxel_params, 24)
 
+/* Of blocks that joints part: the same, and whether any does. */
+struct join_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;
+    uint parted;
+};
+SHARED_SIZE(join_params, 24)
+
+/* How much faster a front runs along beds than across them is kept as so many times the logarithm of base 2. */
+#define MAPS_OCTAVE 32
+
+struct lead_params {
+    uint n;
+    uint nx, ny, nz;
+    float h;
+    float bed_x, bed_y, bed_z; /* unit normal of the beds */
+};
+SHARED_SIZE(lead_params, 32)
+
 /* Of blocks: the same, and how many particles one has at least. */
 struct crumble_params {
     uint n;
@@ -579,8 +599,9 @@ struct voxels_params {
     float dt;                /* kyr */
     float per_row, per_slab; /* 1 / row, 1 / slab */
     uint walls;
+    uint tilted; /* 1: strata are known by voxel; 0: by slab */
 };
-SHARED_SIZE(voxels_params, 72)
+SHARED_SIZE(voxels_params, 76)
 
 #undef SHARED_SIZE
 #endif

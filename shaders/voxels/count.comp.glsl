@@ -15,6 +15,7 @@ READ_U(5, layer_of)
 WRITE_U(6, state)
 PARAMS(voxels_params)
 #include "voxels/grid.glsl"
+#include "voxels/layer.glsl"
 
 // How many bits are set in one row of the bubble around voxel v.
 uint run_bits(uint v, uint base, uint row)
@@ -32,7 +33,7 @@ void main()
     uint v = LOAD_U(list, i), known = AT(state, v);
     bool fresh = (known & 0xffffu) == VOXELS_UNKNOWN;
     uvec3 place = word_place((v >> 5) - word_number(0u));
-    uint layer = LOAD_U(layer_of, place.z - k.margin);
+    uint layer = layer_at(v);
     // first row, rows, voxels of the bubble
     uint row = LOAD_U(bubbles, 3u * layer), n = LOAD_U(bubbles, 3u * layer + 1u);
     uint end = row + 2u * (fresh || LOAD_U(touched, brick_of(place)) != 0u ? n : 0u);

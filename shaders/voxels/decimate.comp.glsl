@@ -13,6 +13,7 @@ WRITE_F(4, left)
 WRITE_U(5, bits)
 PARAMS(voxels_params)
 #include "voxels/grid.glsl"
+#include "voxels/layer.glsl"
 #include "voxels/rate.glsl"
 
 void main()
@@ -21,7 +22,7 @@ void main()
     if (i >= k.n)
         return;
     uint v = LOAD_U(list, i);
-    float after = AT(left, v) - k.dt * decimation(LOAD_U(state, v), slab_of(v));
+    float after = AT(left, v) - k.dt * decimation(LOAD_U(state, v), v);
     if (after <= VOXELS_SLIVER) {
         atomicOr(AT(bits, v >> 5), 1u << (v & 31u));
         after = 0.0;

@@ -12,6 +12,7 @@ READ_U(4, layer_of)
 WRITE_F(5, paces)
 PARAMS(voxels_params)
 #include "voxels/grid.glsl"
+#include "voxels/layer.glsl"
 #include "voxels/rate.glsl"
 
 void main()
@@ -21,7 +22,7 @@ void main()
     float event = 1e30, fastest = 0.0;
     for (uint i = THREAD; i < k.n; i += VOXELS_PACERS) {
         uint v = LOAD_U(list, i);
-        float rate = decimation(LOAD_U(state, v), slab_of(v));
+        float rate = decimation(LOAD_U(state, v), v);
         fastest = max(fastest, rate);
         event = min(event, rate > 0.0 ? LOAD_F(left, v) / rate : 1e30);
     }

@@ -19,7 +19,9 @@ enum random_purpose {
     RANDOM_PLANTS = 6,
     RANDOM_PILES = 7,
     RANDOM_FUNCTION = 9,
-    RANDOM_PAINT = 20
+    RANDOM_PAINT = 20,
+    RANDOM_BEDS = 21,
+    RANDOM_JOINTS = 22
 };
 
 /* 32 random bits; every argument moves all of them. Nest calls for more than four arguments. */

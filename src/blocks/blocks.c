@@ -21,10 +21,10 @@ done:
     return st;
 }
 
-status blocks_create(struct gpu *gpu, size_t n, struct blocks *b)
+status blocks_create(struct gpu *gpu, size_t n, struct gpu_buffer *parted, struct blocks *b)
 {
     status st = OK;
-    *b = (struct blocks){0};
+    *b = (struct blocks){.parted = parted};
     TRY(keep(gpu, b, n));
 done:
     if (st != OK)
@@ -48,7 +48,9 @@ static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, con
     const size_t n = h->n + n_runs;
     const struct voxel_params k = {
         .n = (uint)h->n, .nx = (uint)h->voxels[0], .ny = (uint)h->voxels[1], .nz = (uint)h->voxels[2]};
-    struct gpu_buffer *counts = gpu_work_words(work);
+    const struct join_params beside = {
+        .n = k.n, .nx = k.nx, .ny = k.ny, .nz = k.nz, .parted = b->parted != NULL};
+    struct gpu_buffer *counts = gpu_work_words(work), *parted = b->parted ? b->parted : h->words;
     uint32_t changed = h->n > 0;
     if (h->n == 0)
         return OK;
@@ -61,7 +63,8 @@ static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, con
         TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
         gpu_fill(gpu, counts, 0);
         gpu_copy(gpu, b->other, b->pointer, n);
-        GPU_RUN(gpu, blocks_join, h->n, k, h->words, h->list, b->solid, b->other, b->pointer, counts);
+        GPU_RUN(gpu, blocks_join, h->n, beside, h->words, h->list, b->solid, b->other, b->pointer, counts,
+                parted);
         if (runs)
             GPU_RUN(gpu, blocks_join_runs, runs->n, *runs, h->words, b->first, b->solid, b->other, b->pointer,
                     counts);

@@ -2,7 +2,7 @@
  *
  * Rock holds where it can be seen: a path goes through voxels whose middle lies inside the surface field.
  * Particles that no such voxel on the ground's side touches fall, threads and crumbs below the resolution
- * among them; but deposits stay while the rock they lie on does.
+ * among them; but deposits stay while the rock they lie on does. Joints part rock from what is beside it.
  */
 #ifndef HOODOO_BLOCKS_H
 #define HOODOO_BLOCKS_H
@@ -16,15 +16,16 @@ struct blocks {
     /* uint [held voxels, then runs along x of deep ones]: towards a block's lowest held voxel, as slots */
     struct gpu_buffer *pointer, *other;
     struct gpu_buffer
-        *first;  /* uint [held_words() + 1]: runs of deep voxels before; NULL while there never were any */
-    bool rubble; /* may there be any? It rests on what lies below, across small gaps */
+        *first; /* uint [held_words() + 1]: runs of deep voxels before; NULL while there never were any */
+    struct gpu_buffer *parted; /* where joints part rock (geology/maps.h), the caller's; NULL: nowhere */
+    bool rubble;               /* may there be any? It rests on what lies below, across small gaps */
 };
 
 /* Bytes on the device where n voxels are held. */
 uint64_t blocks_bytes(size_t n);
 
-/* Room for n held voxels; what is more gets room when it is looked at. */
-MUST_USE status blocks_create(struct gpu *gpu, size_t n, struct blocks *out);
+/* Room for n held voxels; what is more gets room when it is looked at. Where joints part rock (`parted` is not NULL) no voxel is deep. */
+MUST_USE status blocks_create(struct gpu *gpu, size_t n, struct gpu_buffer *parted, struct blocks *out);
 void blocks_destroy(struct gpu *gpu, struct blocks *b);
 
 /* From `solid`, which the caller filled, to `pointer`: each solid voxel's is its block's lowest voxel, which

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "geology/attitude.h"
 
 uint64_t erosion_bytes(size_t n)
 {
@@ -71,6 +72,23 @@ status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *j
             p->field[ROCK_erodibility]);
 done:
     return st;
+}
+
+void erosion_lead(struct gpu *gpu, struct erosion *e, const struct job *job, struct gpu_buffer *along,
+                  struct particles *p)
+{
+    double bed[3];
+    attitude_up(job, bed);
+    const struct lead_params k = {.n = (uint)p->n_surface,
+                                  .nx = (uint)p->voxels[0],
+                                  .ny = (uint)p->voxels[1],
+                                  .nz = (uint)p->voxels[2],
+                                  .h = (float)p->h,
+                                  .bed_x = (float)bed[0],
+                                  .bed_y = (float)bed[1],
+                                  .bed_z = (float)bed[2]};
+    GPU_RUN(gpu, erosion_lead, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], p->field[ROCK_phase],
+            along, e->intensity);
 }
 
 status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,

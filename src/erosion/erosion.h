@@ -32,6 +32,11 @@ int erosion_steps(const struct job *job, double m_per_kyr);
 MUST_USE status erosion_interlock(struct gpu *gpu, struct erosion *e, const struct job *job, int frame,
                                   struct particles *p);
 
+/* Intensities, which are what faces across the beds have, grow where the surface looks along them, by what `along` has
+ * (geology/maps.h). Records only. */
+void erosion_lead(struct gpu *gpu, struct erosion *e, const struct job *job, struct gpu_buffer *along,
+                  struct particles *p);
+
 /* The retreat of the fastest spots of the surface, m/kyr: of rock, and of deposits where water takes them. And how fast water's
  * slopes change, 1/kyr: in a longer step than its inverse floors pass by those below them, and swing. */
 struct erosion_pace {

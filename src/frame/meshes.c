@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/version.h"
 #include "frame/rocks.h"
+#include "geology/attitude.h"
 #include "job/palette.h"
 #include "mesh/trimesh.h"
 #include "output/mesh_file.h"
@@ -48,9 +49,14 @@ static struct carried carried_by(const struct job *job)
 
 /* ---- layers and colours */
 
+static size_t layer_at(const struct job *job, const float x[3])
+{
+    return attitude_layer(job, (const double[]){(double)x[0], (double)x[1], (double)x[2]});
+}
+
 struct labels {
     const struct job *job;
-    const struct layers *layers; /* NULL: by height */
+    const struct layers *layers; /* NULL: by place */
 };
 
 static status set_labels(void *user, const float (*vertex)[3], size_t n, uint32_t *label)
@@ -60,7 +66,7 @@ static status set_labels(void *user, const float (*vertex)[3], size_t n, uint32_
 #pragma omp parallel for
     for (size_t i = 0; i < n; i++)
         if (!l->layers || !layers_at(l->layers, vertex[i], &label[i]) || label[i] >= most)
-            label[i] = (uint32_t)job_layer_at(l->job, (double)vertex[i][2]);
+            label[i] = (uint32_t)layer_at(l->job, vertex[i]);
     return OK;
 }
 
@@ -72,7 +78,7 @@ static void color_of(const struct job *job, const struct carried *carried, const
     palette_color(job, m->label[i], rgb);
     if (!job_model(job)->terrain)
         return;
-    const size_t bedrock = job_layer_at(job, (double)m->vertex[3 * i + 2]);
+    const size_t bedrock = layer_at(job, m->vertex + 3 * i);
     for (size_t k = 0; k < carried->n; k++) {
         const int material = value_material[carried->id[k]];
         float own[3];

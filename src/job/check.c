@@ -172,6 +172,26 @@ static status check_operation(const struct yaml *map, const struct job_operation
     return OK;
 }
 
+/* A range of heights in the pile of beds. */
+static status check_heights(const struct yaml *map, double from, double to)
+{
+    return to > from
+               ? OK
+               : yaml_fail(place(map, "to_m"), NULL, "%g m is not above from_m, which is %g m", to, from);
+}
+
+static status check_bedding(const struct yaml *map, const struct job_bedding *b)
+{
+    status st = check_heights(map, b->from_m, b->to_m);
+    for (size_t i = 1; i < b->n_markers && st == OK; i++)
+        if (b->markers[i].at_m < b->markers[i - 1].at_m + b->markers[i - 1].thickness_m)
+            st = yaml_fail(
+                place(yaml_item(yaml_get(map, "markers"), i), "at_m"), NULL,
+                "%g m is within the marker below, which reaches to %g m (they are listed bottom up)",
+                b->markers[i].at_m, b->markers[i - 1].at_m + b->markers[i - 1].thickness_m);
+    return st;
+}
+
 status check_section(enum job_section_id section, const struct yaml *map, const void *base)
 {
     status st;
@@ -211,6 +231,11 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
         return check_material(map, base);
     case SECTION_operation:
         return check_operation(map, base);
+    case SECTION_bedding:
+        return check_bedding(map, base);
+    case SECTION_joint_set:
+        return check_heights(map, ((const struct job_joint_set *)base)->from_m,
+                             ((const struct job_joint_set *)base)->to_m);
     default:
         return OK;
     }
@@ -225,6 +250,13 @@ static status check_strata(const struct yaml *root, const struct job *job)
                 place(yaml_item(list, i), "to_m"), NULL,
                 "%g m is not above the layer below, which reaches to %g m (strata are listed bottom up)",
                 job->strata[i].to_m, job->strata[i - 1].to_m);
+    list = yaml_get(root, "strata_from");
+    for (size_t i = 1; i < job->n_strata_from; i++)
+        if (job->strata_from[i].from_m < job->strata_from[i - 1].to_m)
+            return yaml_fail(
+                place(yaml_item(list, i), "from_m"), NULL,
+                "%g m is within the beds before, which reach to %g m (they are listed bottom up)",
+                job->strata_from[i].from_m, job->strata_from[i - 1].to_m);
     return OK;
 }
 

@@ -366,6 +366,8 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
     wind_erode(a->m.gpu, &a->wind, job, a->m.frame, &a->particles, a->erosion.layers, a->erosion.intensity,
                a->erosion.parts);
     TRY(run_water(a, number, slopes));
+    if (a->maps.along)
+        erosion_lead(a->m.gpu, &a->erosion, job, a->maps.along, &a->particles);
     TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, slopes, pace));
     *kyr = part_of(s->left, s->whole / (double)job->erosion.parts, longest(a, pace));
     if (a->plants)

@@ -5,6 +5,7 @@
 #include "blocks/blocks.h"
 #include "deposit/deposit.h"
 #include "erosion/erosion.h"
+#include "geology/maps.h"
 #include "model/collapse.h"
 #include "model/type.h"
 #include "piles/piles.h"
@@ -25,7 +26,9 @@
     PART(elastic, LASTS_RUN, arenite_ever(job, arenite_rests) ? elastic_bytes(voxels, all, bare, ends) : 0,  \
          elastic_create(a->m.gpu, a->m.voxels, a->m.h,                                                       \
                         (const struct elastic_options[]){elastic_options(a->m.job)}, &a->elastic))           \
-    PART(blocks, LASTS_ROCK, blocks_bytes(n), blocks_create(a->m.gpu, a->particles.held.n, &a->blocks))      \
+    PART(maps, LASTS_RUN, maps_bytes(job, voxels), maps_create(a->m.gpu, a->m.whole, a->m.voxels, &a->maps)) \
+    PART(blocks, LASTS_ROCK, blocks_bytes(n),                                                                \
+         blocks_create(a->m.gpu, a->particles.held.n, a->maps.parted, &a->blocks))                           \
     PART(wind, LASTS_RUN, wind_bytes(job, voxels), wind_create(a->m.gpu, a->m.whole, a->m.voxels, &a->wind)) \
     PART(deposit, LASTS_JOB, arenite_ever(job, deposit_wanted) ? deposit_bytes(voxels) : 0,                  \
          a->deposits ? deposit_create(a->m.gpu, a->m.voxels, &a->deposit) : OK)                              \

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "geology/joints.h"
 #include "model/edits.h"
 #include "model/sections.h"
 #include "stress/places.h"
@@ -13,7 +14,8 @@
 bool arenite_may_be_deep(const struct job *job)
 {
     const bool material_points = job->stress.solver == STRESS_MPM;
-    bool all = job->domain.particles == PARTICLES_ALL || collapse_shot(job) || material_points;
+    bool all =
+        joints_part(job) || job->domain.particles == PARTICLES_ALL || collapse_shot(job) || material_points;
     for (size_t i = 0; i < job->n_edits && !all; i++) {
         const struct job *then = job->edits[i].set.job;
         all = then && (collapse_shot(then) || then->stress.solver == STRESS_MPM);

@@ -4,7 +4,7 @@
 
 #include "model/arenite.h"
 
-/* May a job's rock be without particles? Not where all of it moves, or is looked at as material points. */
+/* May a job's rock be without particles? Not where all of it moves, is looked at as material points, or is parted by joints. */
 bool arenite_may_be_deep(const struct job *job);
 
 /* The first rock: particles of what has to have some, and bits of the voxels of all other, *n_deep of them; NULL: there are none. The

@@ -17,6 +17,7 @@
 #include "base/memory.h"
 #include "blocks/blocks.h"
 #include "frame/host.h"
+#include "geology/attitude.h"
 #include "model/inside.h"
 #include "model/sections.h"
 #include "model/type.h"
@@ -102,15 +103,15 @@ static status rock_of(const struct goblins *g, const float *share, const float *
     size_t i = 0, v = 0;
     TRY(rock_alloc(rock, g->m.ledger.rock, DERIVED));
     for (int z = 0; z < n[2]; z++) {
-        size_t layer = job_layer_at(g->m.job, (z + 0.5) * g->m.h);
-        double rate = curve_at(&g->m.job->strata[layer].weak_m_per_kyr, g->m.frame);
         for (int y = 0; y < n[1]; y++)
             for (int x = 0; x < n[0]; x++, v++) {
                 if (share[v] <= 0)
                     continue;
-                const int at[3] = {x, y, z};
+                const double at[3] = {(x + 0.5) * g->m.h, (y + 0.5) * g->m.h, (z + 0.5) * g->m.h};
+                const size_t layer = attitude_layer(g->m.job, at);
+                const double rate = curve_at(&g->m.job->strata[layer].weak_m_per_kyr, g->m.frame);
                 for (int a = 0; a < 3; a++)
-                    rock->P[4 * i + (size_t)a] = (float)((at[a] + 0.5) * g->m.h);
+                    rock->P[4 * i + (size_t)a] = (float)at[a];
                 rock->id[i] = (uint32_t)v;
                 rock->viability[i] = share[v];
                 rock->layer[i] = (uint32_t)layer;
@@ -290,7 +291,7 @@ static status create(struct model *m)
     const struct elastic_options options = elastic_options(m->job);
     TRY(held_create(m->gpu, m->voxels, voxel_count(m->voxels), &g->held));
     TRY(held_all(m->gpu, m->work, &g->held));
-    TRY(blocks_create(m->gpu, g->held.n, &g->blocks));
+    TRY(blocks_create(m->gpu, g->held.n, NULL, &g->blocks));
     if (m->job->goblins.stress)
         TRY(elastic_create(m->gpu, m->voxels, m->h, &options, &g->elastic));
 done:

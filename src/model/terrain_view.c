@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "field/field.h"
+#include "geology/attitude.h"
 #include "model/terrain.h"
 #include "stacks/surface.h"
 
@@ -135,7 +136,7 @@ static void fill_particle(struct terrain_view *v, const struct surface *s, const
         rock->N[4 * i + a] = (float)normal[a];
     }
     bool solid = material == MATERIAL_BEDROCK;
-    size_t layer = job_layer_at(job, p[2]);
+    size_t layer = attitude_layer(job, p);
     rock->id[i] = (uint32_t)id;
     rock->viability[i] = fminf(fmaxf(v->share[at->at], 1.0f / 64), 1);
     rock->layer[i] = (uint32_t)(solid ? layer : job->n_strata + material - MATERIAL_SAND);

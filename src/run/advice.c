@@ -173,6 +173,43 @@ done:
     return st;
 }
 
+/* ---- what the structure of the rock has that is finer than particles */
+
+static status look_at_structure(struct view *v)
+{
+    status st = OK;
+    const struct job *job = v->job;
+    const double h = job->domain.spacing_m;
+    char key[64];
+    for (size_t i = 0; i < job->n_strata_from; i++) {
+        const struct job_bedding *b = &job->strata_from[i];
+        snprintf(key, sizeof key, "strata_from.%zu.thickness_m", i);
+        if (b->thickness_m < h)
+            TRY(say(
+                v, key,
+                "beds are %.3g m thick in the mean, less than domain.spacing_m (%g): they act together, and "
+                "no single one shows",
+                b->thickness_m, h));
+        snprintf(key, sizeof key, "strata_from.%zu.cross.lamina_m", i);
+        if (b->cross.set_m > 0 && b->cross.lamina_m < h)
+            TRY(say(
+                v, key,
+                "laminae are %.3g m thick, less than domain.spacing_m (%g): hardly anything of them shows",
+                b->cross.lamina_m, h));
+    }
+    for (size_t i = 0; i < job->n_joints; i++) {
+        snprintf(key, sizeof key, "joints.%zu.spacing_m", i);
+        if (job->joints[i].spacing_m < 2 * h)
+            TRY(say(v, key,
+                    "joints are %.3g m apart, closer than two spacings (%g m): what stands between them is "
+                    "too thin "
+                    "to show",
+                    job->joints[i].spacing_m, 2 * h));
+    }
+done:
+    return st;
+}
+
 /* ---- stress and rates */
 
 static double curve_least(const struct curve *c)
@@ -315,9 +352,17 @@ static status look_at_model(struct view *v)
         const char *section;
         unsigned models; /* that have it */
     } used[] = {
-        {"wind", OF_MODEL(ARENITE)},       {"rain", OF_MODEL(ARENITE)},     {"sources", OF_MODEL(ARENITE)},
-        {"deposition", OF_MODEL(ARENITE)}, {"collapse", OF_MODEL(ARENITE)}, {"vegetation", OF_MODEL(ARENITE)},
-        {"erosion", OF_MODEL(ARENITE)},    {"goblins", OF_MODEL(GOBLINS)},  {"arches", OF_MODEL(ARCHES)},
+        {"wind", OF_MODEL(ARENITE)},
+        {"rain", OF_MODEL(ARENITE)},
+        {"sources", OF_MODEL(ARENITE)},
+        {"deposition", OF_MODEL(ARENITE)},
+        {"collapse", OF_MODEL(ARENITE)},
+        {"vegetation", OF_MODEL(ARENITE)},
+        {"erosion", OF_MODEL(ARENITE)},
+        {"strata_from", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
+        {"joints", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
+        {"goblins", OF_MODEL(GOBLINS)},
+        {"arches", OF_MODEL(ARCHES)},
     };
     status st = OK;
     for (size_t i = 0; i < sizeof used / sizeof *used; i++) {
@@ -414,9 +459,9 @@ static void bound(struct view *v)
 
 status advices_of(const struct job *job, bool heard, struct advices *out)
 {
-    static status (*const looks[])(struct view * v) = {look_at_domain,       look_at_inputs, look_at_sizes,
-                                                       look_at_interlocking, look_at_time,   look_at_model,
-                                                       look_at_cameras,      look_at_frames, look_at_paths};
+    static status (*const looks[])(struct view * v) = {
+        look_at_domain, look_at_inputs, look_at_sizes,   look_at_structure, look_at_interlocking,
+        look_at_time,   look_at_model,  look_at_cameras, look_at_frames,    look_at_paths};
     status st = OK;
     struct view v = {.job = job, .out = out};
     /* Files are read several times here, and say the same each time. */

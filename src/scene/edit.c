@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "geology/attitude.h"
 #include "scene/sampler.h"
 
 /* The voxel a particle lies in, as kernels see it. */
@@ -127,12 +128,13 @@ static void put(const struct sampler *s, const struct job_addition *add, const i
     double x[3];
     sampler_place(s, voxel, rock->P + 4 * p);
     rock_position(rock, p, x);
-    size_t layer = add->layer >= 0 ? (size_t)add->layer : job_layer_at(s->job, x[2]);
+    size_t layer = add->layer >= 0 ? (size_t)add->layer : attitude_layer(s->job, x);
     rock->id[p] = (uint32_t)id;
     rock->viability[p] = (float)share;
     rock->layer[p] = (uint32_t)layer;
-    rock->rate_factor[p] = (float)sampler_rate_factor(s, layer, x, &bare);
-    rock->interlock_factor[p] = 1;
+    const struct structure_rock built = sampler_structure(s, voxel);
+    rock->rate_factor[p] = (float)(sampler_rate_factor(s, layer, x, &bare) * built.rate);
+    rock->interlock_factor[p] = (float)built.interlock;
 }
 
 static status add_rock(const struct job *job, const struct job_addition *add, uint64_t next_id,

@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "geology/attitude.h"
 #include "scene/sampler.h"
 
 #define MAX_VOXELS 2147483648.0
@@ -37,6 +38,12 @@ void sampler_place(const struct sampler *s, const int voxel[3], float P[4])
         P[a] = (float)((voxel[a] + 0.5 + (double)(JITTER * (2 * share - 1))) * s->h);
     }
     P[3] = 0;
+}
+
+struct structure_rock sampler_structure(const struct sampler *s, const int voxel[3])
+{
+    const double middle[3] = {(voxel[0] + 0.5) * s->h, (voxel[1] + 0.5) * s->h, (voxel[2] + 0.5) * s->h};
+    return structure_at(&s->structure, middle, s->h);
 }
 
 double sampler_rate_factor(const struct sampler *s, size_t layer, const double x[3],
@@ -161,6 +168,7 @@ status sampler_fill(struct sampler *s, const struct job_paint *paint, size_t n)
     }
     for (uint32_t a = 0; a < 3; a++)
         s->jitter[a] = random_hash(seed, a, 0, RANDOM_JITTER);
+    TRY(structure_create(s->job, &s->structure));
     TRY(coverage_create(s->solid, s->n, s->h, &s->coverage));
 done:
     return st;
@@ -168,6 +176,7 @@ done:
 
 void sampler_deinit(struct sampler *s)
 {
+    structure_destroy(&s->structure);
     solid_destroy(&s->solid);
     coverage_destroy(&s->coverage);
     paint_destroy(&s->paint);
@@ -198,7 +207,8 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
                     continue;
                 struct paint_values paint = paint_at(s.paint, x, 0);
                 share[v] = (float)covered / COVERAGE_FULL;
-                factor[v] = (float)sampler_rate_factor(&s, job_layer_at(job, x[2]), x, &paint);
+                factor[v] = (float)(sampler_rate_factor(&s, attitude_layer(job, x), x, &paint) *
+                                    sampler_structure(&s, (const int[]){i, j, k}).rate);
             }
     }
 done:

@@ -2,6 +2,7 @@
 #ifndef HOODOO_SAMPLER_H
 #define HOODOO_SAMPLER_H
 
+#include "geology/structure.h"
 #include "job/job.h"
 #include "particles/rock.h"
 #include "scene/coverage.h"
@@ -16,6 +17,7 @@ struct sampler {
     struct solid *solid;
     struct coverage *coverage;
     struct paint_set *paint;
+    struct structure structure;
     struct noise *noise; /* by layer */
     uint32_t jitter[3];  /* what each axis hashes with */
 };
@@ -35,7 +37,10 @@ MUST_USE status sampler_check(const struct sampler *s, bool floats);
 /* Where a voxel's particle sits: its middle and a jitter that depends on the seed and the voxel alone. */
 void sampler_place(const struct sampler *s, const int voxel[3], float P[4]);
 
-/* What the rates of the rock at x, of this layer, are multiplied with; 0: inert. */
+/* What the structure of the rock makes of a voxel's. */
+struct structure_rock sampler_structure(const struct sampler *s, const int voxel[3]);
+
+/* What paint and noise multiply the rates of the rock at x, of this layer, with; 0: inert. */
 double sampler_rate_factor(const struct sampler *s, size_t layer, const double x[3],
                            const struct paint_values *paint);
 

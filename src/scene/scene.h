@@ -45,8 +45,8 @@ struct solid_point solid_at(const struct solid *solid, const double x[3]);
 enum solid_share { SOLID_NONE, SOLID_ALL, SOLID_SOME };
 enum solid_share solid_in_box(const struct solid *solid, const double min[3], const double max[3]);
 
-/* Samples the scene: STATE fields only, particles in voxel order, ids in that order, layers by height, noise
- * and paint applied. A voxel of which less than 1/64 is rock gets nothing. Equal jobs give equal bits,
+/* Samples the scene: STATE fields only, particles in voxel order, ids in that order, layers by height in the pile
+ * of beds, structure (geology/), noise and paint applied. A voxel of which less than 1/64 is rock gets nothing. Equal jobs give equal bits,
  * whatever the threads.
  *
  * Noise   times exp(amplitude * n(P)), n of zero mean and unit variance (noise.h).

@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "geology/attitude.h"
 #include "scene/sampler.h"
 
 struct scene_source {
@@ -126,9 +127,10 @@ static void make_particle(const struct scene_source *src, size_t word, int bit, 
     rock->id[p] = id_of(src, word, bit);
     rock->viability[p] = (float)coverage_at(s->coverage, v[0], v[1], v[2]) / COVERAGE_FULL;
     rock->phase[p] = solid_at(s->solid, x).loose ? 1 : 0;
-    rock->layer[p] = (uint32_t)job_layer_at(s->job, x[2]);
-    rock->rate_factor[p] = (float)sampler_rate_factor(s, rock->layer[p], x, &paint);
-    rock->interlock_factor[p] = (float)paint.interlock;
+    const struct structure_rock built = sampler_structure(s, v);
+    rock->layer[p] = (uint32_t)attitude_layer(s->job, x);
+    rock->rate_factor[p] = (float)(sampler_rate_factor(s, rock->layer[p], x, &paint) * built.rate);
+    rock->interlock_factor[p] = (float)(paint.interlock * built.interlock);
     rock->vegetation[p] = (float)paint.vegetation;
 }
 

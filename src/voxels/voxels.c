@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "geology/attitude.h"
 
 /* ---- geometry */
 
@@ -69,14 +70,15 @@ uint64_t voxels_bytes(const struct job *job, const int n[3], size_t n_active, si
 {
     struct voxels_params g = geometry(n, margin_of(job));
     *words = domain_words(&g) + 2;
-    return (uint64_t)g.words * (3 * 4 + 64 * 4) + domain_words(&g) * 4 + bricks(&g) * 8 + n_active * 4;
+    return (uint64_t)g.words * (3 * 4 + 64 * 4) + domain_words(&g) * 4 + bricks(&g) * 8 + n_active * 4 +
+           (attitude_is_level(job) ? 0 : (uint64_t)g.words * 64);
 }
 
 /* ---- tables */
 
 struct tables {
     uint32_t *rows, *bubbles, *layer_of;
-    size_t n_rows;
+    size_t n_rows, n_layer_of;
 };
 
 static void add_row(struct tables *t, int64_t first, uint32_t run)
@@ -100,13 +102,35 @@ static void add_skin(struct voxels *v, struct tables *t)
         }
 }
 
+/* Strata by slab, or where beds are not level by voxel, two to a word. */
+static status find_layers(const struct voxels *v, const struct job *job, struct tables *t)
+{
+    status st = OK;
+    t->n_layer_of = v->grid.tilted ? 16 * (size_t)v->grid.words : (size_t)v->n[2];
+    TRY(memory_alloc(t->n_layer_of, 4, "the layers", &t->layer_of));
+    if (!v->grid.tilted) {
+        for (int z = 0; z < v->n[2]; z++)
+            t->layer_of[z] = (uint32_t)job_layer_at(job, (z + 0.5) * v->h);
+        return OK;
+    }
+#pragma omp parallel for schedule(static)
+    for (int z = 0; z < v->n[2]; z++)
+        for (int y = 0; y < v->n[1]; y++)
+            for (int x = 0; x < v->n[0]; x++) {
+                const double at[3] = {(x + 0.5) * v->h, (y + 0.5) * v->h, (z + 0.5) * v->h};
+                const size_t number = voxels_number(v, x, y, z);
+                t->layer_of[number / 2] |= (uint32_t)attitude_layer(job, at) << 16 * (number % 2);
+            }
+done:
+    return st;
+}
+
 static status make_tables(struct voxels *v, const struct job *job, struct bubble *b, struct tables *t)
 {
     status st = OK;
     const struct voxels_params *g = &v->grid;
     TRY(memory_alloc((job->n_strata + 1) * (BUBBLE_ROWS_MAX + 3), 8, "the bubbles' rows", &t->rows));
     TRY(memory_alloc(job->n_strata, 12, "the bubbles", &t->bubbles));
-    TRY(memory_alloc((size_t)v->n[2], 4, "the layers", &t->layer_of));
     TRY(memory_alloc(job->n_strata, sizeof *v->rate, "the layers", &v->rate));
     for (size_t i = 0; i < job->n_strata; i++) {
         TRY(bubble_create(&job->strata[i].bubble, v->h, b));
@@ -125,8 +149,7 @@ static status make_tables(struct voxels *v, const struct job *job, struct bubble
             return fail(E_USAGE, "bubble: that of stratum %zu sees no air beside a flat face", i);
     }
     add_skin(v, t);
-    for (int z = 0; z < v->n[2]; z++)
-        t->layer_of[z] = (uint32_t)job_layer_at(job, (z + 0.5) * v->h);
+    TRY(find_layers(v, job, t));
 done:
     return st;
 }
@@ -140,12 +163,12 @@ static status upload_tables(struct gpu *gpu, struct voxels *v, const struct job 
     TRY(make_tables(v, job, b, &t));
     TRY(gpu_buffer_create(gpu, "bubble rows", t.n_rows, 4, &v->rows));
     TRY(gpu_buffer_create(gpu, "bubbles", 3 * job->n_strata, 4, &v->bubbles));
-    TRY(gpu_buffer_create(gpu, "layers by slab", (size_t)v->n[2], 4, &v->layer_of));
+    TRY(gpu_buffer_create(gpu, "layers by slab or voxel", t.n_layer_of, 4, &v->layer_of));
     TRY(gpu_buffer_create(gpu, "layers", job->n_strata, 16, &v->layers));
     TRY(gpu_buffer_create(gpu, "paces", 2 * VOXELS_PACERS, 4, &v->paces));
     TRY(gpu_upload(gpu, v->rows, 0, t.rows, t.n_rows));
     TRY(gpu_upload(gpu, v->bubbles, 0, t.bubbles, 3 * job->n_strata));
-    TRY(gpu_upload(gpu, v->layer_of, 0, t.layer_of, (size_t)v->n[2]));
+    TRY(gpu_upload(gpu, v->layer_of, 0, t.layer_of, t.n_layer_of));
 done:
     free(b);
     free(t.rows);
@@ -239,6 +262,7 @@ status voxels_create(struct gpu *gpu, struct gpu_work *work, const struct job *j
     *v = (struct voxels){.n = {n[0], n[1], n[2]}, .h = job->domain.spacing_m, .skin = skin_of(job)};
     v->grid = geometry(n, margin_of(job));
     v->grid.walls = job_walls(job);
+    v->grid.tilted = attitude_is_level(job) ? 0 : 1;
     size_t words = v->grid.words;
     if (words > UINT32_MAX / 32)
         return fail(E_USAGE,

@@ -57,6 +57,9 @@ SURPRISES = [
     ("wind", {"gusts": [{"frames": "2001-2010", "factor": 2}]}, "wind.gusts.0.frames", "none of the job's frames"),
     ("sources", [{"path_m": [[100, 100, 5]], "m3_per_yr": 10}], "sources.0.path_m", "in the domain"),
     ("goblins", {"threshold": 0.1}, "goblins", "model: arenite has no goblins"),
+    ("strata_from", [{"thickness_m": 0.2}], "strata_from.0.thickness_m", "act together"),
+    ("strata_from", [{"cross": {"set_m": 4, "lamina_m": 0.1}}], "strata_from.0.cross.lamina_m", "hardly anything of them shows"),
+    ("joints", [{"spacing_m": 0.8}], "joints.0.spacing_m", "too thin to show"),
 ]
 for path, value, key, words in SURPRISES:
     code, found = check(edited(path, value))

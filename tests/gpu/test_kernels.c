@@ -354,7 +354,7 @@ static void deep_rock_holds_as_particles_do(void **state)
         assert_ok(gpu_work_create(gpu, voxel_count(n) + 2, &work));
         assert_ok(particles_create(gpu, work, &some, STATE, n, h, &p));
         assert_ok(particles_set_deep(gpu, work, &p, deep, n_deep));
-        assert_ok(blocks_create(gpu, p.held.n, &blocks));
+        assert_ok(blocks_create(gpu, p.held.n, NULL, &blocks));
         assert_ok(blocks_find(gpu, work, &blocks, &p, &n_cut));
         if (n_cut)
             assert_ok(particles_due(gpu, work, &p, DUE_CHOSEN, cut, &n_cut));
@@ -402,7 +402,7 @@ static void the_same_blocks_fall(void **state)
         uint8_t *falls = rock_ref_falls(&bed.rock, bed.n, bed.h);
         float *viability = malloc(bed.rock.n * sizeof *viability);
         size_t expected = 0;
-        assert_ok(blocks_create(bed.gpu, bed.p.held.n, &blocks));
+        assert_ok(blocks_create(bed.gpu, bed.p.held.n, NULL, &blocks));
         assert_ok(blocks_find(bed.gpu, bed.work, &blocks, &bed.p, &n_cut));
         assert_int_equal(n_cut, 0);
         assert_ok(blocks_fall(bed.gpu, bed.work, &blocks, &bed.p, &n_fallen));

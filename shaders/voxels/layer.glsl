@@ -1,0 +1,8 @@
+// Which stratum a voxel is of: by its slab where beds are level, else by itself, two voxels to a word. Needs READ_U(layer_of) and
+// voxels/grid.glsl.
+
+uint layer_at(uint voxel)
+{
+    return k.tilted == 0u ? LOAD_U(layer_of, slab_of(voxel))
+                          : LOAD_U(layer_of, voxel >> 1) >> (16u * (voxel & 1u)) & 0xffffu;
+}

@@ -1,0 +1,75 @@
+#include "geology/structure.h"
+
+#include <math.h>
+
+#include "geology/attitude.h"
+
+/* No height in the domain is beyond these. */
+static void heights(const struct job *job, double *low, double *high)
+{
+    struct job level = *job;
+    double moved = 0;
+    level.attitude.n_faults = level.attitude.n_folds = 0;
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (int corner = 0; corner < 8; corner++) {
+        double x[3];
+        for (int a = 0; a < 3; a++)
+            x[a] = corner >> a & 1 ? job->domain.size_m[a] : 0;
+        const double height = attitude_height(&level, x, NULL);
+        *low = fmin(*low, height);
+        *high = fmax(*high, height);
+    }
+    for (size_t i = 0; i < job->attitude.n_folds; i++)
+        moved += job->attitude.folds[i].amplitude_m;
+    for (size_t i = 0; i < job->attitude.n_faults; i++) {
+        const struct job_fault *f = &job->attitude.faults[i];
+        moved += fabs(f->throw_m) / sin(f->dip_deg * (M_PI / 180));
+    }
+    moved += 2 * job->domain.spacing_m;
+    *low -= moved;
+    *high += moved;
+}
+
+status structure_create(const struct job *job, struct structure *s)
+{
+    status st = OK;
+    static const double origin[3];
+    double low, high, end[3];
+    *s = (struct structure){.job = job,
+                            .plain = !job->n_strata_from && !job->n_joints && !job->attitude.n_faults};
+    if (s->plain)
+        return OK;
+    heights(job, &low, &high);
+    for (int a = 0; a < 3; a++)
+        end[a] = job->domain.size_m[a] + 2 * job->domain.spacing_m; /* the last voxels may reach farther */
+    TRY(beds_create(job, low, high, &s->beds));
+    TRY(joints_create(job, origin, end, &s->joints));
+done:
+    if (st != OK)
+        structure_destroy(s);
+    return st;
+}
+
+void structure_destroy(struct structure *s)
+{
+    beds_destroy(&s->beds);
+    joints_destroy(&s->joints);
+}
+
+struct structure_rock structure_at(const struct structure *s, const double x[3], double h)
+{
+    double gradient[3], along;
+    if (s->plain)
+        return (struct structure_rock){1, 1, 1};
+    const double height = attitude_height(s->job, x, gradient);
+    const double deep =
+        h * sqrt(gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2]);
+    const double hardness = beds_hardness(&s->beds, height - deep / 2, height + deep / 2, &along);
+    const struct joint_effect joints = joints_at(&s->joints, x, height, h);
+    return (struct structure_rock){
+        .rate = beds_cross(s->job, x, height, h) * attitude_breccia(s->job, x, h) * joints.rate / hardness,
+        .interlock = joints.interlock,
+        .along = fmax(hardness / along, 1),
+    };
+}

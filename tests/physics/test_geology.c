@@ -1,0 +1,317 @@
+/* What the structure of rock makes of it, with no shape typed for it: fins and columns between joints, a scarp and a dip slope of tilted
+ * beds, blocks that joints bound; each at two spacings or seeds, and gone where its coupling is switched off. Thin beds retreat alike. */
+#include "effort.h"
+#include "geology/structure.h"
+#include "physics/beds.h"
+
+#include <string.h>
+
+/* ---- a plateau that weathers from above */
+
+enum { WIDE = 24, HIGH = 12 }; /* m */
+
+/* `more`: of its keys, after those of the rock. */
+static struct sim plateau(double h, int seed, int frames, const char *more)
+{
+    char text[2048];
+    snprintf(
+        text, sizeof text,
+        "hoodoo: 1\nname: plateau\nframes: 1-%d\nseed: %d\nclock: {years_per_frame: 2400}\n"
+        "domain: {size_m: [%d, %d, %d], spacing_m: %g, sides: {x_min: wall, x_max: wall, y_min: wall, y_max: "
+        "wall}}\n"
+        "rock: {gravity_m_s2: 0}\nstrata: [{weak_m_per_kyr: 0.1}]\n"
+        "scene: {box: {min_m: [-1, -1, 0], max_m: [99, 99, %d]}}\n%s",
+        frames + 1, seed, WIDE, WIDE, HIGH + 2, h, HIGH, more);
+    return sim_begin(text);
+}
+
+static void weather(struct sim *s, int frames)
+{
+    for (int f = 0; f < frames; f++)
+        assert_ok(model_step(s->model));
+}
+
+/* What is left of the columns at a height, a square metre each; 0 to 1. */
+struct section {
+    double share[WIDE][WIDE]; /* by y, x */
+};
+
+static struct section cut(struct sim *s, double low, double high)
+{
+    struct section out = {{{0}}};
+    struct frame frame = sim_output(s);
+    const double h = s->job->domain.spacing_m;
+    for (size_t i = 0; i < frame.rock.n; i++) {
+        const float *P = &frame.rock.P[4 * i];
+        if ((double)P[2] >= low && (double)P[2] < high)
+            out.share[(int)P[1]][(int)P[0]] += (double)frame.rock.viability[i] * h * h * h / (high - low);
+    }
+    frame_free(&frame);
+    return out;
+}
+
+/* Slots across y: where less than half of the rock is left in the mean over the first metres of x. Their middles, m. */
+static size_t slots(const struct section *c, int wide, double middle[WIDE])
+{
+    size_t n = 0;
+    int from = -1;
+    for (int y = 0; y <= WIDE; y++) {
+        double mean = y == WIDE ? 1 : 0;
+        for (int x = 0; y < WIDE && x < wide; x++)
+            mean += c->share[y][x] / wide;
+        if (mean < 0.5 && from < 0)
+            from = y;
+        if (mean >= 0.5 && from >= 0) {
+            middle[n++] = (from + y) / 2.0;
+            from = -1;
+        }
+    }
+    return n;
+}
+
+/* Parts of the section that are at least `least` square metres. */
+static int parts(const struct section *c, int least)
+{
+    static int stack[WIDE * WIDE];
+    char seen[WIDE][WIDE] = {{0}};
+    int n = 0;
+    for (int i = 0; i < WIDE * WIDE; i++) {
+        int top = 0, size = 0;
+        if (seen[i / WIDE][i % WIDE] || c->share[i / WIDE][i % WIDE] < 0.5)
+            continue;
+        stack[top++] = i;
+        seen[i / WIDE][i % WIDE] = 1;
+        while (top > 0) {
+            const int at = stack[--top], y = at / WIDE, x = at % WIDE;
+            const int next[4][2] = {{y, x - 1}, {y, x + 1}, {y - 1, x}, {y + 1, x}};
+            size++;
+            for (int k = 0; k < 4; k++) {
+                const int v = next[k][0], u = next[k][1];
+                if (u < 0 || v < 0 || u >= WIDE || v >= WIDE || seen[v][u] || c->share[v][u] < 0.5)
+                    continue;
+                seen[v][u] = 1;
+                stack[top++] = v * WIDE + u;
+            }
+        }
+        n += size >= least;
+    }
+    return n;
+}
+
+/* ---- fins and columns */
+
+/* Joints of a set along x, by y: how many there are in the domain, not just at its edge, and how far apart they are. */
+static size_t joints_of(const struct sim *s, double middle[WIDE])
+{
+    struct structure rock;
+    size_t n = 0;
+    assert_ok(structure_create(s->job, &rock));
+    const struct joint_plan *set = &rock.joints.set[0];
+    for (size_t i = set->n; i-- > 0;)
+        if (-set->joint[i].at > 1 && -set->joint[i].at < WIDE - 1)
+            middle[n++] = -set->joint[i].at;
+    structure_destroy(&rock);
+    return n;
+}
+
+static double apart(const double *middle, size_t n)
+{
+    assert_true(n >= 2);
+    return (middle[n - 1] - middle[0]) / (double)(n - 1);
+}
+
+static void fins_stand_as_far_apart_as_joints(void **state)
+{
+    (void)state;
+    for (int seed = 1; seed <= 2; seed++)
+        for (int r = 0; r < 2; r++) {
+            struct sim s = plateau(r ? 0.5 : 1, seed, 5,
+                                   "wind: {abrasion: 0}\n"
+                                   "joints: [{spacing_m: 5, spread: 0.15, weakened_m: 0.6, rate: 8}]\n");
+            double middle[WIDE], joint[WIDE], off = 0;
+            weather(&s, 5);
+            const struct section c = cut(&s, 5, 8);
+            const size_t n = slots(&c, WIDE, middle), there = joints_of(&s, joint);
+            for (size_t i = 0; i < n && n == there; i++)
+                off = fmax(off, fabs(middle[i] - joint[i]));
+            print_message("# seed %d, %g m: %zu fins between slots %.2f m apart; joints are %.2f m apart, "
+                          "and off by %.2f m at "
+                          "most\n",
+                          seed, s.job->domain.spacing_m, n + 1, apart(middle, n), apart(joint, there), off);
+            assert_int_equal(n, there);
+            assert_true(fabs(apart(middle, n) / apart(joint, there) - 1) < 0.15);
+            assert_true(off <= 1);
+            sim_end(&s);
+        }
+}
+
+/* With more effort at two spacings for both seeds. */
+static void columns_stand_between_two_sets(void **state)
+{
+    (void)state;
+    for (int seed = 1; seed <= 2; seed++) {
+        int columns[2];
+        for (int r = 0; r < (seed == 1 || effort() > 1 ? 2 : 1); r++) {
+            struct sim s =
+                plateau(r ? 0.5 : 1, seed, 5,
+                        "wind: {abrasion: 0}\n"
+                        "joints: [{strike_deg: 20, spacing_m: 7, jitter_deg: 3, weakened_m: 0.6, rate: 8}, "
+                        "{strike_deg: 105, spacing_m: 7, jitter_deg: 3, weakened_m: 0.6, rate: 8}]\n");
+            weather(&s, 5);
+            const struct section c = cut(&s, 5, 8);
+            columns[r] = parts(&c, 4);
+            print_message("# seed %d, %g m: %d columns of 4 m2 and more\n", seed, s.job->domain.spacing_m,
+                          columns[r]);
+            sim_end(&s);
+            assert_true(columns[r] >= 5);
+            assert_true(fabs((double)columns[r] / columns[0] - 1) <= 0.15);
+        }
+    }
+}
+
+/* ---- what joints act on */
+
+enum { LEDGE = 14, LOW = 4 }; /* m: where an overhang begins, and how high it is */
+
+struct done {
+    double wind, water; /* m3 taken */
+    double fallen;      /* m3, before anything weathers */
+    size_t slots;       /* behind the overhang */
+};
+
+/* A plateau whose side overhangs, in wind and rain. Joints along x have this rate; with others across they part blocks, or not. */
+static struct done plateau_with(double rate, bool blocks)
+{
+    char text[2048];
+    struct done out = {0};
+    double middle[WIDE];
+    snprintf(text, sizeof text,
+             "hoodoo: 1\nname: ledge\nframes: 1-5\nclock: {years_per_frame: 1500}\n"
+             "domain: {size_m: [%d, %d, %d], spacing_m: 1, sides: {x_min: wall, y_min: wall, y_max: wall}}\n"
+             "rock: {gravity_m_s2: 0}\nstrata: [{weak_m_per_kyr: 0.1}]\nwind: {abrasion: 0}\n"
+             "rain: {m_per_yr: 1, threshold_Pa: 0, erosion: 2}\n"
+             "scene: {difference: [{box: {min_m: [-1, -1, 0], max_m: [%d, 99, %d]}}, {box: {min_m: [%d, -1, "
+             "-1], max_m: "
+             "[99, 99, %d]}}]}\n"
+             "joints: [{spacing_m: 6, rate: %g, blocks: %s}, {strike_deg: 90, spacing_m: 4, rate: 1, blocks: "
+             "%s}]\n",
+             WIDE, WIDE, HIGH + 2, WIDE - 2, HIGH, LEDGE, LOW, rate, blocks ? "true" : "false",
+             blocks ? "true" : "false");
+    struct sim s = sim_begin(text);
+    for (int f = 0; f < 5; f++) {
+        if (f > 0)
+            assert_ok(model_step(s.model));
+        struct frame frame = sim_output(&s);
+        if (f == 0)
+            out.fallen = WIDE * (HIGH * (WIDE - 2) - LOW * (WIDE - 2 - LEDGE)) - frame.volume_m3;
+        for (size_t i = 0; i < frame.n_changes; i++) {
+            const struct frame_change *change = &frame.change[i];
+            out.wind -= strcmp(change->process, "deflation") == 0 ? change->m3 : 0;
+            out.water -= strcmp(change->process, "water") == 0 ? change->m3 : 0;
+        }
+        frame_free(&frame);
+    }
+    const struct section c = cut(&s, 8, 10);
+    out.slots = slots(&c, LEDGE - 2, middle);
+    sim_end(&s);
+    print_message(
+        "# joints that weather %g times faster%s: at first %.0f m3 fall; wind takes %.0f m3, water %.0f m3; "
+        "%zu slots\n",
+        rate, blocks ? " and part blocks" : "", out.fallen, out.wind, out.water, out.slots);
+    return out;
+}
+
+static void joints_move_wind_water_and_blocks(void **state)
+{
+    (void)state;
+    const struct done none = plateau_with(1, false), all = plateau_with(8, true),
+                      held = plateau_with(8, false), sound = plateau_with(1, true);
+    assert_true(fabs(none.fallen) < 1 && none.slots == 0);
+    assert_true(all.fallen > 500 && all.slots >= 2);
+    assert_true(fabs(held.fallen) < 1 && held.slots == all.slots);
+    assert_true(sound.fallen == all.fallen && sound.slots == 0);
+    assert_true(held.wind > 1.2 * none.wind && held.water > 1.2 * none.water);
+    assert_true(all.wind > 1.2 * sound.wind && all.water > 1.2 * sound.water);
+}
+
+/* ---- tilted beds */
+
+/* m: where the highest rock is, over a strip along x. */
+static void profile(struct sim *s, double top[64])
+{
+    struct frame frame = sim_output(s);
+    for (int x = 0; x < 64; x++)
+        top[x] = 0;
+    for (size_t i = 0; i < frame.rock.n; i++) {
+        const float *P = &frame.rock.P[4 * i];
+        if ((double)frame.rock.viability[i] > 0.5)
+            top[(int)P[0]] = fmax(top[(int)P[0]], (double)P[2] + 0.5);
+    }
+    frame_free(&frame);
+}
+
+/* A hard bed between soft ones, in a block that weathers from above and from both ends. Degrees: how steeply its top falls
+ * towards +x, and the slope of its end at -x. */
+static void cuesta(double dip, double h, double *back, double *scarp)
+{
+    char text[2048];
+    double top[64], n = 0, sx = 0, sz = 0, xx = 0, xz = 0;
+    snprintf(text, sizeof text,
+             "hoodoo: 1\nname: cuesta\nframes: 1-13\nclock: {years_per_frame: 10000}\n"
+             "domain: {size_m: [64, 4, 30], spacing_m: %g, sides: {y_min: wall, y_max: wall}}\n"
+             "rock: {gravity_m_s2: 0}\nwind: {abrasion: 0}\n"
+             "scene: {box: {min_m: [4, -1, 0], max_m: [60, 9, 24]}}\n"
+             "strata: [{to_m: 2, weak_m_per_kyr: 0}, {to_m: 11, weak_m_per_kyr: 0.1}, {to_m: 14, "
+             "weak_m_per_kyr: 0.004}, {weak_m_per_kyr: 0.1}]\n"
+             "attitude: {dip_deg: %g, pivot_m: [32, 2, 12]}\n",
+             h, dip);
+    struct sim s = sim_begin(text);
+    weather(&s, 12);
+    profile(&s, top);
+    sim_end(&s);
+    for (int x = 24; x < 44; x++) {
+        n++;
+        sx += x;
+        sz += top[x];
+        xx += x * x;
+        xz += x * top[x];
+    }
+    *back = -atan((n * xz - sx * sz) / (n * xx - sx * sx)) * 180 / M_PI;
+    *scarp = 0;
+    for (int x = 1; x < 32; x++)
+        *scarp = fmax(*scarp, atan2(top[x + 1] - top[x - 1], 2) * 180 / M_PI);
+    print_message(
+        "# beds that dip by %g degrees, at %g m: the back falls by %.1f degrees, the scarp by %.0f\n", dip, h,
+        *back, *scarp);
+}
+
+static void tilted_beds_make_a_cuesta(void **state)
+{
+    double back, scarp;
+    (void)state;
+    for (int r = 0; r < (effort() > 1 ? 2 : 1); r++) {
+        cuesta(12, r ? 0.5 : 1, &back, &scarp);
+        assert_true(fabs(back - 12) < 1.5 && scarp > 60);
+    }
+    cuesta(0, 1, &back, &scarp);
+    assert_true(fabs(back) < 1);
+}
+
+/* ---- thin beds */
+
+static void thin_beds_retreat_alike(void **state)
+{
+    static const double spacing[] = {2, 1};
+    (void)state;
+    compare_retreats(0.1, 30, spacing, 2);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(fins_stand_as_far_apart_as_joints), cmocka_unit_test(columns_stand_between_two_sets),
+        cmocka_unit_test(joints_move_wind_water_and_blocks), cmocka_unit_test(tilted_beds_make_a_cuesta),
+        cmocka_unit_test(thin_beds_retreat_alike),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
