@@ -9,20 +9,28 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "base/vector.h"
 #include "base/version.h"
 #include "frame/rocks.h"
 #include "output/folder.h"
 #include "render/closest.h"
+#include "render/daylight.h"
+#include "render/develop.h"
 #include "render/png.h"
+#include "render/refine.h"
 #include "render/slate.h"
 
 /* More shows as flat facets in raking light. */
 static const double ADAPTIVITY = 0.03;
 
+/* A mesh with more is cut no finer. */
+enum { MOST_TRIANGLES = 1500000 };
+
 /* One picture under way. Temporary files are its own. Paths are relative to root. */
 struct picture {
     struct preview *preview;
     struct picture *next;
+    int frame;
     char what[64], tag[PNG_TAG];
     struct preview_recipe made;
     struct path path;
@@ -119,8 +127,9 @@ static void tag_of(const struct preview *p, int width, int height, int view, int
     int n = snprintf(out, PNG_TAG, "show=%s", p->show == VALUE_NONE ? "rock" : value_table[p->show].name);
     if (p->show != VALUE_NONE)
         n += snprintf(out + n, PNG_TAG - (size_t)n, " %g:%g", p->range.low, p->range.high);
-    n += snprintf(out + n, PNG_TAG - (size_t)n, "; size=%dx%d; preset=%s; camera=%.64s; slate=%s", width,
-                  height, presets[p->preset], camera ? camera->name : "", slate ? "yes" : "no");
+    n += snprintf(out + n, PNG_TAG - (size_t)n, "; size=%dx%d; preset=%s; camera=%.64s; slate=%s%s", width,
+                  height, presets[p->preset], camera ? camera->name : "", slate ? "yes" : "no",
+                  p->figure && p->show == VALUE_NONE ? "; figure" : "");
     if (view >= 0)
         snprintf(out + n, PNG_TAG - (size_t)n, "; view=%d/%d", view, views);
 }
@@ -187,6 +196,27 @@ done:
     return st;
 }
 
+/* The camera of a frame's still, or of a view of an orbit. */
+static struct camera camera_for(const struct preview *p, int frame, int view, int views, int width,
+                                int height)
+{
+    const struct job_camera *own = chosen_camera(p);
+    if (views)
+        return view_orbit(p->job, orbit_start(p, frame) + 360.0 * view / views, width, height);
+    return own ? shaped(own, frame, width, height) : view_orbit(p->job, -55, width, height);
+}
+
+/* As near as the camera comes in any frame: detail is the same in all of them. */
+static struct view view_for(const struct preview *p, const struct camera *camera, size_t n)
+{
+    struct view view = view_of(p->job, camera, n);
+    for (int f = p->job->frames.first; n == 1 && f <= p->job->frames.last; f++) {
+        const struct camera then = camera_for(p, f, 0, 0, camera->width, camera->height);
+        view.pixel = fmin(view.pixel, view_of(p->job, &then, 1).pixel);
+    }
+    return view;
+}
+
 /* Writes the frame's scene, with one camera (views = 0) or an orbit of them, to `path` under root. */
 static status write_scene(const struct preview *p, int frame, int views, const char *path, int width,
                           int height)
@@ -204,8 +234,8 @@ static status write_scene(const struct preview *p, int frame, int views, const c
                           .preset = p->preset,
                           .show = p->show,
                           .range = p->range,
+                          .figure = p->figure,
                           .file = path_last(path)};
-    const struct job_camera *own = chosen_camera(p);
     TRY(read_mesh(p, frame, &mesh));
     if (job_piles(p->job)) {
         TRY(rocks_tile(p->job, &tile));
@@ -213,15 +243,19 @@ static status write_scene(const struct preview *p, int frame, int views, const c
         TRY(vdb_points_read(full.text, &rocks));
         scene.rocks = (struct scene_rocks){&tile, &rocks};
     }
-    TRY(scene_bounds(&scene));
     TRY(memory_alloc((size_t)(views ? views : 1), sizeof *camera, "cameras", &camera));
-    if (!views)
-        camera[0] = own ? shaped(own, frame, width, height) : scene_orbit(&scene, -55, width, height);
-    double start = orbit_start(p, frame);
-    for (int view = 0; view < views; view++)
-        camera[view] = scene_orbit(&scene, start + 360.0 * view / views, width, height);
+    for (int view = 0; view < (views ? views : 1); view++)
+        camera[view] = camera_for(p, frame, view, views, width, height);
     scene.camera = camera;
     scene.n_cameras = (size_t)(views ? views : 1);
+    scene.view = view_for(p, camera, scene.n_cameras);
+    const struct refine detail = {.spacing = p->job->domain.spacing_m,
+                                  .times = scene_cuts(&scene),
+                                  .n_values = SCENE_VALUES,
+                                  .loose = SCENE_DEPOSIT,
+                                  .most = MOST_TRIANGLES};
+    if (detail.times > 0)
+        TRY(refine_mesh(&detail, &mesh));
     TRY(scene_write(&scene, &text));
     TRY(path_join(&full, p->root, path));
     TRY(atomic_file_write(full.text, text.data, text.size));
@@ -311,13 +345,36 @@ done:
     return st;
 }
 
-/* POV-Ray has made it: now the strip and the legend. */
+/* Light as it comes from POV-Ray becomes a picture to look at. */
+static status develop(const struct picture *picture)
+{
+    enum { LARGEST = 1 << 30 };
+    const struct preview *p = picture->preview;
+    status st = OK;
+    struct path full;
+    void *bytes = NULL;
+    size_t n = 0;
+    TRY(path_join(&full, p->root, picture->rendered.text));
+    TRY(file_read(full.text, LARGEST, &bytes, &n));
+    st = develop_ppm(bytes, &n, 1 / DAYLIGHT_SCALE, light_of(p->job, picture->frame).exposure);
+    if (st == E_INPUT) /* what we have had made */
+        st = fail(E_OUTPUT, "%s: the picture is cut short; is the disk full?", full.text);
+    TRY(st);
+    TRY(atomic_file_write(full.text, bytes, n));
+done:
+    free(bytes);
+    return st;
+}
+
+/* POV-Ray has made it: now how it is seen, the strip and the legend. */
 static status picture_rendered(void *user)
 {
     struct picture *picture = user;
     struct preview *p = picture->preview;
     status st = OK;
     struct path full;
+    if (p->show == VALUE_NONE)
+        TRY(develop(picture));
     TRY(atomic_file_temporary(picture->path.text, "", &picture->drawn));
     if (p->show != VALUE_NONE && slate_draws(&picture->slate)) {
         TRY(atomic_file_temporary(picture->path.text, ".ppm", &picture->bar));
@@ -341,7 +398,7 @@ static status start(struct preview *p, struct picture *picture, const char *scen
     snprintf(w, sizeof w, "+W%d", picture->slate.width);
     snprintf(h, sizeof h, "+H%d", picture->slate.height);
     snprintf(declare, sizeof declare, "Declare=View=%d", view);
-    const bool fine = p->preset == PRESET_FINAL;
+    const bool fine = p->preset == PRESET_FINAL, light = p->show == VALUE_NONE;
     /* One thread each: reading the mesh takes one anyway, so several pictures side by side use the cores
      * better. */
     const char *const argv[] = {"povray",
@@ -351,16 +408,17 @@ static status start(struct preview *p, struct picture *picture, const char *scen
                                 h,
                                 declare,
                                 p->preset == PRESET_DRAFT ? "-A"
-                                : fine                    ? "+A0.1"
-                                                          : "+A0.3",
+                                : fine                    ? "+A0.05"
+                                                          : "+A0.12",
                                 "+AM2",
                                 fine ? "+R3" : "+R2",
                                 "-D",
                                 "-P",
                                 "-V",
-                                "+FP8",
+                                light ? "+FP16" : "+FP8",
                                 "+WT1",
                                 "-GA",
+                                light ? "File_Gamma=1" : NULL,
                                 NULL};
     TRY(children_run(&p->children, argv, picture->what, picture_rendered, picture));
 done:
@@ -368,10 +426,17 @@ done:
 }
 
 /* What the strip says, and the legend marks. */
-static void describe(const struct preview *p, int frame, const char *seen_from, struct slate *s)
+static void describe(const struct preview *p, int frame, const char *seen_from, const struct camera *camera,
+                     struct slate *s)
 {
     char when[96];
     const struct job *job = p->job;
+    double to_middle[3];
+    for (int k = 0; k < 3; k++)
+        to_middle[k] = 0.5 * job->domain.size_m[k] - camera->eye[k];
+    double depth = dot3(to_middle, camera->ahead);
+    if (!p->no_slate && depth > 0)
+        s->px_per_m = 0.5 * camera->width / sqrt(dot3(camera->right, camera->right)) / depth;
     s->show = p->show;
     s->range = p->range;
     if (!p->no_slate) {
@@ -394,13 +459,14 @@ static void describe(const struct preview *p, int frame, const char *seen_from, 
 }
 
 /* On the list of those under way; picture_end() takes it off. */
-static status new_picture(struct preview *p, const char *what, const struct path *path, int width, int height,
-                          const struct preview_recipe *made, struct picture **out)
+static status new_picture(struct preview *p, int frame, const char *what, const struct path *path, int width,
+                          int height, const struct preview_recipe *made, struct picture **out)
 {
     status st = memory_alloc(1, sizeof **out, "a picture", out);
     if (st != OK)
         return st;
     (*out)->preview = p;
+    (*out)->frame = frame;
     (*out)->next = p->under_way;
     p->under_way = *out;
     (*out)->slate.width = width;
@@ -440,11 +506,12 @@ status picture_still(struct preview *p, int frame)
     snprintf(what, sizeof what, "the still of frame %d", frame);
     TRY(scene_path(p, FILE_STILL_SCENE, frame, &scene));
     TRY(write_scene(p, frame, 0, scene.text, width, height));
-    TRY(new_picture(p, what, &path, width, height, &made, &picture));
+    TRY(new_picture(p, frame, what, &path, width, height, &made, &picture));
     snprintf(picture->tag, sizeof picture->tag, "%s", tag);
     if (!p->keep_scenes)
         picture->scene = scene;
-    describe(p, frame, own ? own->name : "", &picture->slate);
+    const struct camera camera = camera_for(p, frame, 0, 0, width, height);
+    describe(p, frame, own ? own->name : "", &camera, &picture->slate);
     TRY(start(p, picture, scene.text, 0));
 done:
     return st;
@@ -472,10 +539,11 @@ status picture_orbit(struct preview *p, int frame, int views, struct frame_range
             TRY(write_scene(p, frame, views, scene.text, width, height));
         }
         snprintf(what, sizeof what, "view %d of frame %d", view, frame);
-        TRY(new_picture(p, what, &path, width, height, &made, &picture));
+        TRY(new_picture(p, frame, what, &path, width, height, &made, &picture));
         snprintf(picture->tag, sizeof picture->tag, "%s", tag);
         snprintf(number, sizeof number, "view %03d", view); /* as its file is called */
-        describe(p, frame, number, &picture->slate);
+        const struct camera camera = camera_for(p, frame, view, views, width, height);
+        describe(p, frame, number, &camera, &picture->slate);
         TRY(start(p, picture, scene.text, view));
         progress_note(p->progress, (size_t)k, range_count(which), what);
     }

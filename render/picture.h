@@ -35,6 +35,7 @@ struct preview {
     const char *camera; /* of the job, or NULL: its first, or an orbit if it has none */
     bool keep_scenes;
     bool no_slate;
+    bool figure; /* a person stands in the scene */
     /* The options that decide what is made, as words of the command, and --frames of the sheet (NULL: all). */
     const char *option[PREVIEW_OPTIONS];
     size_t n_options;

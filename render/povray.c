@@ -13,70 +13,16 @@
 
 #include "base/version.h"
 #include "job/palette.h"
+#include "render/daylight.h"
+#include "render/ground.h"
+#include "render/refine.h"
+#include "render/scatter.h"
 #include "render/scene_parts.h"
 
 const enum value_id scene_values[SCENE_VALUES] = {[SCENE_VEGETATION] = VALUE_vegetation,
                                                   [SCENE_DEPOSIT] = VALUE_deposit,
                                                   [SCENE_BEDROCK] = VALUE_bedrock,
                                                   [SCENE_SAND] = VALUE_sand};
-
-status scene_bounds(struct scene *s)
-{
-    if (s->mesh->n_triangles == 0)
-        return fail(E_INPUT, "frame %d: no rock is left, there is nothing to show", s->frame);
-    for (int k = 0; k < 3; k++) {
-        s->low[k] = INFINITY;
-        s->high[k] = -INFINITY;
-        for (size_t i = 0; i < s->mesh->n_vertices; i++) {
-            double at = s->mesh->vertex[3 * i + (size_t)k];
-            s->low[k] = fmin(s->low[k], at);
-            s->high[k] = fmax(s->high[k], at);
-        }
-    }
-    return OK;
-}
-
-/* Does every corner of the box lie within this share of the camera's film? */
-static bool holds(const struct scene *s, const struct camera *c, double share)
-{
-    double wide = 0, high = 0;
-    for (int k = 0; k < 3; k++) {
-        wide += c->right[k] * c->right[k];
-        high += c->down[k] * c->down[k];
-    }
-    for (int corner = 0; corner < 8; corner++) {
-        double u = 0, v = 0, w = 0;
-        for (int k = 0; k < 3; k++) {
-            double d = (corner >> k & 1 ? s->high[k] : s->low[k]) - c->eye[k];
-            u += d * c->right[k] / wide;
-            v += d * c->down[k] / high;
-            w += d * c->ahead[k];
-        }
-        if (w <= 0 || fabs(u) > share * w || fabs(v) > share * w)
-            return false;
-    }
-    return true;
-}
-
-struct camera scene_orbit(const struct scene *s, double azimuth_deg, int width, int height)
-{
-    const double elevation_deg = 12, film = 18.0 / 35;
-    double target[3], size = 0;
-    for (int k = 0; k < 3; k++) {
-        target[k] = 0.5 * (s->low[k] + s->high[k]);
-        size = fmax(size, s->high[k] - s->low[k]);
-    }
-    /* One distance for the whole orbit, or the rock would breathe. */
-    double distance = fmax(0.5 * size, 1e-3);
-    for (int azimuth = 0; azimuth < 360; azimuth += 5)
-        for (;;) {
-            struct camera c = camera_orbit(target, distance, azimuth, elevation_deg, film, width, height);
-            if (holds(s, &c, 0.86))
-                break;
-            distance *= 1.01;
-        }
-    return camera_orbit(target, distance, azimuth_deg, elevation_deg, film, width, height);
-}
 
 static void add_vectors(struct text *out, const char *name, const struct scene *s, size_t offset)
 {
@@ -138,12 +84,11 @@ static int texture_of(const struct vdb_mesh *m, uint32_t vertex)
     return (share > QUARTERS ? QUARTERS : share) * AXIS_SHARES + before + y;
 }
 
-/* Which texture of the list a vertex has: rock, scree, or plants by their cover. */
+/* Which texture of the list a vertex has: rock, scree, or what lies under plants. */
 static int ground_of(const struct vdb_mesh *m, size_t vertex)
 {
-    float plants = m->value[SCENE_VEGETATION * m->n_vertices + vertex];
-    if (plants > 0.15F)
-        return plants < 0.4F ? 2 : plants < 0.7F ? 3 : 4;
+    if (m->value[SCENE_VEGETATION * m->n_vertices + vertex] > 0.3F)
+        return 2;
     return m->value[SCENE_DEPOSIT * m->n_vertices + vertex] > 0.5F ? 1 : 0;
 }
 
@@ -186,8 +131,7 @@ static void add_heat_colors(struct text *out, const struct scene *s)
 static void add_mesh(struct text *out, const struct scene *s)
 {
     const struct vdb_mesh *m = s->mesh;
-    double size = fmax(fmax(s->high[0] - s->low[0], s->high[1] - s->low[1]), s->high[2] - s->low[2]);
-    int digits = (int)fmax(0, ceil(log10(40000 / size)));
+    int digits = (int)fmax(0, ceil(log10(100000 / s->view.span)));
     text_add(out, "\n#declare Rock = mesh2 {\nvertex_vectors { %zu", m->n_vertices);
     for (size_t i = 0; i < m->n_vertices; i++) {
         const float *v = m->vertex + 3 * i;
@@ -210,8 +154,7 @@ static void add_mesh(struct text *out, const struct scene *s)
         add_textures(out);
     else if (!bare)
         text_add(out, "}\n"
-                      "texture_list { 5, texture { Sandstone }, texture { Talus }, texture { Plants[0] }, "
-                      "texture { Plants[1] }, texture { Plants[2] }");
+                      "texture_list { 3, texture { Sandstone }, texture { Talus }, texture { Litter }");
     text_add(out, "}\nface_indices { %zu", m->n_triangles);
     for (size_t i = 0; i < m->n_triangles; i++) {
         const uint32_t *t = m->triangle + 3 * i;
@@ -272,33 +215,112 @@ static void add_part(struct text *out, const char *const *line)
     text_add(out, "\n");
 }
 
-status scene_write(const struct scene *s, struct text *out)
+/* ---- the scene around it */
+
+static void add_head(struct text *out, const struct scene *s)
 {
-    double size = 0;
-    for (int k = 0; k < 3; k++)
-        size = fmax(size, s->high[k] - s->low[k]);
+    const char *care = s->preset == PRESET_DRAFT   ? "-A"
+                       : s->preset == PRESET_FINAL ? "+A0.05 +AM2 +R3"
+                                                   : "+A0.12 +AM2 +R2";
     text_add(out, "// hoodoo %s: %s, frame %d. Simulator axes: z up, metres.\n", hoodoo_version, s->job->name,
              s->frame);
-    text_add(out, "// Complete in itself: povray +I%s +W%d +H%d %s -D Declare=View=0\n", s->file,
-             s->camera->width, s->camera->height,
-             s->preset == PRESET_DRAFT   ? "-A"
-             : s->preset == PRESET_FINAL ? "+A0.1 +AM2 +R3"
-                                         : "+A0.3 +AM2 +R2");
+    text_add(out, "// Complete in itself: povray +I%s +W%d +H%d %s -D Declare=View=0%s\n", s->file,
+             s->camera->width, s->camera->height, care, s->show == VALUE_NONE ? " +FP16 File_Gamma=1" : "");
+    if (s->show == VALUE_NONE)
+        text_add(out,
+                 "// That is scene-linear light, of which 1 is %g here; previews show it through the curve "
+                 "of render/develop.h.\n",
+                 DAYLIGHT_SCALE);
     if (s->n_cameras > 1)
         text_add(out, "// View: 0 to %zu, around the rock.\n", s->n_cameras - 1);
-    text_add(out, "#version 3.7;\n#declare Quality = %d; // 0 draft, 1 preview, 2 final\n", (int)s->preset);
-    text_add(out, "global_settings {\n    assumed_gamma 1.0\n    max_trace_level 4\n");
-    if (s->preset == PRESET_FINAL)
-        text_add(out, "    radiosity { pretrace_start 0.04 pretrace_end 0.01 count 100 error_bound 0.5 "
-                      "recursion_limit 1 brightness 0.35 normal on }\n");
-    text_add(out, "}\n#ifndef (View) #declare View = 0; #end\n\n");
+    text_add(out,
+             "#version 3.7;\n#declare Quality = %d; // 0 draft, 1 preview, 2 final\n"
+             "global_settings {\n    assumed_gamma 1.0\n    max_trace_level 4\n    adc_bailout 0.0005\n}\n"
+             "#ifndef (View) #declare View = 0; #end\n\n",
+             (int)s->preset);
     add_vectors(out, "Eye", s, offsetof(struct camera, eye));
     add_vectors(out, "Ahead", s, offsetof(struct camera, ahead));
     add_vectors(out, "Right", s, offsetof(struct camera, right));
     add_vectors(out, "Down", s, offsetof(struct camera, down));
-    text_add(out, "#declare Low = <%.9g, %.9g, %.9g>;\n", s->low[0], s->low[1], s->low[2]);
-    text_add(out, "#declare High = <%.9g, %.9g, %.9g>;\n", s->high[0], s->high[1], s->high[2]);
-    text_add(out, "#declare Center = (Low + High) / 2;\n#declare Size = %.9g;\n", size);
+    text_add(
+        out,
+        "// m: the job's domain, and what a pixel covers there\n#declare Box = <%.9g, %.9g, %.9g>;\n"
+        "#declare Center = Box / 2;\n#declare Span = %.9g;\n#declare Pixel = %.6g * (Quality > 0 ? 1 : 2);\n",
+        s->view.size[0], s->view.size[1], s->view.size[2], s->view.span, s->view.pixel);
+}
+
+/* Sand is what the lowest bed crumbles to, bleached; stones are of all beds. */
+static void add_colors(struct text *out, const struct scene *s)
+{
+    static const double dune[3] = {0.58, 0.42, 0.285};
+    double sand[3], stone[3] = {0, 0, 0};
+    float rgb[3];
+    size_t n = s->job->n_strata;
+    if (is_terrain(s)) {
+        add_color(out, "Sand_Color", s->job, n);
+        add_color(out, "Stone_Color", s->job, n + 1);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        palette_color(s->job, i, rgb);
+        for (int k = 0; k < 3; k++) {
+            stone[k] += 0.85 * (double)rgb[k] / (double)n;
+            if (i == 0)
+                sand[k] = 0.42 * (double)rgb[k] + 0.58 * dune[k];
+        }
+    }
+    text_add(out, "#declare Sand_Color = <%.4f, %.4f, %.4f>;\n#declare Stone_Color = <%.4f, %.4f, %.4f>;\n",
+             sand[0], sand[1], sand[2], stone[0], stone[1], stone[2]);
+}
+
+static status add_looks(struct text *out, const struct scene *s)
+{
+    status st = OK;
+    const struct light light = light_of(s->job, s->frame);
+    static const int lights[] = {3, 6, 20}, turns[] = {120, 240, 480};
+    struct ground ground = {0};
+    TRY(ground_make(s->job, &s->view, s->mesh, &ground));
+    daylight_begin(&light, out);
+    add_strata(out, s);
+    add_colors(out, s);
+    text_add(out, "#declare Mesh = %.6g; // m: its edges\n", ldexp(s->job->domain.spacing_m, -scene_cuts(s)));
+    text_add(out, "// In small pictures, and without antialiasing, grain only sparkles.\n"
+                  "#declare Rough = min(1, image_height / 400) * (Quality > 0 ? 1 : 0.5);\n");
+    add_part(out, scene_sandstone);
+    add_part(out, scene_scree);
+    add_part(out, scene_rubble);
+    if (is_terrain(s))
+        add_part(out, scene_terrain);
+    add_mesh(out, s);
+    TRY(ground_write(&ground, turns[s->preset], out));
+    text_add(out, "#declare Walls = %d;\n", ground.walls != 0);
+    add_part(out, scene_ground);
+    TRY(scatter_shapes(out));
+    scatter_ground(&ground, s->camera, s->n_cameras, out);
+    if (!is_terrain(s))
+        scatter_plants(s->mesh, s->mesh->value + SCENE_VEGETATION * s->mesh->n_vertices, out);
+    if (s->figure)
+        scatter_figure(&ground, s->camera, out);
+    daylight_write(&light, &s->view, lights[s->preset], s->preset == PRESET_FINAL, out);
+done:
+    ground_free(&ground);
+    return st;
+}
+
+int scene_cuts(const struct scene *s)
+{
+    static const int most[] = {2, 3, 4};
+    /* Edges of a pixel and a half show all there is. */
+    double wanted = ceil(log2(fmax(s->job->domain.spacing_m / (1.5 * s->view.pixel), 1)));
+    return is_terrain(s) || s->show != VALUE_NONE ? 0 : (int)fmin(wanted, most[s->preset]);
+}
+
+status scene_write(const struct scene *s, struct text *out)
+{
+    status st = OK;
+    if (s->mesh->n_triangles == 0)
+        return fail(E_INPUT, "frame %d: no rock is left, there is nothing to show", s->frame);
+    add_head(out, s);
     add_part(out, scene_camera);
     if (s->show != VALUE_NONE) {
         add_part(out, scene_heat);
@@ -306,22 +328,16 @@ status scene_write(const struct scene *s, struct text *out)
         text_add(out, "#declare Rubble = texture { pigment { rgb 0.3 } finish { Even } }\n");
         add_mesh(out, s);
     } else {
-        add_strata(out, s);
-        add_part(out, scene_sandstone);
-        add_part(out, scene_scree);
-        if (!is_terrain(s) && s->rocks.tile)
-            text_add(out, "#declare Rubble = texture { Talus }\n");
-        if (is_terrain(s)) {
-            add_color(out, "Sand_Color", s->job, s->job->n_strata);
-            add_color(out, "Rock_Color", s->job, s->job->n_strata + 1);
-            text_add(out, "#declare Rubble_Radius = %.9g;\n", s->rocks.tile ? s->rocks.tile->radius : 1.0);
-            add_part(out, scene_terrain);
-        }
-        add_mesh(out, s);
-        add_part(out, scene_light);
-        add_part(out, scene_sky);
+        TRY(add_looks(out, s));
     }
     text_add(out, "object { Rock }\n");
-    status st = s->rocks.tile ? add_rocks(out, s) : OK;
-    return st == OK ? text_status(out) : st;
+    if (!s->rocks.tile)
+        return text_status(out);
+    if (s->show != VALUE_NONE || is_terrain(s))
+        TRY(add_rocks(out, s));
+    else
+        scatter_rocks(s->job, s->rocks.at, s->rocks.tile->radius, out);
+    st = text_status(out);
+done:
+    return st;
 }

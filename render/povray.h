@@ -8,6 +8,7 @@
 #include "output/vdb.h"
 #include "piles/piles.h"
 #include "render/show.h"
+#include "render/view.h"
 
 #define PRESET_CHOICE (PRESET_DRAFT, "draft")(PRESET_PREVIEW, "preview")(PRESET_FINAL, "final")
 enum preset { CHOICE_CONSTANTS(PRESET_CHOICE) };
@@ -29,21 +30,19 @@ struct scene {
     const struct vdb_mesh *mesh;
     enum value_id show; /* VALUE_NONE: as it looks, in the sun; else a value as colour, in even light */
     struct show_range range;
-    struct scene_rocks rocks;    /* tile NULL: none */
-    double low[3], high[3];      /* m: the mesh's bounds */
+    struct scene_rocks rocks; /* tile NULL: none */
+    struct view view;
+    bool figure;                 /* somebody stands there */
     const struct camera *camera; /* one a view: povray's Declare=View=2 takes the third */
     size_t n_cameras;            /* >= 1 */
     enum preset preset;
     const char *file; /* what the scene will be called, without folders: for the command in its first lines */
 };
 
-/* The mesh's bounds into low and high. E_INPUT if it has no triangles: there is nothing to show. */
-MUST_USE status scene_bounds(struct scene *s);
+/* How often its mesh's triangles are to be cut in four (render/refine.h). */
+int scene_cuts(const struct scene *s);
 
-/* The scene's text added to `out`. */
+/* The scene's text added to `out`. E_INPUT if the mesh has no triangles: there is nothing to show. */
 MUST_USE status scene_write(const struct scene *s, struct text *out);
-
-/* A camera at `azimuth` (deg, as job cameras have it) that holds the box of `scene` from every azimuth. */
-struct camera scene_orbit(const struct scene *s, double azimuth_deg, int width, int height);
 
 #endif

@@ -174,6 +174,39 @@ static void add_strip(struct slate_command *c, const struct slate *s)
         add_text(c, s->width - margin - (int)ceil(right * LETTER * font), baseline, font, s->right);
 }
 
+double slate_bar_m(const struct slate *s, char text[24])
+{
+    double most = s->width / 6.0 / s->px_per_m, unit = pow(10, floor(log10(most) + 1e-9)),
+           length = unit * (most >= 5 * unit   ? 5
+                            : most >= 2 * unit ? 2
+                                               : 1);
+    if (length >= 1000)
+        snprintf(text, 24, "%g km", length / 1000);
+    else if (length >= 0.9)
+        snprintf(text, 24, "%.0f m", length);
+    else if (length >= 0.009)
+        snprintf(text, 24, "%.0f cm", 100 * length);
+    else
+        snprintf(text, 24, "%g mm", 1000 * length);
+    return length;
+}
+
+/* Above the strip's left end: a bar with feet, as long as that many metres are where the rock is. */
+static void add_scale(struct slate_command *c, const struct slate *s)
+{
+    char text[24];
+    int font = font_size(s), margin = (int)lrint(0.6 * font), line = font > 15 ? 2 : 1,
+        y = s->height - (int)lrint(2.5 * font);
+    double length = slate_bar_m(s, text) * s->px_per_m;
+    const int x[2] = {margin, margin + (int)lrint(length)};
+    const char *white = "0.93,0.93,0.93,1", *dark = "0.05,0.05,0.055,0.62";
+    add_box(c, dark, x[0] - line, y - line, x[1] + line, y + 2 * line - 1);
+    add_box(c, white, x[0], y, x[1], y + line - 1);
+    for (int end = 0; end < 2; end++)
+        add_box(c, white, x[end], y - font / 3, x[end] + line - 1, y + line - 1);
+    add_text(c, x[0] + font / 2, y - font / 3, font, text);
+}
+
 void slate_command(const struct slate *s, const char *from, const char *bar, const char *to,
                    struct slate_command *c)
 {
@@ -199,6 +232,8 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
     }
     if (draws && (*s->left || *s->right))
         add_strip(c, s);
+    if (draws && s->px_per_m > 0)
+        add_scale(c, s);
     word(c, "-o:fileformatname=png"); /* the name does not say it */
     word(c, to);
 }

@@ -11,6 +11,7 @@ enum { SLATE_LEAST_HEIGHT = 120 };
 struct slate {
     int width, height;
     char left[200], right[160]; /* the strip's; both "": no strip */
+    double px_per_m;            /* where the rock is; 0: no scale bar */
     enum value_id show;         /* VALUE_NONE: no legend */
     struct show_range range;
     size_t n_marks; /* values that the legend names */
@@ -25,6 +26,10 @@ struct slate_command {
     size_t n, n_own;
     char own[SLATE_WORDS][200];
 };
+
+/* The scale bar: the longest of 1, 2 or 5 times a power of ten metres that is no longer than a sixth of the picture; its text is "20 m" or
+ * "5 cm". */
+double slate_bar_m(const struct slate *s, char text[24]);
 
 /* Is there anything to draw? */
 bool slate_draws(const struct slate *s);

@@ -80,9 +80,11 @@ void main()
     vec4 normal = LOAD_V(facing, i);
     bool sun_seen = mod(normal.w, 2.0) >= LIT_SUN, sky_seen = normal.w >= LIT_SKY;
     float sun = sun_seen ? max(dot(normal.xyz, vec3(k.sun_x, k.sun_y, k.sun_z)), 0.0) : 0.0;
-    float sky = 0.5 + 0.5 * normal.z;
-    vec3 light = sun * vec3(2.6, 2.3, 1.9) + mix(vec3(0.22, 0.17, 0.13), vec3(0.32, 0.40, 0.55), sky) *
-                                                 (k.rays == 1u ? 1.0 : sky_seen ? 1.25 : 0.15);
+    float up = 0.5 + 0.5 * normal.z;
+    // What does not see the sky sees rock, which sends back a part.
+    float open = k.rays == 1u || sky_seen ? 1.0 : 0.12;
+    vec3 light = sun * vec3(k.sun_r, k.sun_g, k.sun_b) +
+                 open * mix(vec3(k.bounce_r, k.bounce_g, k.bounce_b), vec3(k.sky_r, k.sky_g, k.sky_b), up);
     uint strata = LOAD_U(layer, found);
     vec3 stone = LOAD_V(palette, strata).rgb;
     if (LOAD_U(phase, found) == PHASE_DEPOSIT)

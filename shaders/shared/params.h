@@ -560,9 +560,13 @@ struct shade_params {
     float voxel;
     float origin_x, origin_y, origin_z;
     float sun_x, sun_y, sun_z;
+    float sun_r, sun_g,
+        sun_b; /* on what faces it; of the open sky on what faces up; of the ground on what faces down */
+    float sky_r, sky_g, sky_b;
+    float bounce_r, bounce_g, bounce_b;
     uint ray, rays;
 };
-SHARED_SIZE(shade_params, 68)
+SHARED_SIZE(shade_params, 104)
 
 /* The lattice of the wind; one sample of it, alone, is the same everywhere. */
 struct pixel_air_params {

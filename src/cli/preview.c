@@ -23,7 +23,7 @@ enum { CHOICE_CONSTANTS(ONLY_CHOICE) };
 
 struct wanted {
     struct common common;
-    bool turntable, keep_scenes, no_slate;
+    bool turntable, keep_scenes, no_slate, figure;
     int views, preset, only, jobs, wedge, show;
     const char *camera, *resolution, *range;
     struct frame_range which; /* views */
@@ -48,6 +48,8 @@ static void take_options(struct wanted *w, struct preview *p)
         }
     if (w->no_slate)
         p->option[p->n_options++] = "--no-slate";
+    if (w->figure)
+        p->option[p->n_options++] = "--figure";
     if (w->turntable) {
         snprintf(w->views_word, sizeof w->views_word, "--views=%d", w->views);
         p->option[p->n_options++] = w->views_word;
@@ -87,6 +89,7 @@ static status check(struct wanted *w, struct preview *p)
     p->preset = (enum preset)w->preset;
     p->keep_scenes = w->keep_scenes;
     p->no_slate = w->no_slate;
+    p->figure = w->figure;
     p->show = show_of_word(w->show);
     p->range = show_job_range(p->show, p->job);
     take_options(w, p);
@@ -257,8 +260,10 @@ status cli_preview(int argc, char **argv)
          "a part of it: stills without a sheet, the sheet of the stills there are, views of the turntable "
          "without a video, the video of the views there are, or the sheet across the wedges of a farm's "
          "folder"},
+        {"figure", NULL, OPTION_FLAG, &w.figure, "a person of 1.75 m stands before the rock"},
         {"no-slate", NULL, OPTION_FLAG, &w.no_slate,
-         "without the strip that says name, frame and age (pictures lower than 120 pixels never have one)"},
+         "without the scale bar and the strip that says name, frame and age (pictures lower than 120 pixels "
+         "never have one)"},
         OPTION_WEDGE(&w.wedge),
         OPTION_PROGRESS(&w.common),
         {"jobs", "N", OPTION_INT, &w.jobs, "pictures made side by side (default: the cores there are)"},

@@ -6,10 +6,8 @@
 
 #include "base/memory.h"
 #include "field/channels.h"
+#include "field/light.h"
 #include "job/palette.h"
-
-/* Towards the sun: late morning, from the left behind the usual camera. */
-static const double SUN[3] = {-0.48, -0.62, 0.62};
 
 const struct job_camera *camera_named(const struct job *job, const char *name)
 {
@@ -98,11 +96,9 @@ static void put3(float *x, float *y, float *z, const double v[3])
 }
 
 /* One sample of every pixel. Sample 0 is the pixel's middle, the others are spread evenly. */
-static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c, const struct field *f,
-                          const struct particles *p, int sample, int samples)
+static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c, const struct light *light,
+                          const struct field *f, const struct particles *p, int sample, int samples)
 {
-    double length = sqrt(SUN[0] * SUN[0] + SUN[1] * SUN[1] + SUN[2] * SUN[2]);
-    const double sun[3] = {SUN[0] / length, SUN[1] / length, SUN[2] / length};
     struct march_params march = {
         .n = (uint)(c->width * c->height),
         .width = (uint)c->width,
@@ -121,7 +117,7 @@ static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c
     put3(&march.right_x, &march.right_y, &march.right_z, c->right);
     put3(&march.down_x, &march.down_y, &march.down_z, c->down);
     put3(&march.ahead_x, &march.ahead_y, &march.ahead_z, c->ahead);
-    put3(&march.sun_x, &march.sun_y, &march.sun_z, sun);
+    put3(&march.sun_x, &march.sun_y, &march.sun_z, light->sun);
     struct shade_params shade = {
         .n = march.n,
         .nx = (uint)p->voxels[0],
@@ -141,6 +137,9 @@ static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c
         .ray = march.ray,
         .rays = march.rays,
     };
+    put3(&shade.sun_r, &shade.sun_g, &shade.sun_b, light->sun_rgb);
+    put3(&shade.sky_r, &shade.sky_g, &shade.sky_b, light->sky_rgb);
+    put3(&shade.bounce_r, &shade.bounce_g, &shade.bounce_b, light->bounce_rgb);
     GPU_RUN(gpu, field_march, march.n, march, f->slot, f->distance, a->hit, a->facing);
     GPU_RUN(gpu, field_shade, shade.n, shade, a->hit, a->facing, f->means, p->field[ROCK_P], p->start,
             p->field[ROCK_layer], p->field[ROCK_phase], p->field[ROCK_vegetation], a->palette, a->color,
@@ -149,7 +148,8 @@ static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c
 
 /* The samples, the pixel's middle last; each is counted into the mattes. */
 static status sample(struct gpu *gpu, struct aov *a, const struct job *job, const struct camera *c,
-                     const struct field *f, const struct particles *p, struct mattes *mattes, uint32_t *ids)
+                     const struct light *light, const struct field *f, const struct particles *p,
+                     struct mattes *mattes, uint32_t *ids)
 {
     status st = OK;
     size_t n = (size_t)c->width * (size_t)c->height;
@@ -158,7 +158,7 @@ static status sample(struct gpu *gpu, struct aov *a, const struct job *job, cons
     if (mattes)
         TRY(memory_alloc(n, 4 * sizeof *hit, "a picture", &hit));
     for (int s = samples - 1; s >= 0; s--) {
-        record_sample(gpu, a, c, f, p, s, samples);
+        record_sample(gpu, a, c, light, f, p, s, samples);
         if (!mattes)
             continue;
         TRY(gpu_download(gpu, a->ids, 0, ids, 3 * n));
@@ -237,6 +237,7 @@ status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const s
     int margin[2];
     overscan_of(camera, margin);
     const struct camera c = camera_overscan(view, margin);
+    const struct light light = light_of(job, frame);
     size_t n = (size_t)c.width * (size_t)c.height;
     struct seen seen = {0};
     struct mattes *mattes = NULL;
@@ -245,7 +246,7 @@ status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const s
     TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &seen.ids));
     if (job->output.aov.cryptomatte)
         TRY(mattes_create(job, n, &mattes));
-    TRY(sample(gpu, a, job, &c, f, p, mattes, seen.ids));
+    TRY(sample(gpu, a, job, &c, &light, f, p, mattes, seen.ids));
     TRY(download_seen(gpu, a, n, &seen));
     if (job->clock.seconds_per_frame > 0 && job_wants_layer(job, value_table[VALUE_motion].layer)) {
         TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &seen.motion));

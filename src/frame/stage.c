@@ -8,7 +8,9 @@
 #include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/vector.h"
 #include "field/camera.h"
+#include "field/light.h"
 #include "frame/meshes.h"
 #include "frame/rocks.h"
 #include "job/palette.h"
@@ -26,6 +28,7 @@ struct stage {
     struct usd_field field[MAX_FIELDS];
     int *volumes, *meshes, *points, *rocks; /* frames */
     struct usd_camera *camera;              /* their keys are owned too */
+    struct usd_light *light;
 };
 
 /* ---- frames */
@@ -292,6 +295,38 @@ done:
     return st;
 }
 
+/* USD's sun shines along its -z, and which way up it stands is nothing to it. */
+static struct usd_light light_at(const struct job *job, int frame)
+{
+    const struct light light = light_of(job, frame);
+    const double axis[3] = {fabs(light.sun[2]) > 0.9, 0, !(fabs(light.sun[2]) > 0.9)};
+    struct camera shines = {0};
+    struct usd_light out = {.frame = frame};
+    for (int a = 0; a < 3; a++) {
+        shines.ahead[a] = -light.sun[a];
+        out.sun[a] = light.sun_rgb[a];
+        out.sky[a] = light.sky_rgb[a];
+    }
+    cross3(shines.ahead, axis, shines.right);
+    cross3(shines.ahead, shines.right, shines.down);
+    to_world(&shines, job->output.up, out.to_world);
+    return out;
+}
+
+static status find_lights(struct stage *s)
+{
+    status st = OK;
+    const struct frame_range frames = s->job->frames;
+    size_t n = light_changes(s->job) ? (size_t)(frames.last - frames.first) + 1 : 1;
+    TRY(memory_alloc(n, sizeof *s->light, "sun and sky", &s->light));
+    for (size_t i = 0; i < n; i++)
+        s->light[i] = light_at(s->job, frames.first + (int)i);
+    s->sequence.light = s->light;
+    s->sequence.n_lights = n;
+done:
+    return st;
+}
+
 static status find_cameras(struct stage *s)
 {
     status st = OK;
@@ -380,6 +415,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
     TRY(list_meshes(&s, known));
     TRY(find_fields(&s));
     TRY(find_cameras(&s));
+    TRY(find_lights(&s));
     s.sequence.field = s.field;
     s.sequence.volumes_frame = s.volumes;
     s.sequence.points_frame = s.points;
@@ -404,5 +440,6 @@ done:
     for (size_t i = 0; i < s.sequence.n_cameras; i++)
         free((void *)s.camera[i].key);
     free(s.camera);
+    free(s.light);
     return st;
 }

@@ -134,6 +134,18 @@ static status check_paint(const struct yaml *map, const struct job_paint *p)
     return OK;
 }
 
+static status check_light(const struct yaml *map, const struct job_light *l)
+{
+    if (l->sun && l->solar)
+        return yaml_fail_key(yaml_get(map, "solar"), "and sun both say where the sun stands: one of them");
+    for (size_t i = 0; i < l->temperature_K.n; i++)
+        if (l->temperature_K.value[i] > 0 && l->temperature_K.value[i] < 1667)
+            return yaml_fail(place(map, "temperature_K"), NULL,
+                             "%g K is below 1667 (0: as the air leaves the sun's light)",
+                             l->temperature_K.value[i]);
+    return OK;
+}
+
 static status check_material(const struct yaml *map, const struct job_material *m)
 {
     if (m->repose_deg < 0 && m->repose_deg != -1)
@@ -227,6 +239,8 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
         return check_wind(map, base);
     case SECTION_camera:
         return check_camera(map, base);
+    case SECTION_light:
+        return check_light(map, base);
     case SECTION_material:
         return check_material(map, base);
     case SECTION_operation:

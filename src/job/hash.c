@@ -341,13 +341,35 @@ done:
     return st;
 }
 
+/* So is the light. By default it adds nothing: frames of releases without the key stay those of their jobs. */
+static status walk_light(struct walk *w, const struct job *job)
+{
+    status st = OK;
+    const struct job_key *key = table_find(SECTION_job, "light");
+    const size_t back = path_add(w, "light"), before = w->canonical.size, leaves = w->n_leaves;
+    bool preset = true;
+    w->all = true;
+    if (job->output.aov.n_cameras) {
+        TRY(walk_key(w, key, job));
+        TRY(is_default(w, SECTION_job, key, before, &preset));
+        if (preset) {
+            w->canonical.size = before;
+            w->n_leaves = leaves;
+        }
+    }
+done:
+    path_back(w, back);
+    return st;
+}
+
 static status walk_job(struct walk *w, const struct job *job)
 {
     status st = OK;
     TRY(walk_section(w, SECTION_job, job));
-    if (w->of_files)
+    if (w->of_files) {
         TRY(walk_cameras(w, job));
-    else
+        TRY(walk_light(w, job));
+    } else
         put_number(w, job->frames.first);
     TRY(text_status(&w->canonical));
 done:

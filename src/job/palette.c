@@ -44,9 +44,9 @@ static const struct job_material *material_of(const struct job *job, size_t k)
 
 void palette_color(const struct job *job, size_t layer, float rgb[3])
 {
-    /* Navajo buff, iron red, salmon, ochre, cream, rust: no two neighbours alike. */
-    static const float stone[][3] = {{0.55f, 0.30f, 0.16f}, {0.40f, 0.14f, 0.065f}, {0.62f, 0.33f, 0.21f},
-                                     {0.52f, 0.32f, 0.11f}, {0.70f, 0.50f, 0.31f},  {0.33f, 0.125f, 0.07f}};
+    /* Navajo buff, iron red, salmon, ochre, cream, rust: no two neighbours alike, and none far from the others. */
+    static const float stone[][3] = {{0.53f, 0.31f, 0.18f}, {0.42f, 0.185f, 0.10f}, {0.58f, 0.33f, 0.205f},
+                                     {0.55f, 0.36f, 0.21f}, {0.65f, 0.46f, 0.31f},  {0.37f, 0.17f, 0.10f}};
     static const double none[3] = {-1, -1, -1};
     const float *own = stone[layer % (sizeof stone / sizeof *stone)];
     const double *given = none;

@@ -7,6 +7,7 @@
 
 #include "base/path.h"
 #include "base/version.h"
+#include "output/usd_text.h"
 
 /* ---- words of the language */
 
@@ -41,7 +42,7 @@ static void add_quoted(struct text *t, const char *value)
     text_add(t, "\"");
 }
 
-static void add_number(struct text *t, double value)
+void usd_add_number(struct text *t, double value)
 {
     char number[32];
     if (value == floor(value) && fabs(value) < 1e15)
@@ -50,12 +51,12 @@ static void add_number(struct text *t, double value)
         text_add(t, "%s", number_text(value, number));
 }
 
-static void add_vector(struct text *t, const double *v, int n)
+void usd_add_vector(struct text *t, const double *v, int n)
 {
     text_add(t, "(");
     for (int i = 0; i < n; i++) {
         text_add(t, i ? ", " : "");
-        add_number(t, v[i]);
+        usd_add_number(t, v[i]);
     }
     text_add(t, ")");
 }
@@ -97,9 +98,9 @@ static void add_volume(struct text *t, const struct usd_sequence *s, const char 
 {
     char name[IDENTIFIER];
     text_add(t, "\n    def Volume \"rock\"\n    {\n        float3[] extent = [");
-    add_vector(t, s->low, 3);
+    usd_add_vector(t, s->low, 3);
     text_add(t, ", ");
-    add_vector(t, s->high, 3);
+    usd_add_vector(t, s->high, 3);
     text_add(t, "]\n");
     if (s->n_meshes)
         text_add(t, "        token visibility = \"invisible\"\n");
@@ -201,12 +202,12 @@ static void add_rocks(struct text *t, const struct usd_sequence *s, const char *
         s->name);
 }
 
-static void add_matrix(struct text *t, const double m[16])
+void usd_add_matrix(struct text *t, const double m[16])
 {
     text_add(t, "( ");
     for (int row = 0; row < 4; row++) {
         text_add(t, row ? ", " : "");
-        add_vector(t, m + 4 * row, 4);
+        usd_add_vector(t, m + 4 * row, 4);
     }
     text_add(t, " )");
 }
@@ -243,31 +244,31 @@ static void add_camera(struct text *t, const struct usd_camera *c, const char *n
         text_add(t, ".timeSamples = {\n");
         for (size_t i = 0; i < c->n_keys; i++) {
             text_add(t, "                %d: ", c->key[i].frame);
-            add_number(t, film(c->key[i].focal_mm));
+            usd_add_number(t, film(c->key[i].focal_mm));
             text_add(t, ",\n");
         }
         text_add(t, "            }\n");
     } else {
         text_add(t, " = ");
-        add_number(t, film(c->key[0].focal_mm));
+        usd_add_number(t, film(c->key[0].focal_mm));
         text_add(t, "\n");
     }
     text_add(t, "            float horizontalAperture = ");
-    add_number(t, film(c->width_mm));
+    usd_add_number(t, film(c->width_mm));
     text_add(t, "\n            token projection = \"perspective\"\n            float verticalAperture = ");
-    add_number(t, film(c->height_mm));
+    usd_add_number(t, film(c->height_mm));
     text_add(t, "\n            matrix4d xformOp:transform");
     if (moves(c)) {
         text_add(t, ".timeSamples = {\n");
         for (size_t i = 0; i < c->n_keys; i++) {
             text_add(t, "                %d: ", c->key[i].frame);
-            add_matrix(t, c->key[i].to_world);
+            usd_add_matrix(t, c->key[i].to_world);
             text_add(t, ",\n");
         }
         text_add(t, "            }\n");
     } else {
         text_add(t, " = ");
-        add_matrix(t, c->key[0].to_world);
+        usd_add_matrix(t, c->key[0].to_world);
         text_add(t, "\n");
     }
     text_add(t, "            uniform token[] xformOpOrder = [\"xformOp:transform\"]\n        }\n");
@@ -298,9 +299,9 @@ static void add_head(struct text *t, const struct usd_sequence *s, const char *r
     snprintf(doc, sizeof doc, "hoodoo %s: %.100s", hoodoo_version, s->name);
     add_quoted(t, doc);
     text_add(t, "\n    endTimeCode = %d\n    framesPerSecond = ", s->last);
-    add_number(t, s->fps);
+    usd_add_number(t, s->fps);
     text_add(t, "\n    metersPerUnit = 1\n    startTimeCode = %d\n    timeCodesPerSecond = ", s->first);
-    add_number(t, s->fps);
+    usd_add_number(t, s->fps);
     text_add(t, "\n    upAxis = \"%s\"\n)\n", s->up == OUTPUT_UP_Y ? "Y" : "Z");
 }
 
@@ -320,6 +321,8 @@ void usd_stage(const struct usd_sequence *s, struct text *t)
         add_rocks(t, s, root);
     if (s->n_cameras)
         add_cameras(t, s);
+    if (s->n_lights)
+        usd_lights(s, t);
     if (s->n_meshes)
         add_looks(t, root);
     text_add(t, "}\n");

@@ -2,7 +2,7 @@
  * own library is no part of hoodoo.
  *
  * NAME.usda          the stage (usd_stage): the volumes' VDBs as OpenVDBAsset fields, meshes and points as value
- *                    clips, the cameras. Where there are meshes they are what is rendered: the volumes are invisible and points
+ *                    clips, the cameras, sun and sky (usd_lights). Where there are meshes they are what is rendered: the volumes are invisible and points
  *                    are a proxy
  * points/NAME.1001.usdc      one frame's surface particles (usd_points), as a Points prim </points>
  * points/NAME.clips.usda     what these files may hold (usd_clips): USD's manifest of the clips
@@ -39,6 +39,14 @@ struct usd_camera {
     const struct usd_key *key;
 };
 
+/* Sun and sky at one frame. Colours are scene-linear: what a white surface sends back of them. */
+struct usd_light {
+    int frame;
+    double to_world[16]; /* as a camera's: the sun shines along -z. Axes of the files */
+    double sun[3];       /* on a surface that faces it */
+    double sky[3];       /* on one that faces the whole dome */
+};
+
 /* A grid of the volumes. */
 struct usd_field {
     char name[64];
@@ -62,9 +70,14 @@ struct usd_sequence {
     const int *rocks_frame;
     size_t n_shapes; /* of rocks */
     const struct usd_camera *camera;
+    size_t n_lights; /* 0: none; 1: the same in all frames; else one a frame, ascending */
+    const struct usd_light *light;
 };
 
 void usd_stage(const struct usd_sequence *s, struct text *out);
+/* The part of the stage that lights it: a DistantLight whose intensity is the irradiance on what faces it, and a DomeLight of one
+ * colour. */
+void usd_lights(const struct usd_sequence *s, struct text *out);
 void usd_clips(const struct usd_sequence *s, const struct usd_prim *prim, struct text *out);
 
 /* The particles with a normal: positions, normals, widths, ids, the layer's colour, and as primvars the values

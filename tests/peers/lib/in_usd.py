@@ -113,6 +113,18 @@ for path, picture, size, lens, aperture in (("main", "main", (64, 36), lambda f:
         # GfCamera counts in tenths of the unit: decimetres here.
         check(math.isclose(camera.focalLength * Gf.Camera.FOCAL_LENGTH_UNIT * 1000, focal, rel_tol=1e-5), f"{picture}: {focal} mm", camera.focalLength)
 
+# ---- light: the sun shines from where it stands, and it and the sky are lights to USD
+from pxr import UsdLux  # noqa: E402
+sun, sky = UsdLux.DistantLight(stage.GetPrimAtPath("/_9_arches/lights/sun")), UsdLux.DomeLight(stage.GetPrimAtPath("/_9_arches/lights/sky"))
+shines = np.array(UsdGeom.Xformable(sun.GetPrim()).ComputeLocalToWorldTransform(last).TransformDir(Gf.Vec3d(0, 0, -1)))
+azimuth, elevation = math.radians(25 + 2 * (last - 1001)), math.radians(35)
+wanted = to_file((-math.cos(elevation) * math.cos(azimuth), -math.cos(elevation) * math.sin(azimuth), -math.sin(elevation)))
+check(bool(sun) and bool(sky) and np.allclose(shines, wanted, atol=1e-5), "the sun shines from where light.sun says", shines, wanted)
+check(0.5 < sun.GetIntensityAttr().Get(last) < 10 and sky.GetColorAttr().Get(last)[2] > sky.GetColorAttr().Get(last)[0] and sun.GetColorAttr().Get(last)[0] > 1,
+      "warm, and the sky blue", sun.GetIntensityAttr().Get(last))
+points = UsdGeom.Xformable(sun.GetPrim()).GetOrderedXformOps()[0].GetTimeSamples()
+check(len(points) == 5, "a sun that moves has samples", points)
+
 # ---- on their own
 own = Usd.Stage.Open(f"{root}/points/{NAME}.1001.usdc")
 check(UsdGeom.GetStageUpAxis(own) == up.upper() and UsdGeom.Points(own.GetDefaultPrim()), "a frame's points open by themselves")

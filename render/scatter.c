@@ -1,0 +1,318 @@
+#include "render/scatter.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "base/vector.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Numbers 0..1 of a thing, one after the other. */
+struct dice {
+    uint32_t a, b, c, n;
+};
+
+static double roll(struct dice *d)
+{
+    return (double)random_float(random_hash(d->a, d->b, d->c, ++d->n));
+}
+
+/* ---- shapes, of size 1 */
+
+/* Stone broken along planes: what they leave of a ball, seen from its middle. */
+static void add_stone(int which, struct text *out)
+{
+    enum { PLANES = 13, ROWS = 14, COLUMNS = 22 };
+    struct dice dice = {.a = 31, .b = (uint32_t)which};
+    double plane[PLANES][4];
+    const double flat[3] = {1, 0.75 + 0.2 * roll(&dice), 0.5 + 0.3 * roll(&dice)};
+    for (int i = 0; i < PLANES; i++) {
+        double z = 2 * roll(&dice) - 1, turn = 2 * PI * roll(&dice), level = sqrt(1 - z * z);
+        plane[i][0] = level * cos(turn);
+        plane[i][1] = level * sin(turn);
+        plane[i][2] = z;
+        plane[i][3] = 0.62 + 0.3 * roll(&dice);
+    }
+    text_add(out, "#declare Stone_%d = mesh2 {\nvertex_vectors { %d", which, (ROWS + 1) * COLUMNS);
+    for (int row = 0; row <= ROWS; row++)
+        for (int column = 0; column < COLUMNS; column++) {
+            double up = PI * row / ROWS, turn = 2 * PI * column / COLUMNS, r = 1;
+            const double d[3] = {sin(up) * cos(turn), sin(up) * sin(turn), cos(up)};
+            for (int i = 0; i < PLANES; i++) {
+                double along = dot3(plane[i], d);
+                if (along > 0.05)
+                    r = fmin(r, plane[i][3] / along);
+            }
+            text_add(out, ",\n<%.3f,%.3f,%.3f>", r * flat[0] * d[0], r * flat[1] * d[1], r * flat[2] * d[2]);
+        }
+    text_add(out, "}\nface_indices { %d", 2 * ROWS * COLUMNS);
+    for (int row = 0; row < ROWS; row++)
+        for (int column = 0; column < COLUMNS; column++) {
+            int a = row * COLUMNS + column, b = row * COLUMNS + (column + 1) % COLUMNS;
+            text_add(out, ",\n<%d,%d,%d>,\n<%d,%d,%d>", a, a + COLUMNS, b, b, a + COLUMNS, b + COLUMNS);
+        }
+    text_add(out, "}\n}\n");
+}
+
+static void add_leaf(const double at[3], double size, struct dice *dice, struct text *out)
+{
+    text_add(out, "triangle {");
+    for (int corner = 0; corner < 3; corner++)
+        text_add(out, "%s<%.3f,%.3f,%.3f>", corner ? "," : "", at[0] + size * (roll(dice) - 0.5),
+                 at[1] + size * (roll(dice) - 0.5), at[2] + size * (roll(dice) - 0.5));
+    text_add(out, "}\n");
+}
+
+/* A cushion of leaves: sagebrush. */
+static void add_bush(struct text *out)
+{
+    struct dice dice = {.a = 32};
+    text_add(out, "#declare Plant_0 = mesh {\n");
+    for (int i = 0; i < 260; i++) {
+        double turn = 2 * PI * roll(&dice), z = pow(roll(&dice), 0.8), r = 0.25 + 0.75 * sqrt(roll(&dice)),
+               level = 0.62 * sqrt(1 - 0.8 * z * z) * r;
+        const double at[3] = {level * cos(turn), level * sin(turn), 0.06 + 0.86 * z * (0.75 + 0.25 * r)};
+        add_leaf(at, 0.30, &dice, out);
+    }
+    text_add(out, "texture { pigment { bozo color_map { [0.3 rgb <0.17, 0.175, 0.115>] [0.7 rgb <0.27, "
+                  "0.265, 0.18>] } scale 0.3 } "
+                  "finish { Dry } }\n}\n");
+}
+
+/* Blades from a root. */
+static void add_grass(struct text *out)
+{
+    struct dice dice = {.a = 33};
+    text_add(out, "#declare Plant_1 = mesh {\n");
+    for (int i = 0; i < 90; i++) {
+        double turn = 2 * PI * roll(&dice), lean = 0.55 * roll(&dice), high = 0.5 + 0.5 * roll(&dice),
+               x = 0.12 * (roll(&dice) - 0.5), y = 0.12 * (roll(&dice) - 0.5);
+        text_add(out, "triangle {<%.3f,%.3f,0>,<%.3f,%.3f,0>,<%.3f,%.3f,%.3f>}\n", x - 0.018 * sin(turn),
+                 y + 0.018 * cos(turn), x + 0.018 * sin(turn), y - 0.018 * cos(turn), x + lean * cos(turn),
+                 y + lean * sin(turn), high * (1 - 0.3 * lean));
+    }
+    text_add(out, "texture { pigment { gradient z color_map { [0 rgb <0.20, 0.17, 0.08>] [1 rgb <0.50, 0.42, "
+                  "0.22>] } } "
+                  "finish { Dry } }\n}\n");
+}
+
+/* A juniper: a few boughs of dense leaves on a short trunk. */
+static void add_tree(struct text *out)
+{
+    struct dice dice = {.a = 34};
+    text_add(out, "#declare Plant_2 = mesh {\n");
+    for (int bough = 0; bough < 9; bough++) {
+        double turn = 2.4 * bough, z = 0.22 + 0.62 * bough / 9, out_by = 0.30 * (1.1 - z);
+        for (int i = 0; i < 75; i++) {
+            double t = 2 * PI * roll(&dice), c = 2 * roll(&dice) - 1,
+                   r = 0.23 * cbrt(roll(&dice)) * (1.25 - 0.5 * z), level = sqrt(1 - c * c);
+            const double at[3] = {out_by * cos(turn) + r * level * cos(t),
+                                  out_by * sin(turn) + r * level * sin(t), z + 0.9 * r * c};
+            add_leaf(at, 0.10, &dice, out);
+        }
+    }
+    text_add(out, "triangle {<-0.05,0,0>,<0.05,0,0>,<0.01,0.01,0.6>}\ntriangle "
+                  "{<0,-0.05,0>,<0,0.05,0>,<0.01,0.01,0.6>}\n"
+                  "texture { pigment { bozo color_map { [0.3 rgb <0.055, 0.075, 0.030>] [0.7 rgb <0.11, "
+                  "0.125, 0.05>] } scale 0.12 } "
+                  "finish { Dry } }\n}\n");
+}
+
+status scatter_shapes(struct text *out)
+{
+    for (int i = 0; i < SCATTER_STONES; i++)
+        add_stone(i, out);
+    add_bush(out);
+    add_grass(out);
+    add_tree(out);
+    return text_status(out);
+}
+
+/* ---- on the ground */
+
+/* One in a cell of the level, or none: `cell` m wide, `size` m from the least to the largest, `share` of the cells have one. */
+struct kind {
+    const char *shape;                         /* "Stone" or "Plant" */
+    double cell, least, largest, share, reach; /* m */
+    double lowest; /* the least of it above ground, in sizes: what is not to hide the rock */
+};
+
+static const struct kind kinds[] = {
+    {"Stone", 0.22, 0.008, 0.035, 0.5, 14, 0.4}, {"Stone", 0.9, 0.03, 0.11, 0.5, 60, 0.4},
+    {"Stone", 4.5, 0.09, 0.42, 0.45, 260, 0.4},  {"Stone", 21, 0.35, 1.3, 0.2, 700, 0.5},
+    {"Plant", 2.2, 0.16, 0.34, 0.22, 110, 1},    {"Plant", 4.2, 0.35, 0.85, 0.38, 420, 1},
+    {"Plant", 34, 1.6, 3.4, 0.3, 900, 1},
+};
+
+/* How large a thing at `x` of 1 m is in the picture that shows it largest, px; 0: in none. */
+static double pixels(const struct camera *camera, size_t n, const double x[3])
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++) {
+        double px[2], d[3];
+        if (!camera_project(&camera[i], x, px) || px[0] < -0.06 * camera[i].width ||
+            px[0] > 1.06 * camera[i].width || px[1] < -0.06 * camera[i].height ||
+            px[1] > 1.3 * camera[i].height)
+            continue;
+        minus3(x, camera[i].eye, d);
+        most = fmax(most, 0.5 * camera[i].width / sqrt(dot3(camera[i].right, camera[i].right)) /
+                              fmax(dot3(d, camera[i].ahead), 1e-6));
+    }
+    return most;
+}
+
+static void put_kind(const struct ground *g, const struct camera *camera, size_t n_cameras, size_t which,
+                     const struct waves *patches, struct text *out)
+{
+    const struct kind *kind = &kinds[which];
+    const struct view *v = &g->view;
+    const double reach = fmin(kind->reach, 40 + 8 * v->span);
+    bool stone = kind->shape[0] == 'S';
+    int low[2], high[2];
+    for (int a = 0; a < 2; a++) {
+        low[a] = (int)floor(-reach / kind->cell);
+        high[a] = (int)ceil((v->size[a] + reach) / kind->cell);
+    }
+    for (int j = low[1]; j <= high[1]; j++)
+        for (int i = low[0]; i <= high[0]; i++) {
+            struct dice dice = {(uint32_t)i, (uint32_t)j, 40 + (uint32_t)which, 0};
+            double chance = roll(&dice),
+                   x[3] = {(i + roll(&dice)) * kind->cell, (j + roll(&dice)) * kind->cell, 0},
+                   size = kind->least * pow(kind->largest / kind->least, pow(roll(&dice), 2)),
+                   away = view_outside(v, x[0], x[1]);
+            if (away > reach)
+                continue;
+            double share = kind->share * (1 - away / reach) *
+                           (0.35 + 0.9 * ramp(-0.8, 1.4, wave_at(patches, stone ? 1 : 0, x)));
+            if (chance > share || !(size < 0.35 * v->span))
+                continue;
+            if (away > 0 ? !view_leaves_open(v, x[0], x[1], kind->lowest * size)
+                         : !stone || size > 0.02 * v->span)
+                continue;
+            double px = pixels(camera, n_cameras, x) * size;
+            if (px < 2)
+                continue;
+            x[2] = ground_at(g, x[0], x[1], fmax(0.5, 2 * size));
+            int shape = stone ? (int)(SCATTER_STONES * roll(&dice)) : which == 4 ? 1 : which == 5 ? 0 : 2;
+            /* Not inside the rock. */
+            if (away <= 0 && ground_top(g, x[0], x[1]) > 0)
+                continue;
+            text_add(out, "object { %s_%d ", kind->shape, shape);
+            if (stone)
+                text_add(out, "rotate <%.0f,%.0f,%.0f> ", 40 * roll(&dice) - 20, 40 * roll(&dice) - 20,
+                         360 * roll(&dice));
+            else
+                text_add(out, "rotate %.0f*z ", 360 * roll(&dice));
+            text_add(out, "scale <%.4g,%.4g,%.4g> translate <%.4f,%.4f,%.4f> %s}\n",
+                     size * (0.8 + 0.5 * roll(&dice)), size * (0.8 + 0.5 * roll(&dice)), size, x[0], x[1],
+                     x[2] - (stone ? -0.18 : 0.03) * size, stone ? "texture { Rubble } " : "");
+        }
+}
+
+void scatter_ground(const struct ground *g, const struct camera *camera, size_t n_cameras, struct text *out)
+{
+    const struct waves patches = waves_make(60, 0.2, 2, 5);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        put_kind(g, camera, n_cameras, k, &patches, out);
+}
+
+/* ---- on the rock */
+
+void scatter_plants(const struct vdb_mesh *m, const float *cover, struct text *out)
+{
+    static const double a_m2 = 1.1; /* shrubs where all is covered */
+    for (size_t i = 0; i < m->n_triangles; i++) {
+        const uint32_t *t = m->triangle + 3 * i;
+        double covered = ((double)cover[t[0]] + (double)cover[t[1]] + (double)cover[t[2]]) / 3, u[3], v[3],
+               n[3], at[3];
+        const float *a = m->vertex + 3 * (size_t)t[0], *b = m->vertex + 3 * (size_t)t[1],
+                    *c = m->vertex + 3 * (size_t)t[2];
+        if (covered < 0.12)
+            continue;
+        for (int k = 0; k < 3; k++) {
+            u[k] = (double)b[k] - (double)a[k];
+            v[k] = (double)c[k] - (double)a[k];
+        }
+        cross3(u, v, n);
+        double area = 0.5 * sqrt(dot3(n, n)), wanted = a_m2 * area * covered;
+        struct dice dice = {(uint32_t)(int64_t)floor(50 * (double)a[0]),
+                            (uint32_t)(int64_t)floor(50 * (double)b[1]),
+                            (uint32_t)(int64_t)floor(50 * (double)c[2]), 0};
+        if (!(n[2] > 0.9 * area)) /* none on walls */
+            continue;
+        for (; wanted > 0; wanted -= 1) {
+            double p = roll(&dice), q = roll(&dice),
+                   size = (0.22 + 0.5 * roll(&dice)) * (0.5 + 0.6 * covered), kind = roll(&dice);
+            if (roll(&dice) > wanted)
+                break;
+            if (p + q > 1) {
+                p = 1 - p;
+                q = 1 - q;
+            }
+            for (int k = 0; k < 3; k++)
+                at[k] = (double)a[k] + p * u[k] + q * v[k];
+            text_add(out, "object { Plant_%d scale %.3f rotate %.0f*z translate <%.3f,%.3f,%.3f> }\n",
+                     kind < 0.3     ? 1
+                     : kind < 0.985 ? 0
+                                    : 2,
+                     kind < 0.985 ? size : 3.5 * size, 360 * roll(&dice), at[0], at[1], at[2] - 0.04 * size);
+        }
+    }
+}
+
+void scatter_rocks(const struct job *job, const struct rock *at, double radius, struct text *out)
+{
+    for (size_t i = 0; i < at->n; i++) {
+        struct dice dice = {at->id ? at->id[i] : (uint32_t)i, 0, 60, 0};
+        /* Many small ones, few large: those still touch. */
+        double size = radius * (0.45 + 1.15 * pow(roll(&dice), 2.2));
+        size_t bed = (size_t)(roll(&dice) * (double)job->n_strata);
+        text_add(out,
+                 "object { Stone_%d scale %.4g rotate <%.0f,%.0f,%.0f> translate <%.4f,%.4f,%.4f> texture { "
+                 "Rubble_Bed[%zu] } }\n",
+                 (int)(SCATTER_STONES * roll(&dice)), size, 360 * roll(&dice), 360 * roll(&dice),
+                 360 * roll(&dice), (double)at->P[4 * i] + 0.4 * radius * (roll(&dice) - 0.5),
+                 (double)at->P[4 * i + 1] + 0.4 * radius * (roll(&dice) - 0.5),
+                 (double)at->P[4 * i + 2] - 0.3 * (radius - size), bed < job->n_strata ? bed : 0);
+    }
+}
+
+/* ---- somebody */
+
+void scatter_figure(const struct ground *g, const struct camera *c, struct text *out)
+{
+    const struct view *v = &g->view;
+    double towards[2] = {c->eye[0] - 0.5 * v->size[0], c->eye[1] - 0.5 * v->size[1]},
+           length = fmax(hypot(towards[0], towards[1]), 1e-9), x = 0, y = 0;
+    /* From the middle of the box towards the camera, a little aside, to the first place with bare ground for a step all around. */
+    for (double t = 0; t < 1.2 * v->span + 30; t += 0.1) {
+        bool bare = true;
+        x = 0.5 * v->size[0] + (t * towards[0] - 0.14 * v->span * towards[1]) / length;
+        y = 0.5 * v->size[1] + (t * towards[1] + 0.14 * v->span * towards[0]) / length;
+        for (int k = 0; k < 8 && bare; k++)
+            bare = ground_top(g, x + 0.9 * cos(k * PI / 4), y + 0.9 * sin(k * PI / 4)) <= 0;
+        if (bare && ground_top(g, x, y) <= 0 &&
+            (view_outside(v, x, y) <= 0 || view_outside(v, x, y) > fmin(0.1 * v->span, 3)))
+            break;
+    }
+    text_add(
+        out,
+        "// a person of 1.75 m\nunion {\n"
+        "    sphere { <0, 0, 1.64>, 0.11 pigment { rgb <0.36, 0.22, 0.15> } }\n"
+        "    sphere { <0, 0, 1.70>, 0.112 scale <1, 1, 1> translate <0, 0.005, 0.01> pigment { rgb <0.32, "
+        "0.26, 0.16> } }\n"
+        "    cone { <0, 0, 1.44>, 0.055, <0, 0, 1.58>, 0.05 pigment { rgb <0.36, 0.22, 0.15> } }\n"
+        "    sphere { <0, 0, 1.2>, 0.3 scale <0.72, 0.45, 1.0> pigment { rgb <0.10, 0.16, 0.24> } }\n"
+        "    cone { <-0.10, 0, 0.88>, 0.095, <-0.12, 0.02, 0.05>, 0.055 pigment { rgb <0.07, 0.065, 0.06> } "
+        "}\n"
+        "    cone { <0.10, 0, 0.88>, 0.095, <0.13, -0.06, 0.05>, 0.055 pigment { rgb <0.07, 0.065, 0.06> } "
+        "}\n"
+        "    cone { <-0.20, 0, 1.40>, 0.06, <-0.27, -0.06, 0.85>, 0.04 pigment { rgb <0.10, 0.16, 0.24> } }\n"
+        "    cone { <0.20, 0, 1.40>, 0.06, <0.27, 0.04, 0.85>, 0.04 pigment { rgb <0.10, 0.16, 0.24> } }\n"
+        "    sphere { <-0.12, -0.05, 0.05>, 0.09 scale <0.8, 1.2, 0.7> pigment { rgb 0.05 } }\n"
+        "    sphere { <0.13, -0.12, 0.05>, 0.09 scale <0.8, 1.2, 0.7> pigment { rgb 0.05 } }\n"
+        "    finish { Dry }\n    rotate %.1f * z\n    translate <%.4f, %.4f, %.4f>\n}\n",
+        atan2(towards[1], towards[0]) * 180 / PI + 60, x, y, ground_at(g, x, y, 0.5));
+}

@@ -1,0 +1,142 @@
+"""Previews are of a world: light, textures and ground are where and as large as the job says, in metres, whatever else is in the
+picture. Measured in the pictures."""
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+
+HOODOO = os.environ["HOODOO"]
+failed = False
+
+
+def check(good, what):
+    global failed
+    failed |= not good
+    print(("ok " if good else "not ok ") + what)
+
+
+def hoodoo(*words):
+    done = subprocess.run([HOODOO, *words, "--progress", "none"], capture_output=True, text=True, errors="replace")
+    if done.returncode:
+        check(False, f"hoodoo {' '.join(words)}: {done.stderr}")
+        sys.exit(1)
+
+
+def run(name, job):
+    with open(f"{name}.json", "w") as file:
+        json.dump({"hoodoo": 1, "name": name, **job}, file)
+    hoodoo("run", f"{name}.json", "--out", name)
+
+
+def linear(byte):
+    c = byte / 255
+    return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+
+
+LINEAR = [linear(byte) for byte in range(256)]
+
+
+def still(name, frame, width, height, *words):
+    """Rows of (r, g, b)."""
+    hoodoo("preview", name, "--frames", str(frame), "--only", "stills", "--no-slate", "--resolution", f"{width}x{height}", *words)
+    raw = subprocess.run(["ffmpeg", "-loglevel", "error", "-i", f"{name}/preview/{name}.{frame}.png", "-f", "rawvideo", "-pix_fmt", "rgb24", "-"],
+                         capture_output=True, check=True).stdout
+    return [[tuple(raw[3 * (y * width + x):3 * (y * width + x) + 3]) for x in range(width)] for y in range(height)]
+
+
+def bright(pixel):
+    return sum(LINEAR[c] for c in pixel) / 3
+
+
+def layer(name, frame, part):
+    """Rows of (x, y, z) or (r, g, b) of an EXR's part."""
+    subprocess.run(["oiiotool", f"{name}/aov/{name}.{frame}.exr", "--subimage", part, "-d", "float", "-o", "part.exr"], check=True)
+    text = subprocess.run(["oiiotool", "--dumpdata", "part.exr"], check=True, capture_output=True, text=True).stdout
+    rows = {}
+    for x, y, values in re.findall(r"Pixel \((\d+), (\d+)\): ([^\n]*)", text):
+        rows.setdefault(int(y), {})[int(x)] = tuple(float(v) for v in values.split()[:3])
+    return [[row[x] for x in range(len(row))] for _, row in sorted(rows.items())]
+
+
+# ---- the sun: where the shadow of a tower falls on a slab, in the preview and in rgba, says where it stands
+AZIMUTH, ELEVATION, W, H = 205, 40, 160, 120
+TOWER = {"box": {"min_m": [7, 7, 0], "max_m": [9, 9, 5]}}
+run("sundial", {"frames": "1001-1001", "domain": {"size_m": [16, 16, 8], "spacing_m": 0.25},
+                "scene": {"union": [{"box": {"min_m": [0.5, 0.5, 0], "max_m": [15.5, 15.5, 1]}}, TOWER]},
+                "light": {"sun": {"azimuth_deg": AZIMUTH, "elevation_deg": ELEVATION}},
+                "cameras": {"main": {"orbit": {"target_m": [8, 8, 1], "distance_m": 26, "azimuth_deg": -80, "elevation_deg": 55}, "resolution": [W, H]}},
+                "output": {"up": "z", "aov": {"cameras": ["main"], "layers": ["rgba", "P"]}}})
+where = layer("sundial", 1001, "P")
+seen = {"rgba": [[sum(p) / 3 for p in row] for row in layer("sundial", 1001, "rgba")],
+        "preview": [[bright(p) for p in row] for row in still("sundial", 1001, W, H, "--preset", "draft")]}
+floor = [(y, x) for y in range(H) for x in range(W) if abs(where[y][x][2] - 1) < 0.12 and max(abs(where[y][x][k] - 8) for k in (0, 1)) < 7]
+found = []
+for what, light in seen.items():
+    values = sorted(light[y][x] for y, x in floor)
+    lit = values[3 * len(values) // 4]
+    # Away from the sun the shadow goes: the mean of what is dark, from the tower's middle.
+    dark = [(where[y][x][0] - 8, where[y][x][1] - 8) for y, x in floor if light[y][x] < 0.55 * lit]
+    dark = [d for d in dark if math.hypot(*d) > 2]
+    away = math.degrees(math.atan2(sum(d[1] for d in dark), sum(d[0] for d in dark)))
+    c, s = math.cos(math.radians(away)), math.sin(math.radians(away))
+    # The shadow of the upper edge's middle ends a metre farther than the tower's height says.
+    reach = sorted(c * d[0] + s * d[1] for d in dark if abs(s * d[0] - c * d[1]) < 0.5)
+    high = math.degrees(math.atan2(4, reach[-3] - 1 / max(abs(c), abs(s))))
+    turned = (away + 180 - AZIMUTH + 180) % 360 - 180
+    found.append((turned, high))
+    # Edges are rounded by a spacing or so, which shortens shadows.
+    check(abs(turned) < 2.5 and abs(high - ELEVATION) < 6.5,
+          f"{what}: the sun stands at azimuth {AZIMUTH + turned:.1f}, elevation {high:.1f}; {AZIMUTH} and {ELEVATION} were asked for")
+
+check(all(abs(a - b) < 4 for a, b in zip(*found)), "the same in both")
+
+# ---- what nothing has happened to stays, to the last pixel: an edit carves another rock, and leaves a crumb far outside
+W, H = 160, 90
+STILL = {"to_m": 20, "weak_m_per_kyr": 0, "strong_m_per_kyr": 0}
+run("edited", {"frames": "1001-1002", "domain": {"size_m": [30, 12, 10], "spacing_m": 0.5}, "strata": [STILL],
+               "scene": {"union": [{"box": {"min_m": [3, 4, 0], "max_m": [7, 8, 7]}}, {"box": {"min_m": [20, 4, 0], "max_m": [24, 8, 6]}}]},
+               "edits": [{"frame": 1002, "carve": {"sphere": {"center_m": [22, 4, 5], "radius_m": 1.5}}, "add": [{"shape": {"box": {"min_m": [28, 0.5, 0], "max_m": [29.5, 2, 1.5]}}}]}],
+               "light": {"sun": {"azimuth_deg": 230, "elevation_deg": 35}},
+               "cameras": {"main": {"position_m": [15, -32, 7], "target_m": [15, 6, 4]}}})
+for preset in ("draft", "preview"):
+    one, other = (still("edited", frame, W, H, "--preset", preset) for frame in (1001, 1002))
+    # The left half holds ground, a tower, sky and horizon; nothing of the change, nor its shadow.
+    most = max(abs(a - b) for p, q in zip(one, other) for x in range(W // 2) for a, b in zip(p[x], q[x]))
+    moved = sum(p[x] != q[x] for p, q in zip(one, other) for x in range(W // 2, W))
+    check(most == 0 and moved > 50, f"{preset}: pixels of rock, ground and sky that nothing has changed differ by {most}/255; {moved} have changed elsewhere")
+
+# ---- the foot: no dark line between the rock and the ground where both are in the sun
+picture, columns, gaps = still("edited", 1001, 320, 180, "--preset", "draft"), range(57, 83), []
+for x in columns:
+    light = [bright(row[x]) for row in picture]
+    gaps.append(light)
+# From the middle of the tower's front down to the ground before it.
+least = []
+for light in gaps:
+    wall, ground = sorted(light[80:100])[10], sorted(light[150:170])[10]
+    least.append(min(light[100:150]) / min(wall, ground))
+least.sort()
+check(least[len(least) // 2] > 0.55, f"between wall and ground it is never darker than {least[len(least) // 2]:.2f} of both")
+
+# ---- texture in metres: the same wall, seen from as near, of rocks of 26 cm, 7 m and 45 m
+waves = {}
+for size, spacing in ((0.26, 0.01), (7, 0.25), (45, 1.5)):
+    name, middle = f"block{round(100 * size)}", [size / 2 + 0.4 * size, 0.25 * size, 0.45 * size]
+    run(name, {"frames": "1001-1001", "domain": {"size_m": [1.8 * size, 1.5 * size, 1.1 * size], "spacing_m": spacing}, "strata": [dict(STILL, to_m=1000)],
+               "scene": {"box": {"min_m": [0.4 * size, 0.25 * size, 0], "max_m": [1.4 * size, 1.25 * size, size]}},
+               "light": {"sun": {"azimuth_deg": -120, "elevation_deg": 40}},
+               "cameras": {"main": {"position_m": [middle[0], middle[1] - 0.6, middle[2]], "target_m": middle, "focal_mm": 90}}})
+    picture = still(name, 1001, 96, 96, "--preset", "preview")
+    # 0.24 m are 96 px. Colour alone, by which light and shade drop out: red over green, up and down.
+    ratio = [[math.log((LINEAR[p[0]] + 0.01) / (LINEAR[p[1]] + 0.01)) for p in row] for row in picture]
+    tone = [[math.log(bright(p) + 0.01) for p in row] for row in picture]
+    flat = [v for row in tone for v in row]
+    mean = sum(flat) / len(flat)
+    spread = sum((v - mean) ** 2 for v in flat) / len(flat)
+    slope = sum((tone[y + 1][x] - tone[y][x]) ** 2 for y in range(95) for x in range(96)) / (95 * 96)
+    waves[size] = 2 * math.pi * 0.24 / 96 * math.sqrt(spread / slope)
+    check(math.sqrt(spread) > 0.04, f"a rock of {size} m has texture: {math.sqrt(spread):.3f}, of a wave {1000 * waves[size]:.1f} mm long")
+check(max(waves.values()) < 2 * min(waves.values()), "the same in all three, in metres: " + ", ".join(f"{1000 * w:.1f} mm" for w in waves.values()))
+sys.exit(failed)
