@@ -100,14 +100,25 @@ bool picture_has_slate(const struct preview *p, const char *path)
 
 /* ---- the scene */
 
+/* A still has the camera's shape, no larger than the preset's; an orbit, which is nobody's camera's, the preset's. */
 static void size_of(const struct preview *p, const struct job_camera *camera, bool turntable, int *width,
                     int *height)
 {
-    static const int stills[][2] = {{320, 180}, {640, 360}, {0, 0}},
-                     orbits[][2] = {{240, 136}, {480, 270}, {960, 540}};
-    const int *preset = turntable ? orbits[p->preset] : stills[p->preset];
-    *width = p->width ? p->width : preset[0] ? preset[0] : camera ? (int)camera->resolution[0] : 1280;
-    *height = p->width ? p->height : preset[0] ? preset[1] : camera ? (int)camera->resolution[1] : 720;
+    static const int stills[][2] = {{960, 540}, {960, 540}, {16384, 16384}},
+                     orbits[][2] = {{640, 360}, {1280, 720}, {1920, 1080}};
+    const int *most = turntable ? orbits[p->preset] : stills[p->preset];
+    double own[2] = {most[0], most[1]};
+    if (p->preset == PRESET_FINAL && !turntable && !camera) {
+        own[0] = 1920;
+        own[1] = 1080;
+    }
+    if (camera && !turntable) {
+        double fits = fmin(fmin(most[0] / camera->resolution[0], most[1] / camera->resolution[1]), 1);
+        for (int k = 0; k < 2; k++)
+            own[k] = fmax(round(fits * camera->resolution[k]), 8);
+    }
+    *width = p->width ? p->width : (int)own[0];
+    *height = p->width ? p->height : (int)own[1];
 }
 
 static const struct job_camera *chosen_camera(const struct preview *p)
@@ -409,7 +420,7 @@ static status start(struct preview *p, struct picture *picture, const char *scen
                                 declare,
                                 p->preset == PRESET_DRAFT ? "-A"
                                 : fine                    ? "+A0.05"
-                                                          : "+A0.12",
+                                                          : "+A0.2",
                                 "+AM2",
                                 fine ? "+R3" : "+R2",
                                 "-D",

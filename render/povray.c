@@ -221,7 +221,7 @@ static void add_head(struct text *out, const struct scene *s)
 {
     const char *care = s->preset == PRESET_DRAFT   ? "-A"
                        : s->preset == PRESET_FINAL ? "+A0.05 +AM2 +R3"
-                                                   : "+A0.12 +AM2 +R2";
+                                                   : "+A0.2 +AM2 +R2";
     text_add(out, "// hoodoo %s: %s, frame %d. Simulator axes: z up, metres.\n", hoodoo_version, s->job->name,
              s->frame);
     text_add(out, "// Complete in itself: povray +I%s +W%d +H%d %s -D Declare=View=0%s\n", s->file,
@@ -277,7 +277,9 @@ static status add_looks(struct text *out, const struct scene *s)
 {
     status st = OK;
     const struct light light = light_of(s->job, s->frame);
-    static const int lights[] = {3, 6, 20}, turns[] = {120, 240, 480};
+    static const int lights[] = {3, 6, 20}, most_turns[] = {120, 240, 480};
+    /* Rings of triangles a few pixels wide. */
+    int turns = (int)fmin(fmax(s->camera->width / 4.0, 60), most_turns[s->preset]);
     struct ground ground = {0};
     TRY(ground_make(s->job, &s->view, s->mesh, &ground));
     daylight_begin(&light, out);
@@ -292,7 +294,7 @@ static status add_looks(struct text *out, const struct scene *s)
     if (is_terrain(s))
         add_part(out, scene_terrain);
     add_mesh(out, s);
-    TRY(ground_write(&ground, turns[s->preset], out));
+    TRY(ground_write(&ground, turns, out));
     text_add(out, "#declare Walls = %d;\n", ground.walls != 0);
     add_part(out, scene_ground);
     TRY(scatter_shapes(out));

@@ -255,7 +255,9 @@ status cli_preview(int argc, char **argv)
         {"camera", "NAME", OPTION_TEXT, &w.camera, "of the job (default: its first)"},
         {"preset", CHOICE_TEXT(PRESET_CHOICE), OPTION_CHOICE, &w.preset,
          "how much care is taken (default preview)"},
-        {"resolution", "WxH", OPTION_TEXT, &w.resolution, "of the pictures (default: the preset's)"},
+        {"resolution", "WxH", OPTION_TEXT, &w.resolution,
+         "of the pictures (default: stills as the camera's, at most 960x540 unless final; views 640x360, "
+         "1280x720 or 1920x1080)"},
         {"only", CHOICE_TEXT(ONLY_CHOICE), OPTION_CHOICE, &w.only,
          "a part of it: stills without a sheet, the sheet of the stills there are, views of the turntable "
          "without a video, the video of the views there are, or the sheet across the wedges of a farm's "
