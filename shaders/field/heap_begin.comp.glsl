@@ -34,13 +34,13 @@ void main()
         ;
     } else if (own > 0.0) {
         if (filled(v + down) == 0.0) {
-            top = float(v.z) + own;
-            bottom = float(v.z);
+            top = HEAP_UNIT * (float(v.z) + own);
+            bottom = HEAP_UNIT * float(v.z);
             for (int d = 1; d <= HEAP_REACH && filled(v - d * down) > 0.0; d++)
-                bottom = float(v.z - d);
+                bottom = HEAP_UNIT * float(v.z - d);
         }
     } else if (below < 0.0) {
-        top = bottom = float(v.z) - 1.0 - below;
+        top = bottom = HEAP_UNIT * float(v.z);
     }
     AT(height, i) = top;
     AT(base, i) = vec4(bottom, 0.0, 0.0, 0.0);

@@ -17,7 +17,14 @@ PARAMS(field_params)
 #include "particles/sides.glsl"
 #include "field/heap.glsl"
 
-const float PART = 0.1; // of what is too much, to each of eight neighbours: no more than levels the roughest ground
+const float ENOUGH = 7.0; // units beyond repose that make a slide
+
+// What goes to each of eight neighbours: a tenth of what is too much, which levels the roughest ground, no more than an eighth of what
+// there is, and of the last few units one. Adding half a unit keeps the tenth part away from where rounding could change its floor.
+float sliding(float over, float thick)
+{
+    return min(max(floor(0.1 * (over + 0.5)), over >= ENOUGH ? 1.0 : 0.0), floor(0.125 * thick));
+}
 
 // The sample of the nearest head in the column of v, SAMPLE_NONE if there is none near.
 uint head_near(ivec3 v)
@@ -46,11 +53,11 @@ void main()
             uint s = x == 0 && y == 0 ? SAMPLE_NONE : head_near(v + ivec3(x, y, 0));
             if (s == SAMPLE_NONE)
                 continue;
-            float drop = own - LOAD_F(height, s), most = k.repose * (x != 0 && y != 0 ? 1.41421356 : 1.0);
+            float drop = own - LOAD_F(height, s), most = round(HEAP_UNIT * k.repose * (x != 0 && y != 0 ? 1.41421356 : 1.0));
             if (drop > most)
-                change -= min(PART * (drop - most), 0.125 * (own - bottom));
+                change -= sliding(drop - most, own - bottom);
             else if (-drop > most)
-                change += min(PART * (-drop - most), 0.125 * (LOAD_F(height, s) - LOAD_V(base, s).x));
+                change += sliding(-drop - most, LOAD_F(height, s) - LOAD_V(base, s).x);
         }
     AT(after, i) = own + change;
 }

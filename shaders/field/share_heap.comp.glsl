@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The rock's share of space at each sample, as field/share has it, from what fills the samples' voxels.
+// The rock's share of space at each sample, as field/share has it, from what fills the samples' voxels. A heap's surface
+// goes on level into rock beside it, so that it neither stirs as that weathers nor climbs at it: a neighbour that is rock counts as filled as
+// the heap's own column is at its height.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -14,14 +16,24 @@ PARAMS(field_params)
 #include "particles/bits.glsl"
 #include "particles/sides.glsl"
 
-float fill_at(ivec3 v)
+float filled_at(ivec3 v)
 {
     v = side_voxel(v);
     if (!voxel_inside(v))
         return 0.0;
     ivec3 c = v + int(k.margin);
     uint s = LOAD_U(slot, brick_of(c));
-    return slot_kept(s) ? LOAD_F(filled, slot_sample(s, c)) : slot_share(s);
+    return slot_kept(s) ? LOAD_F(filled, slot_sample(s, c)) : -slot_share(s);
+}
+
+ivec3 own;
+vec3 column; // of the voxel, from the one below it upward, if it is on a heap; rock counts as full
+bool on_heap;
+
+float fill_at(ivec3 v)
+{
+    float here = filled_at(v);
+    return here >= 0.0 ? here : on_heap ? column[v.z - own.z + 1] : -here;
 }
 #include "particles/share.glsl"
 
@@ -31,5 +43,9 @@ void main()
     if (i >= k.n)
         return;
     ivec3 c = brick_sample(LOAD_U(list, i / BRICK_SAMPLES), i % BRICK_SAMPLES);
-    AT(share, i) = lattice_beyond(c) ? 0.0 : share_at(c - int(k.margin));
+    own = c - int(k.margin);
+    column = vec3(filled_at(own - ivec3(0, 0, 1)), filled_at(own), filled_at(own + ivec3(0, 0, 1)));
+    on_heap = column.y > 0.0 || (column.y == 0.0 && column.x > 0.0);
+    column = mix(column, vec3(1.0), lessThan(column, vec3(0.0)));
+    AT(share, i) = lattice_beyond(c) ? 0.0 : share_at(own);
 }

@@ -7,7 +7,7 @@
 
 #include "../../shaders/shared/params.h"
 
-enum { REACH = 3 };
+enum { REACH = 3, UNIT = 64 };
 static const float NONE = -1e9f;
 
 struct columns {
@@ -44,10 +44,10 @@ static void begin(struct columns *c)
                     int down = 0;
                     while (down < REACH && loose_at(c, x, y, z - down - 1) > 0)
                         down++;
-                    c->height[i] = (float)z + own;
-                    c->base[i] = (float)(z - down);
+                    c->height[i] = UNIT * ((float)z + own);
+                    c->base[i] = (float)(UNIT * (z - down));
                 } else if (own == 0 && below < 0) {
-                    c->height[i] = c->base[i] = (float)z - 1 - below;
+                    c->height[i] = c->base[i] = (float)(UNIT * z);
                 }
             }
 }
@@ -75,12 +75,13 @@ static void slide(struct columns *c, double repose, float *after)
                         if (j < 0)
                             continue;
                         const double drop = (double)c->height[i] - (double)c->height[j],
-                                     over = fabs(drop) - repose * hypot(a, b);
+                                     over = fabs(drop) - round(UNIT * repose * hypot(a, b));
                         const size_t giver = drop > 0 ? i : (size_t)j;
                         if (over > 0)
-                            change -= copysign(
-                                fmin(0.1 * over, ((double)c->height[giver] - (double)c->base[giver]) / 8),
-                                drop);
+                            change -=
+                                copysign(fmin(fmax(floor(over / 10), over >= 7 ? 1 : 0),
+                                              floor(((double)c->height[giver] - (double)c->base[giver]) / 8)),
+                                         drop);
                     }
                 after[i] = c->height[i] + (float)change;
             }
@@ -94,10 +95,7 @@ static float deposits_in(const struct columns *c, int x, int y, int z, float own
             if (!inside(c->n, x, y, head) || c->height[at(c->n, x, y, head)] == NONE ||
                 (own == 0 && head > z))
                 continue;
-            float top = c->height[at(c->n, x, y, head)];
-            if (c->loose[at(c->n, x, y, head)] == 0)
-                top += 1 + fminf(loose_at(c, x, y, head - 1), 0);
-            top = fminf(fmaxf(top - (float)z, 0), 1);
+            const float top = fminf(fmaxf(c->height[at(c->n, x, y, head)] / UNIT - (float)z, 0), 1);
             return head > z ? fminf(own, top) : top;
         }
     return own;
@@ -105,15 +103,25 @@ static float deposits_in(const struct columns *c, int x, int y, int z, float own
 
 static float share_at(const float *filled, const int n[3], int x, int y, int z)
 {
+    float column[3];
+    for (int c = -1; c <= 1; c++)
+        column[c + 1] = inside(n, x, y, z + c) ? filled[at(n, x, y, z + c)] : 0;
+    const bool on_heap = column[1] > 0 || (column[1] == 0 && column[0] > 0);
     double sum = 0;
     for (int c = -1; c <= 1; c++)
         for (int b = -1; b <= 1; b++)
             for (int a = -1; a <= 1; a++) {
                 const int off = abs(a) + abs(b) + abs(c);
-                if (off < 3 && inside(n, x + a, y + b, z + c))
-                    sum += (double)filled[at(n, x + a, y + b, z + c)] * (double)(off == 0   ? SHARE_SELF
-                                                                                 : off == 1 ? SHARE_FACE
-                                                                                            : SHARE_EDGE);
+                if (off > 2 || !inside(n, x + a, y + b, z + c))
+                    continue;
+                const double fill = (double)filled[at(n, x + a, y + b, z + c)],
+                             share = (double)(off == 0   ? SHARE_SELF
+                                              : off == 1 ? SHARE_FACE
+                                                         : SHARE_EDGE);
+                sum += share * (fill >= 0           ? fill
+                                : !on_heap          ? -fill
+                                : column[c + 1] < 0 ? 1
+                                                    : (double)column[c + 1]);
             }
     return (float)sum;
 }
@@ -134,7 +142,7 @@ float *heap_ref_share(const float *loose, const int n[3], double repose_deg, int
         for (int y = 0; y < n[1]; y++)
             for (int x = 0; x < n[0]; x++) {
                 const size_t i = at(n, x, y, z);
-                filled[i] = loose[i] < 0 ? -loose[i] : deposits_in(&c, x, y, z, loose[i]);
+                filled[i] = loose[i] < 0 ? loose[i] : deposits_in(&c, x, y, z, loose[i]);
             }
     for (int z = 0; z < n[2]; z++)
         for (int y = 0; y < n[1]; y++)
