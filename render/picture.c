@@ -212,8 +212,11 @@ static struct camera camera_for(const struct preview *p, int frame, int view, in
                                 int height)
 {
     const struct job_camera *own = chosen_camera(p);
-    if (views)
-        return view_orbit(p->job, orbit_start(p, frame) + 360.0 * view / views, width, height);
+    if (views) {
+        /* It sets off slowly, and comes to rest where it began. */
+        double t = (double)view / views, eased = t - 0.6 * sin(2 * M_PI * t) / (2 * M_PI);
+        return view_orbit(p->job, orbit_start(p, frame) + 360 * eased, width, height);
+    }
     return own ? shaped(own, frame, width, height) : view_orbit(p->job, -55, width, height);
 }
 
@@ -260,7 +263,8 @@ static status write_scene(const struct preview *p, int frame, int views, const c
     scene.camera = camera;
     scene.n_cameras = (size_t)(views ? views : 1);
     scene.view = view_for(p, camera, scene.n_cameras);
-    const struct refine detail = {.spacing = p->job->domain.spacing_m,
+    const struct refine detail = {.job = p->job,
+                                  .spacing = p->job->domain.spacing_m,
                                   .times = scene_cuts(&scene),
                                   .n_values = SCENE_VALUES,
                                   .loose = SCENE_DEPOSIT,

@@ -15,6 +15,7 @@
 #include "job/palette.h"
 #include "render/daylight.h"
 #include "render/ground.h"
+#include "render/pile.h"
 #include "render/refine.h"
 #include "render/scatter.h"
 #include "render/scene_parts.h"
@@ -283,6 +284,7 @@ static status add_looks(struct text *out, const struct scene *s)
     struct ground ground = {0};
     TRY(ground_make(s->job, &s->view, s->mesh, &ground));
     daylight_begin(&light, out);
+    pile_write(s->job, out);
     add_strata(out, s);
     add_colors(out, s);
     text_add(out, "#declare Mesh = %.6g; // m: its edges\n", ldexp(s->job->domain.spacing_m, -scene_cuts(s)));

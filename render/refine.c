@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "geology/attitude.h"
 #include "render/waves.h"
 
 /* ---- cutting: a triangle into four, by the middles of its edges */
@@ -89,6 +90,7 @@ done:
 /* ---- moving */
 
 struct detail {
+    const struct job *job;
     struct waves rough, warp;
     double shortest, longest, most; /* m */
 };
@@ -126,7 +128,8 @@ static double joint(const struct detail *d, double x, double y, double turn, dou
 
 static double moved(const struct detail *d, const double x[3], const double n[3], double loose)
 {
-    double wall = 1 - ramp(0.35, 0.85, fabs(n[2])), floor_ = ramp(0.4, 0.9, n[2]), sum = 0, swing = 0;
+    double wall = 1 - ramp(0.35, 0.85, fabs(n[2])), floor_ = ramp(0.4, 0.9, n[2]), sum = 0, swing = 0,
+           height = attitude_height(d->job, x, NULL);
     const double slow[3] = {x[0], x[1], 2 * x[2]};
     for (size_t i = 0; i < d->warp.n; i++)
         swing += 0.035 * d->warp.length[i] * wave_at(&d->warp, i, slow);
@@ -137,7 +140,7 @@ static double moved(const struct detail *d, const double x[3], const double n[3]
         if (share <= 0)
             continue;
         double noise = length * wave_at(&d->rough, i, x);
-        double solid = wall * ledges * 0.16 * length * bed(x[2] + swing, 0.62 * length, 10 * (uint32_t)i) +
+        double solid = wall * ledges * 0.16 * length * bed(height + swing, 0.62 * length, 10 * (uint32_t)i) +
                        (0.030 + 0.012 * floor_) * noise;
         sum += share * ((1 - loose) * solid + loose * 0.055 * noise);
     }
@@ -177,7 +180,8 @@ static void find_normals(struct vdb_mesh *m)
 status refine_mesh(const struct refine *how, struct vdb_mesh *m)
 {
     status st = OK;
-    struct detail d = {.rough = waves_make(12.8, 0.4, 10, 2),
+    struct detail d = {.job = how->job,
+                       .rough = waves_make(12.8, 0.4, 10, 2),
                        .warp = waves_make(14, 0.28, 3, 3),
                        .shortest = 2 * how->spacing,
                        .longest = 3 * how->spacing,

@@ -4,14 +4,16 @@
 #ifndef HOODOO_REFINE_H
 #define HOODOO_REFINE_H
 
+#include "job/job.h"
 #include "output/vdb.h"
 
 struct refine {
-    double spacing;  /* m, of the particles */
-    int times;       /* each cuts a triangle into four */
-    size_t n_values; /* of the mesh */
-    int loose;       /* the value that says loose rock, or -1 */
-    size_t most;     /* triangles: it stops cutting before there are more */
+    const struct job *job; /* its beds */
+    double spacing;        /* m, of the particles */
+    int times;             /* each cuts a triangle into four */
+    size_t n_values;       /* of the mesh */
+    int loose;             /* the value that says loose rock, or -1 */
+    size_t most;           /* triangles: it stops cutting before there are more */
 };
 
 /* In place. E_MEMORY. */

@@ -53,7 +53,7 @@ status turntable_video(struct preview *p, int frame, int views)
 {
     status st = OK;
     struct path path, pattern;
-    char filter[200], count[16];
+    char filter[200], rate[32], count[16];
     struct preview_recipe made;
     struct sheet sheet = {.recipe = &made.recipe};
     TRY(preview_recipe(p, "--only=video", NULL, frame, &made));
@@ -68,15 +68,14 @@ status turntable_video(struct preview *p, int frame, int views)
     TRY(folder_name(&sheet.path, p->job->name, FILE_VIDEO, 0, picture_part(p)));
     TRY(atomic_file_temporary(sheet.path.text, "", &sheet.temporary));
     TRY(folder_views(&pattern, p->job->name, picture_part(p), frame));
-    /* Three turns: a video of one and a half seconds is over before one has looked. */
-    snprintf(
-        filter, sizeof filter,
-        "loop=loop=2:size=%d,scale=trunc(iw/2)*2:trunc(ih/2)*2:in_color_matrix=bt709:out_color_matrix=bt709",
-        views);
-    snprintf(count, sizeof count, "%d", 3 * views);
+    /* Once around in this time, at the film's usual rate. */
+    snprintf(filter, sizeof filter,
+             "fps=24,scale=trunc(iw/2)*2:trunc(ih/2)*2:in_color_matrix=bt709:out_color_matrix=bt709");
+    snprintf(rate, sizeof rate, "%d/%d", views, TURNTABLE_SECONDS);
+    snprintf(count, sizeof count, "%d", 24 * TURNTABLE_SECONDS);
     const char *const argv[] = {
         "ffmpeg",    "-nostdin",      "-y",        "-loglevel",   "warning",    "-framerate",
-        "24",        "-start_number", "0",         "-i",          pattern.text, "-frames:v",
+        rate,        "-start_number", "0",         "-i",          pattern.text, "-frames:v",
         count,       "-vf",           filter,      "-c:v",        "libx264",    "-threads",
         "2",         "-preset",       "medium",    "-crf",        "18",         "-pix_fmt",
         "yuv420p",   "-color_range",  "tv",        "-colorspace", "bt709",      "-color_primaries",

@@ -4,7 +4,9 @@
 
 #include "render/picture.h"
 
-/* NAME.turntable.mp4 from the views of picture_orbit(), three turns. H.264, 4:2:0, Rec. 709, 24 frames a
+enum { TURNTABLE_SECONDS = 6 };
+
+/* NAME.turntable.mp4 from the views of picture_orbit(), once around in TURNTABLE_SECONDS. H.264, 4:2:0, Rec. 709, 24 frames a
  * second. E_INPUT if a view is missing. */
 MUST_USE status turntable_video(struct preview *p, int frame, int views);
 

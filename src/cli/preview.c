@@ -224,7 +224,7 @@ done:
 status cli_preview(int argc, char **argv)
 {
     status st = OK;
-    struct wanted w = {.views = 36, .preset = PRESET_PREVIEW, .jobs = cores()};
+    struct wanted w = {.views = 72, .preset = PRESET_PREVIEW, .jobs = cores()};
     struct words operands = {0};
     struct job *job = NULL;
     struct preview p = {0};
@@ -239,7 +239,7 @@ status cli_preview(int argc, char **argv)
         OPTION_FRAMES(&w.common),
         {"turntable", NULL, OPTION_FLAG, &w.turntable,
          "a full orbit of the last frame, as pictures and video"},
-        {"views", "N", OPTION_INT, &w.views, "pictures in the orbit (default 36)"},
+        {"views", "N", OPTION_INT, &w.views, "pictures in the orbit, which takes 6 seconds (default 72)"},
         {"view", "RANGE", OPTION_RANGE, &w.which,
          "these of the views alone, such as 0-11 (default: all); with --only views, so that several machines "
          "can share an orbit"},

@@ -141,7 +141,7 @@ check(code == 0 and sorted(os.listdir("o/turntable")) == names, f"an orbit of fo
 probe = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-count_frames", "-show_entries",
                         "stream=codec_name,width,height,pix_fmt,nb_read_frames", "-of", "csv=p=0", "o/tower.turntable.mp4"],
                        capture_output=True, text=True)
-check(probe.stdout.strip() == "h264,96,54,yuv420p,12", f"the video, three times around: {probe.stdout.strip()}")
+check(probe.stdout.strip() == "h264,96,54,yuv420p,144", f"the video, once around in 6 s: {probe.stdout.strip()}")
 whole = [pixels(f"o/turntable/{name}", 96, 54) for name in names]
 check(all(whole) and len({str(v) for v in whole}) == 4, "four different views")
 shutil.rmtree("o/turntable")

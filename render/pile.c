@@ -1,0 +1,101 @@
+#include "render/pile.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/vector.h"
+#include "geology/attitude.h"
+
+/* Places as they were before the faults from the youngest to the f-th moved them: functions Before_f_0, _1, _2 of the place. */
+static void add_fault(const struct job *job, size_t f, struct text *out)
+{
+    const struct job_fault *fault = &job->attitude.faults[f];
+    static const char *const own[3] = {"x", "y", "z"};
+    char at[3][64];
+    double point[3], normal[3], down[3] = {0, 0, -1};
+    bool middle = true, youngest = f + 1 == job->attitude.n_faults;
+    for (int i = 0; i < 3; i++) {
+        middle &= fault->point_m[i] == 0;
+        if (youngest)
+            snprintf(at[i], sizeof at[i], "%s", own[i]);
+        else
+            snprintf(at[i], sizeof at[i], "Before_%zu_%d(x, y, z)", f + 1, i);
+    }
+    for (int i = 0; i < 3; i++)
+        point[i] = middle ? job->domain.size_m[i] / 2 : fault->point_m[i];
+    attitude_normal(fault->strike_deg, fault->dip_deg, normal);
+    double level = hypot(normal[0], normal[1]);
+    for (int i = 0; i < 2; i++)
+        down[i] = normal[i] / level * (normal[2] / level);
+    text_add(out, "#declare Above_%zu = function(x, y, z) { %.9g * %s + %.9g * %s + %.9g * %s - %.9g }\n", f,
+             normal[0], at[0], normal[1], at[1], normal[2], at[2], dot3(normal, point));
+    for (int i = 0; i < 3; i++)
+        text_add(
+            out,
+            "#declare Before_%zu_%d = function(x, y, z) { %s - select(Above_%zu(x, y, z), 0, 0, %.9g) }\n", f,
+            i, at[i], f, fault->throw_m * down[i]);
+}
+
+/* What beds span in the box: at its corners, and folds' crests beyond. */
+static void find_span(const struct job *job, double span[2])
+{
+    span[0] = INFINITY;
+    span[1] = -INFINITY;
+    for (int corner = 0; corner < 8; corner++) {
+        double x[3];
+        for (int i = 0; i < 3; i++)
+            x[i] = corner >> i & 1 ? job->domain.size_m[i] : 0;
+        double height = attitude_height(job, x, NULL);
+        span[0] = fmin(span[0], height);
+        span[1] = fmax(span[1], height);
+    }
+    for (size_t f = 0; f < job->attitude.n_folds; f++) {
+        span[0] -= 2 * job->attitude.folds[f].amplitude_m;
+        span[1] += 2 * job->attitude.folds[f].amplitude_m;
+    }
+}
+
+void pile_write(const struct job *job, struct text *out)
+{
+    const struct job_attitude *a = &job->attitude;
+    double up[3], across[3], along[3], pivot[3], span[2];
+    attitude_up(job, up);
+    attitude_pivot(job, pivot);
+    find_span(job, span);
+    text_add(out, "// ---- how beds lie\n#declare Bottom = %.9g;\n#declare Height = %.9g;\n", span[0] - 2,
+             span[1] - span[0] + 4);
+    if (attitude_is_level(job)) {
+        text_add(out, "#declare Lie = transform { translate 0 }\n#declare Pile = function(x, y, z) { z }\n");
+        return;
+    }
+    for (size_t f = a->n_faults; f-- > 0;)
+        add_fault(job, f, out);
+    char at[3][32] = {"x", "y", "z"};
+    for (int i = 0; a->n_faults && i < 3; i++)
+        snprintf(at[i], sizeof at[i], "Before_0_%d(x, y, z)", i);
+    text_add(out,
+             "#declare Pile = function(x, y, z) {\n    %.9g + %.9g * (%s - %.9g) + %.9g * (%s - %.9g) + %.9g "
+             "* (%s - %.9g)",
+             pivot[2], up[0], at[0], pivot[0], up[1], at[1], pivot[1], up[2], at[2], pivot[2]);
+    for (size_t f = 0; f < a->n_folds; f++) {
+        const struct job_fold *fold = &a->folds[f];
+        double axis = fold->axis_deg * M_PI / 180;
+        text_add(out, "\n    - %.9g * sin(%.9g * (%.9g * (%s - %.9g) + %.9g * (%s - %.9g)) + %.9g)",
+                 fold->amplitude_m, 2 * M_PI / fold->wavelength_m, -sin(axis), at[0], pivot[0], cos(axis),
+                 at[1], pivot[1], fold->phase_deg * M_PI / 180);
+    }
+    text_add(out, "\n}\n");
+    /* Axes of the tilted beds: rows of the matrix are where x, y and z come to lie. */
+    const double aside[3] = {fabs(up[0]) < 0.9, !(fabs(up[0]) < 0.9), 0};
+    cross3(up, aside, across);
+    double length = sqrt(dot3(across, across));
+    for (int i = 0; i < 3; i++)
+        across[i] /= length;
+    cross3(across, up, along);
+    text_add(out, "#declare Lie = transform {\n    translate <%.9g, %.9g, %.9g>\n    matrix <", -pivot[0],
+             -pivot[1], -pivot[2]);
+    const double *const row[3] = {along, across, up};
+    for (int r = 0; r < 3; r++)
+        text_add(out, "%.9g, %.9g, %.9g, ", row[r][0], row[r][1], row[r][2]);
+    text_add(out, "0, 0, 0>\n    translate <%.9g, %.9g, %.9g>\n}\n", pivot[0], pivot[1], pivot[2]);
+}
