@@ -173,9 +173,10 @@ struct stress_params {
     float dx;         /* m */
     float weight;     /* N: of a full cell */
     uint walls;
-    float loose; /* deposits' stiffness, as a share of the rock's */
+    float loose;   /* deposits' stiffness, as a share of the rock's */
+    uint jointed;  /* 1: rock is not equally stiff everywhere */
 };
-SHARED_SIZE(stress_params, 40)
+SHARED_SIZE(stress_params, 44)
 
 /* Of the multigrid smoother: the stress parameters of a level, and the weights of its step. */
 struct smooth_params {

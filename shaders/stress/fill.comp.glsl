@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Each kept cell's share of rock, the viability of the particles in its eight voxels over eight, and its weight likewise. Where
-// deposits are in it, `fill` has the share of the stiffness instead, negative, for they are softer; and their weight is not theirs:
+// deposits or joints are in it, `fill` has the share of the stiffness instead, negative, for they are softer; and their weight is not theirs:
 // it presses on the rock below, as a heap's does, and nothing hangs on a wall beside it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -13,8 +13,10 @@ READ_F(3, viability)
 READ_U(4, phase)
 WRITE_F(5, fill)
 WRITE_F(6, weight)
+READ_F(7, stiff)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/stiff.glsl"
 #define HELD_NX (2u * (k.cx - 2u))
 #define HELD_NY (2u * (k.cy - 2u))
 #include "particles/bits.glsl"
@@ -70,6 +72,8 @@ void main()
     if (own != STRESS_NO_RUN && all(greaterThanEqual(c, ivec3(1))) && all(lessThan(c, cells - 1)))
         sum = held_in(c);
     float full = min((sum.x + sum.y) / 8.0, 1.0);
-    AT(fill, i) = sum.y > 0.0 ? -stiffness(full) * (sum.x + k.loose * sum.y) / (sum.x + sum.y) : full;
+    float rock = stiff_rock(c);
+    AT(fill, i) = sum.y > 0.0 ? -stiffness(full) * (rock * sum.x + k.loose * sum.y) / (sum.x + sum.y)
+                  : rock < 1.0 && full > 0.0 ? -stiffness(full) * rock : full;
     AT(weight, i) = min(sum.x / 8.0, 1.0) + (sum.x >= BEARS ? (sum.y + on_top(c)) / 8.0 : 0.0);
 }

@@ -11,8 +11,10 @@ READ_V(2, u)
 READ_F(3, fill)
 WRITE_V(4, normal_stress)
 WRITE_V(5, shear_stress)
+READ_F(6, stiff)
 PARAMS(stress_params)
 #include "stress/grid.glsl"
+#include "stress/stiff.glsl"
 #include "stress/rows.glsl"
 
 void main()
@@ -38,7 +40,7 @@ void main()
         dx *= scale;
         dy *= scale;
         dz *= scale;
-        float trace = dx.x + dy.y + dz.z, soft = filled < 0.0 && -filled <= 1.01 * k.loose ? k.loose : 1.0;
+        float trace = dx.x + dy.y + dz.z, soft = filled < 0.0 && -filled <= 1.01 * k.loose ? k.loose : stiff_rock(node_of(own, i, uvec3(k.cx, k.cy, k.cz)));
         vec3 s = k.lambda * trace + 2.0 * k.mu * vec3(dx.x, dy.y, dz.z);
         vec3 t = k.mu * vec3(dx.y + dy.x, dy.z + dz.y, dx.z + dz.x);
         s *= soft;

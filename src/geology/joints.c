@@ -138,7 +138,7 @@ static bool parted(const struct joint_plan *s, const struct joint *j, const doub
 
 struct joint_effect joints_at(const struct joints *all, const double x[3], double height, double h)
 {
-    struct joint_effect out = {1, 1};
+    struct joint_effect out = {1, 1, 1};
     for (size_t i = 0; i < all->n; i++) {
         const struct joint_plan *s = &all->set[i];
         const double at = dot(s->normal, x), reach = s->reach;
@@ -154,8 +154,17 @@ struct joint_effect joints_at(const struct joints *all, const double x[3], doubl
         share = fmin(share, 1);
         out.rate *= lead_mean(s->job->rate, share);
         out.interlock *= 1 + (s->job->interlock - 1) * share;
+        out.stiffness *= 1 + (s->job->stiffness - 1) * share;
     }
     return out;
+}
+
+bool joints_soften(const struct job *job)
+{
+    bool any = false;
+    for (size_t i = 0; i < job->n_joints; i++)
+        any |= job->joints[i].stiffness < 1 && job->joints[i].weakened_m > 0;
+    return any;
 }
 
 static bool parts(const struct job_joint_set *s)

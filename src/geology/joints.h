@@ -5,7 +5,7 @@
  * parted or not, by persistence. The numbers are hashed from the seed and j, so that no joint depends on the domain.
  *
  * Rock is weakened within half of weakened_m to either side. What is thinner than a voxel acts by its share of it along the joint's
- * normal: on rates as sheets do that lead a front (lead.h), on thresholds in the mean.
+ * normal: on rates as sheets do that lead a front (lead.h), on all else in the mean.
  *
  * source   Rives et al., Joint spacing, J. Struct. Geol. 14, 1992 (lognormal); ISRM, Int. J. Rock Mech. 15, 1978 (the terms)
  */
@@ -45,12 +45,15 @@ MUST_USE status joints_create(const struct job *job, const double low[3], const 
                               struct joints *out);
 void joints_destroy(struct joints *j);
 
-/* What a joint's weakening multiplies in a cube of the width h around x, where the pile's height is `height`: rates, and interlocking
- * thresholds. */
+/* What a joint's weakening multiplies in a cube of the width h around x, where the pile's height is `height`: rates, interlocking
+ * thresholds, and the stiffness, in the mean: joints are steep, and carry what lies on them beside the rock. */
 struct joint_effect {
-    double rate, interlock;
+    double rate, interlock, stiffness;
 };
 struct joint_effect joints_at(const struct joints *j, const double x[3], double height, double h);
+
+/* Whether any set softens rock. */
+bool joints_soften(const struct job *job);
 
 /* Whether any set parts blocks; and whether one of their joints passes between two places, beside each other on the level. */
 bool joints_part(const struct job *job);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "geology/attitude.h"
 #include "geology/structure.h"
 
 static size_t along_words(const int n[3])
@@ -16,6 +17,11 @@ static size_t parted_words(const int n[3])
     return 2 * (((size_t)n[0] + 31) / 32) * (size_t)n[1] * (size_t)n[2];
 }
 
+static size_t cells(const int n[3])
+{
+    return (size_t)(n[0] / 2) * (size_t)(n[1] / 2) * (size_t)(n[2] / 2);
+}
+
 static bool leads(const struct job *job)
 {
     return job->n_strata_from > 0;
@@ -23,7 +29,8 @@ static bool leads(const struct job *job)
 
 uint64_t maps_bytes(const struct job *job, const int voxels[3])
 {
-    return 4 * ((leads(job) ? along_words(voxels) : 0) + (joints_part(job) ? parted_words(voxels) : 0));
+    return 4 * ((leads(job) ? along_words(voxels) : 0) + (joints_part(job) ? parted_words(voxels) : 0) +
+                (joints_soften(job) ? cells(voxels) : 0));
 }
 
 static void middle_of(double h, int i, int j, int k, double x[3])
@@ -81,18 +88,44 @@ done:
     return st;
 }
 
+static status find_stiff(struct gpu *gpu, const struct structure *s, const int n[3], struct maps *m)
+{
+    status st = OK;
+    const double dx = 2 * s->job->domain.spacing_m;
+    const int c[3] = {n[0] / 2, n[1] / 2, n[2] / 2};
+    float *stiff = NULL;
+    TRY(memory_alloc(cells(n), sizeof *stiff, "how stiff rock is", &stiff));
+#pragma omp parallel for schedule(static)
+    for (int k = 0; k < c[2]; k++)
+        for (int j = 0; j < c[1]; j++)
+            for (int i = 0; i < c[0]; i++) {
+                double x[3];
+                middle_of(dx, i, j, k, x);
+                const double height = attitude_height(s->job, x, NULL);
+                stiff[((size_t)k * (size_t)c[1] + (size_t)j) * (size_t)c[0] + (size_t)i] =
+                    (float)joints_at(&s->joints, x, height, dx).stiffness;
+            }
+    TRY(gpu_buffer_create(gpu, "how stiff rock is", cells(n), sizeof *stiff, &m->stiff));
+    TRY(gpu_upload(gpu, m->stiff, 0, stiff, cells(n)));
+done:
+    free(stiff);
+    return st;
+}
+
 status maps_create(struct gpu *gpu, const struct job *job, const int voxels[3], struct maps *m)
 {
     status st = OK;
     struct structure s = {0};
     *m = (struct maps){0};
-    if (!leads(job) && !joints_part(job))
+    if (!leads(job) && !joints_part(job) && !joints_soften(job))
         return OK;
     TRY(structure_create(job, &s));
     if (leads(job))
         TRY(find_along(gpu, &s, voxels, m));
     if (joints_part(job))
         TRY(find_parted(gpu, &s, voxels, m));
+    if (joints_soften(job))
+        TRY(find_stiff(gpu, &s, voxels, m));
 done:
     structure_destroy(&s);
     if (st != OK)
@@ -104,4 +137,5 @@ void maps_destroy(struct gpu *gpu, struct maps *m)
 {
     gpu_buffer_destroy(gpu, &m->along);
     gpu_buffer_destroy(gpu, &m->parted);
+    gpu_buffer_destroy(gpu, &m->stiff);
 }

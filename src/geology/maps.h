@@ -13,6 +13,9 @@ struct maps {
     /* uint, two for each word of voxels as bits (particles/held.h): whether a joint parts a voxel from the one before it in x, and in y.
      * NULL: none does. */
     struct gpu_buffer *parted;
+    /* float, of each cell of the stress grid, two voxels wide, by (k ny / 2 + j) nx / 2 + i: its share of the stiffness that it would have
+     * without joints. NULL: 1 everywhere. */
+    struct gpu_buffer *stiff;
 };
 
 /* Bytes on the device. */

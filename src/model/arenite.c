@@ -316,7 +316,7 @@ static status edit(struct arenite *a)
     if (kind == EDITS_NONE)
         return OK;
     gpu_stage(a->m.gpu, "edits");
-    a->elastic.options = elastic_options(a->m.job);
+    a->elastic.options = elastic_options(a->m.job, a->maps.stiff);
     arenite_destroy_parts(a, LASTS_JOB);
     TRY(arenite_create_parts(a, LASTS_JOB));
     if (kind != EDITS_ROCK) {

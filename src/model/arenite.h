@@ -23,10 +23,11 @@
  *   create  makes it in *a, for a->m.job; OK: that has no need of it, or it is made when it is first used
  */
 #define ARENITE_PARTS(PART)                                                                                  \
+    PART(maps, LASTS_RUN, maps_bytes(job, voxels), maps_create(a->m.gpu, a->m.whole, a->m.voxels, &a->maps)) \
     PART(elastic, LASTS_RUN, arenite_ever(job, arenite_rests) ? elastic_bytes(voxels, all, bare, ends) : 0,  \
          elastic_create(a->m.gpu, a->m.voxels, a->m.h,                                                       \
-                        (const struct elastic_options[]){elastic_options(a->m.job)}, &a->elastic))           \
-    PART(maps, LASTS_RUN, maps_bytes(job, voxels), maps_create(a->m.gpu, a->m.whole, a->m.voxels, &a->maps)) \
+                        (const struct elastic_options[]){elastic_options(a->m.job, a->maps.stiff)},          \
+                        &a->elastic))                                                                        \
     PART(blocks, LASTS_ROCK, blocks_bytes(n),                                                                \
          blocks_create(a->m.gpu, a->particles.held.n, a->maps.parted, &a->blocks))                           \
     PART(wind, LASTS_RUN, wind_bytes(job, voxels), wind_create(a->m.gpu, a->m.whole, a->m.voxels, &a->wind)) \

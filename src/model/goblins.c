@@ -288,7 +288,7 @@ static status create(struct model *m)
 {
     status st = OK;
     struct goblins *g = of(m);
-    const struct elastic_options options = elastic_options(m->job);
+    const struct elastic_options options = elastic_options(m->job, NULL);
     TRY(held_create(m->gpu, m->voxels, voxel_count(m->voxels), &g->held));
     TRY(held_all(m->gpu, m->work, &g->held));
     TRY(blocks_create(m->gpu, g->held.n, NULL, &g->blocks));

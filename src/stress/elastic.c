@@ -9,7 +9,7 @@
 #define SAFETY 3.0
 #define SLOWEST 0.95
 
-struct elastic_options elastic_options(const struct job *job)
+struct elastic_options elastic_options(const struct job *job, struct gpu_buffer *stiff)
 {
     const double lambda = job->rock.lame_GPa, mu = job->rock.shear_GPa,
                  young = mu * (3 * lambda + 2 * mu) / (lambda + mu); /* GPa */
@@ -21,6 +21,7 @@ struct elastic_options elastic_options(const struct job *job)
         .loose = fmin(job->deposition.stiffness_MPa / (1e3 * young), 1),
         .tolerance = job->stress.tolerance,
         .max_iterations = (int)job->stress.max_iterations,
+        .stiff = stiff,
         .walls = job_walls(job),
         .multigrid = job->stress.solver == STRESS_MULTIGRID,
     };
@@ -32,6 +33,7 @@ static struct stress_params params(const struct elastic *e, size_t n)
     k.lambda = (float)e->options.lambda;
     k.mu = (float)e->options.mu;
     k.loose = (float)e->options.loose;
+    k.jointed = e->options.stiff != NULL;
     k.dx = (float)e->dx;
     k.weight = (float)(e->options.density * e->options.gravity * e->dx * e->dx * e->dx);
     return k;
@@ -163,7 +165,9 @@ void elastic_recover(struct gpu *gpu, struct elastic *e, struct particles *p)
 {
     const struct stress_lattice *l = &e->lattice;
     const struct stress_params k = params(e, lattice_items(l));
-    GPU_RUN(gpu, stress_recover, k.n, k, l->run, l->table, e->u, l->fill, e->normal_stress, e->shear_stress);
+    struct gpu_buffer *stiff = e->options.stiff ? e->options.stiff : e->weight; /* any: it is not looked at */
+    GPU_RUN(gpu, stress_recover, k.n, k, l->run, l->table, e->u, l->fill, e->normal_stress, e->shear_stress,
+            stiff);
     GPU_RUN(gpu, stress_slope, k.n, k, l->run, l->table, l->fill, e->normal_stress, e->shear_stress, e->q,
             e->r);
     elastic_sample(gpu, e, p);

@@ -33,6 +33,8 @@ struct elastic_options {
     double tolerance;  /* of T: its error's 95th percentile by its own */
     int max_iterations;
     bool multigrid; /* preconditioned by a cycle of multigrid, else by Jacobi's diagonal */
+    struct gpu_buffer *
+        stiff; /* float, by cell of the domain: its share of the stiffness (geology/maps.h), the caller's; NULL: 1 */
     unsigned walls; /* of the domain, WALL_* of shared/params.h: nodes at them slide along them */
 };
 
@@ -53,8 +55,8 @@ struct elastic {
     double error;   /* its estimate when it stopped */
 };
 
-/* The job's rock, and how exactly its stress is wanted. */
-struct elastic_options elastic_options(const struct job *job);
+/* The job's rock, and how exactly its stress is wanted; `stiff` may be NULL. */
+struct elastic_options elastic_options(const struct job *job, struct gpu_buffer *stiff);
 
 /* Bytes on the device for about n particles, so many of them bare, whose rows along x have so many ends, in a domain of that
  * many voxels. */

@@ -109,8 +109,10 @@ status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct elastic *
     lattice_table(gpu, l);
     struct stress_params k = lattice_params(l, lattice_items(l));
     k.loose = (float)e->options.loose; /* the rest tells where things are */
+    k.jointed = e->options.stiff != NULL;
+    struct gpu_buffer *stiff = e->options.stiff ? e->options.stiff : e->marks; /* any: it is not looked at */
     GPU_RUN(gpu, stress_fill, k.n, k, l->run, p->held.words, p->start, p->field[ROCK_viability],
-            p->field[ROCK_phase], l->fill, e->weight);
+            p->field[ROCK_phase], l->fill, e->weight, stiff);
     TRY(lattice_activate(gpu, work, l));
     gpu_gather(gpu, l->list, e->p, e->q, l->n_active);
     place(gpu, e);

@@ -92,7 +92,7 @@ static void stress_agrees_with_quadrature(void **state)
             b_product);
     params.n = (uint)items;
     GPU_RUN(gpu, stress_recover, items, params, lattice.run, lattice.table, b_u, lattice.fill, b_normal,
-            b_shear);
+            b_shear, b_product);
     assert_ok(gpu_download(gpu, b_q, 0, image, n));
     assert_ok(gpu_download(gpu, b_product, 0, product, n));
     assert_ok(dense_download(gpu, &lattice, b_normal, false, normal));

@@ -72,7 +72,7 @@ static inline void stress_compare(struct arenite *a, const char *what, struct st
     errors->iterations += iterations;
     errors->tight += e->iterations;
     assert_ok(elastic_upload(a->m.gpu, e, u));
-    e->options = elastic_options(a->m.job);
+    e->options = elastic_options(a->m.job, a->maps.stiff);
     elastic_recover(a->m.gpu, e, &a->particles);
     free(u);
     free(t);

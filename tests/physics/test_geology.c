@@ -234,6 +234,53 @@ static void joints_move_wind_water_and_blocks(void **state)
     assert_true(all.wind > 1.2 * sound.wind && all.water > 1.2 * sound.water);
 }
 
+/* MPa: the pressure T near the foot of a block under its weight, in the rock that its joints weaken and in that far from them. */
+static void pressure_at_foot(double stiffness, double *joint, double *far)
+{
+    char text[1024];
+    struct structure rock;
+    double sum[2] = {0}, n[2] = {0};
+    snprintf(text, sizeof text,
+             "hoodoo: 1\nname: block\nframes: 1\n"
+             "domain: {size_m: [48, 4, 32], spacing_m: 1, sides: {x_min: wall, x_max: wall, y_min: wall, "
+             "y_max: wall}}\n"
+             "scene: {box: {min_m: [-1, -1, 0], max_m: [49, 9, 30]}}\nstress: {tolerance: 1e-4}\n"
+             "joints: [{strike_deg: 90, spacing_m: 16, spread: 0, weakened_m: 4, rate: 1, blocks: false, "
+             "stiffness: %g}]\n",
+             stiffness);
+    struct sim s = sim_begin(text);
+    struct frame frame = sim_output(&s);
+    assert_ok(structure_create(s.job, &rock));
+    for (size_t i = 0; i < frame.rock.n; i++) {
+        const float *P = &frame.rock.P[4 * i];
+        double from = 1e9;
+        for (size_t k = 0; k < rock.joints.set[0].n; k++)
+            from = fmin(from, fabs((double)P[0] - rock.joints.set[0].joint[k].at));
+        const int which = from < 1.5 ? 0 : from > 5 ? 1 : 2;
+        if (which < 2 && P[2] > 2 && P[2] < 8) {
+            sum[which] += 1e-6 * (double)frame.rock.stress[i];
+            n[which]++;
+        }
+    }
+    *joint = sum[0] / n[0];
+    *far = sum[1] / n[1];
+    print_message("# joints as stiff as %g of the rock: %.3f MPa in them, %.3f MPa far from them\n",
+                  stiffness, *joint, *far);
+    structure_destroy(&rock);
+    frame_free(&frame);
+    sim_end(&s);
+}
+
+static void soft_joints_hand_their_load_on(void **state)
+{
+    double joint, far;
+    (void)state;
+    pressure_at_foot(1, &joint, &far);
+    assert_true(fabs(joint / far - 1) < 0.01);
+    pressure_at_foot(0.1, &joint, &far);
+    assert_true(joint < 0.6 * far);
+}
+
 /* ---- tilted beds */
 
 /* m: where the highest rock is, over a strip along x. */
@@ -310,8 +357,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fins_stand_as_far_apart_as_joints), cmocka_unit_test(columns_stand_between_two_sets),
-        cmocka_unit_test(joints_move_wind_water_and_blocks), cmocka_unit_test(tilted_beds_make_a_cuesta),
-        cmocka_unit_test(thin_beds_retreat_alike),
+        cmocka_unit_test(joints_move_wind_water_and_blocks), cmocka_unit_test(soft_joints_hand_their_load_on),
+        cmocka_unit_test(tilted_beds_make_a_cuesta),         cmocka_unit_test(thin_beds_retreat_alike),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
