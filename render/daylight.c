@@ -139,7 +139,8 @@ static void add_haze(const struct light *light, struct text *out)
     enum { AROUND = 12 };
     double haze[3] = {0, 0, 0};
     for (int i = 0; i < AROUND; i++) {
-        const double a = 2 * PI * i / AROUND, d[3] = {0.9962 * cos(a), 0.9962 * sin(a), 0.0872};
+        const double a = 2 * PI * i / AROUND,
+                     d[3] = {0.9877 * cos(a), 0.9877 * sin(a), 0.1564}; /* 9 degrees up */
         double rgb[3];
         sky_radiance(&light->sky, d, rgb);
         for (int k = 0; k < 3; k++)

@@ -424,7 +424,7 @@ static status start(struct preview *p, struct picture *picture, const char *scen
                                 declare,
                                 p->preset == PRESET_DRAFT ? "-A"
                                 : fine                    ? "+A0.05"
-                                                          : "+A0.2",
+                                                          : "+A0.3",
                                 "+AM2",
                                 fine ? "+R3" : "+R2",
                                 "-D",

@@ -222,7 +222,7 @@ static void add_head(struct text *out, const struct scene *s)
 {
     const char *care = s->preset == PRESET_DRAFT   ? "-A"
                        : s->preset == PRESET_FINAL ? "+A0.05 +AM2 +R3"
-                                                   : "+A0.2 +AM2 +R2";
+                                                   : "+A0.3 +AM2 +R2";
     text_add(out, "// hoodoo %s: %s, frame %d. Simulator axes: z up, metres.\n", hoodoo_version, s->job->name,
              s->frame);
     text_add(out, "// Complete in itself: povray +I%s +W%d +H%d %s -D Declare=View=0%s\n", s->file,
@@ -301,8 +301,10 @@ static status add_looks(struct text *out, const struct scene *s)
     add_part(out, scene_ground);
     TRY(scatter_shapes(out));
     scatter_ground(&ground, s->camera, s->n_cameras, out);
-    if (!is_terrain(s))
+    if (!is_terrain(s)) {
         scatter_plants(s->mesh, s->mesh->value + SCENE_VEGETATION * s->mesh->n_vertices, out);
+        scatter_scree(s->mesh, s->mesh->value + SCENE_DEPOSIT * s->mesh->n_vertices, s->view.pixel, out);
+    }
     if (s->figure)
         scatter_figure(&ground, s->camera, out);
     daylight_write(&light, &s->view, lights[s->preset], s->preset == PRESET_FINAL, out);

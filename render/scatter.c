@@ -196,8 +196,10 @@ static void put_kind(const struct ground *g, const struct camera *camera, size_t
                 continue;
             x[2] = ground_at(g, x[0], x[1], fmax(0.5, 2 * size));
             int shape = stone ? (int)(SCATTER_STONES * roll(&dice)) : which == 4 ? 1 : which == 5 ? 0 : 2;
-            /* Not inside the rock. */
-            if (away <= 0 && ground_top(g, x[0], x[1]) > 0)
+            /* Not inside the rock, nor on a cliff. */
+            double step = fmax(0.5, size), rise = fabs(ground_at(g, x[0] + step, x[1], step) - x[2]) +
+                                                  fabs(ground_at(g, x[0], x[1] + step, step) - x[2]);
+            if (rise > 0.9 * step || (away <= 0 && ground_top(g, x[0], x[1]) > 0))
                 continue;
             text_add(out, "object { %s_%d ", kind->shape, shape);
             if (stone)
@@ -220,44 +222,97 @@ void scatter_ground(const struct ground *g, const struct camera *camera, size_t 
 
 /* ---- on the rock */
 
+/* A triangle of the mesh, and numbers that stay its own while it lies where it does. */
+struct facet {
+    double at[3], u[3], v[3]; /* a corner, and the ways to the others */
+    double area, up;          /* m2; its normal's */
+    struct dice dice;
+};
+
+static struct facet facet_of(const struct vdb_mesh *m, size_t i, uint32_t use)
+{
+    const uint32_t *t = m->triangle + 3 * i;
+    const float *a = m->vertex + 3 * (size_t)t[0], *b = m->vertex + 3 * (size_t)t[1],
+                *c = m->vertex + 3 * (size_t)t[2];
+    struct facet f;
+    double n[3];
+    for (int k = 0; k < 3; k++) {
+        f.at[k] = (double)a[k];
+        f.u[k] = (double)b[k] - (double)a[k];
+        f.v[k] = (double)c[k] - (double)a[k];
+    }
+    cross3(f.u, f.v, n);
+    f.area = 0.5 * sqrt(dot3(n, n));
+    f.up = f.area > 0 ? 0.5 * n[2] / f.area : 0;
+    f.dice = (struct dice){(uint32_t)(int64_t)floor(50 * (double)a[0]) + 1000003 * use,
+                           (uint32_t)(int64_t)floor(50 * (double)b[1]),
+                           (uint32_t)(int64_t)floor(50 * (double)c[2]), 0};
+    return f;
+}
+
+/* Somewhere on it. */
+static void spot_on(struct facet *f, double at[3])
+{
+    double p = roll(&f->dice), q = roll(&f->dice);
+    if (p + q > 1) {
+        p = 1 - p;
+        q = 1 - q;
+    }
+    for (int k = 0; k < 3; k++)
+        at[k] = f->at[k] + p * f->u[k] + q * f->v[k];
+}
+
+static double mean_of(const struct vdb_mesh *m, const float *value, size_t i)
+{
+    const uint32_t *t = m->triangle + 3 * i;
+    return ((double)value[t[0]] + (double)value[t[1]] + (double)value[t[2]]) / 3;
+}
+
 void scatter_plants(const struct vdb_mesh *m, const float *cover, struct text *out)
 {
     static const double a_m2 = 1.1; /* shrubs where all is covered */
     for (size_t i = 0; i < m->n_triangles; i++) {
-        const uint32_t *t = m->triangle + 3 * i;
-        double covered = ((double)cover[t[0]] + (double)cover[t[1]] + (double)cover[t[2]]) / 3, u[3], v[3],
-               n[3], at[3];
-        const float *a = m->vertex + 3 * (size_t)t[0], *b = m->vertex + 3 * (size_t)t[1],
-                    *c = m->vertex + 3 * (size_t)t[2];
+        double covered = mean_of(m, cover, i), at[3];
         if (covered < 0.12)
             continue;
-        for (int k = 0; k < 3; k++) {
-            u[k] = (double)b[k] - (double)a[k];
-            v[k] = (double)c[k] - (double)a[k];
-        }
-        cross3(u, v, n);
-        double area = 0.5 * sqrt(dot3(n, n)), wanted = a_m2 * area * covered;
-        struct dice dice = {(uint32_t)(int64_t)floor(50 * (double)a[0]),
-                            (uint32_t)(int64_t)floor(50 * (double)b[1]),
-                            (uint32_t)(int64_t)floor(50 * (double)c[2]), 0};
-        if (!(n[2] > 0.9 * area)) /* none on walls */
-            continue;
-        for (; wanted > 0; wanted -= 1) {
-            double p = roll(&dice), q = roll(&dice),
-                   size = (0.22 + 0.5 * roll(&dice)) * (0.5 + 0.6 * covered), kind = roll(&dice);
-            if (roll(&dice) > wanted)
+        struct facet f = facet_of(m, i, 1);
+        for (double wanted = f.up > 0.45 ? a_m2 * f.area * covered : 0; wanted > 0;
+             wanted -= 1) { /* none on walls */
+            if (roll(&f.dice) > wanted)
                 break;
-            if (p + q > 1) {
-                p = 1 - p;
-                q = 1 - q;
-            }
-            for (int k = 0; k < 3; k++)
-                at[k] = (double)a[k] + p * u[k] + q * v[k];
+            spot_on(&f, at);
+            double size = (0.22 + 0.5 * roll(&f.dice)) * (0.5 + 0.6 * covered), kind = roll(&f.dice);
             text_add(out, "object { Plant_%d scale %.3f rotate %.0f*z translate <%.3f,%.3f,%.3f> }\n",
                      kind < 0.3     ? 1
                      : kind < 0.985 ? 0
                                     : 2,
-                     kind < 0.985 ? size : 3.5 * size, 360 * roll(&dice), at[0], at[1], at[2] - 0.04 * size);
+                     kind < 0.985 ? size : 3.5 * size, 360 * roll(&f.dice), at[0], at[1],
+                     at[2] - 0.04 * size);
+        }
+    }
+}
+
+void scatter_scree(const struct vdb_mesh *m, const float *loose, double pixel, struct text *out)
+{
+    static const double a_m2 = 0.9, least = 0.14, largest = 1.5;
+    for (size_t i = 0; i < m->n_triangles; i++) {
+        double at[3];
+        if (mean_of(m, loose, i) < 0.5)
+            continue;
+        struct facet f = facet_of(m, i, 2);
+        for (double wanted = f.up > 0.4 ? a_m2 * f.area : 0; wanted > 0; wanted -= 1) {
+            if (roll(&f.dice) > wanted)
+                break;
+            spot_on(&f, at);
+            double size = least * pow(largest / least, pow(roll(&f.dice), 3));
+            if (size < 2 * pixel)
+                continue;
+            text_add(out,
+                     "object { Stone_%d scale <%.3g,%.3g,%.3g> rotate <%.0f,%.0f,%.0f> translate "
+                     "<%.3f,%.3f,%.3f> texture { Rubble } }\n",
+                     (int)(SCATTER_STONES * roll(&f.dice)), 0.5 * size * (0.8 + 0.4 * roll(&f.dice)),
+                     0.5 * size * (0.8 + 0.4 * roll(&f.dice)), 0.5 * size, 50 * roll(&f.dice) - 25,
+                     50 * roll(&f.dice) - 25, 360 * roll(&f.dice), at[0], at[1], at[2] + 0.05 * size);
         }
     }
 }

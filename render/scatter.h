@@ -18,6 +18,10 @@ void scatter_ground(const struct ground *g, const struct camera *camera, size_t 
 /* Adds plants where the mesh's value `cover` (0..1, one a vertex) has them. */
 void scatter_plants(const struct vdb_mesh *mesh, const float *cover, struct text *out);
 
+/* Adds angular blocks where the mesh's value `loose` (0..1, one a vertex) has scree: about one in a square metre, most of them small. Those
+ * below two pixels (m each) are left out. */
+void scatter_scree(const struct vdb_mesh *mesh, const float *loose, double pixel, struct text *out);
+
 /* Adds the rocks of piles: angular, of many sizes around their tile's, of the beds' colours. Theirs is the texture array
  * Rubble_Bed[Layers]. */
 void scatter_rocks(const struct job *job, const struct rock *at, double radius, struct text *out);
