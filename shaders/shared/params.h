@@ -173,8 +173,8 @@ struct stress_params {
     float dx;         /* m */
     float weight;     /* N: of a full cell */
     uint walls;
-    float loose;   /* deposits' stiffness, as a share of the rock's */
-    uint jointed;  /* 1: rock is not equally stiff everywhere */
+    float loose;  /* deposits' stiffness, as a share of the rock's */
+    uint jointed; /* 1: rock is not equally stiff everywhere */
 };
 SHARED_SIZE(stress_params, 44)
 

@@ -17,7 +17,7 @@ static double dot(const double a[3], const double b[3])
 bool attitude_is_level(const struct job *job)
 {
     const struct job_attitude *a = &job->attitude;
-    return a->dip_deg == 0 && a->n_folds == 0 && a->n_faults == 0;
+    return a->dip_deg == 0 && a->n_folds == 0 && a->n_faults == 0 && a->n_unconformities == 0;
 }
 
 void attitude_normal(double strike_deg, double dip_deg, double normal[3])
@@ -56,6 +56,20 @@ static double above_fault(const struct job *job, const struct job_fault *fault, 
     return dot(normal, d);
 }
 
+/* The height in the pile of a place that is at `height` as the beds above an unconformity count, d from the pivot: there beds go on
+ * below it as they lay before the others came. What would be above it has been worn away. */
+static double below(const struct job_unconformity *u, const double d[3], double height, double slope[3])
+{
+    const double dip = radians(u->dip_deg), azimuth = radians(u->dip_azimuth_deg);
+    const double across[3] = {cos(azimuth), sin(azimuth), 0};
+    if (height >= u->at_m)
+        return height;
+    for (int i = 0; i < 3; i++)
+        slope[i] = cos(dip) * slope[i] + sin(dip) * across[i];
+    const double older = u->at_m - u->eroded_m + cos(dip) * (height - u->at_m) + sin(dip) * dot(across, d);
+    return fmin(older, nextafter(u->at_m, -INFINITY));
+}
+
 void attitude_up(const struct job *job, double out[3])
 {
     const double dip = radians(job->attitude.dip_deg), azimuth = radians(job->attitude.dip_azimuth_deg);
@@ -92,6 +106,8 @@ double attitude_height(const struct job *job, const double x[3], double gradient
         for (int i = 0; i < 2; i++)
             slope[i] -= fold->amplitude_m * wave * cos(turn) * across[i];
     }
+    for (size_t u = a->n_unconformities; u-- > 0;)
+        height = below(&a->unconformities[u], d, height, slope);
     for (int i = 0; gradient && i < 3; i++)
         gradient[i] = slope[i];
     return height;

@@ -1,10 +1,15 @@
 /* How beds lie: from a place to its height in the pile of beds as it was laid down.
  *
- * Beds are laid down level, folded, tilted about the pivot, and then cut by faults, the oldest first. So a place is taken back
+ * Beds are laid down level, perhaps on older ones that were tilted and worn down; they are folded, tilted about the pivot, and then cut by
+ * faults, the oldest first. So a place is taken back
  * along the faults' slips, the youngest first, and what is left is a function of place: the tilted height less that of the folds.
  *
  *   x' = x - throw / sin(dip) * (down the dip)            for each fault below x
  *   s  = p_z + n . (x' - p) - sum of A sin(2 pi c . (x' - p) / L + phase)
+ *
+ * and, below an unconformity at height u,
+ *
+ *   s  becomes  u - eroded + cos(a) (s - u) + sin(a) (level direction of its dip) . (x' - p), but no more than u
  *
  * n is the normal of the tilted beds, p the pivot, c the level direction across a fold's axis. Without an attitude s is the height z,
  * to the bit. Folds are similar ones (Ramsay, Folding and Fracturing of Rocks, 1967, class 2): s is metres across the beds where

@@ -118,10 +118,28 @@ done:
 
 /* ---- a pile */
 
+/* A measured section, from the pile's foot on. */
+static status lay_column(struct beds *beds, const struct pile *p, double high)
+{
+    status st = OK;
+    double top = p->origin;
+    for (size_t i = 0; i < p->job->n_column && top < high; i++) {
+        top += p->job->column[i][0];
+        if (top > beds->edge[beds->n])
+            TRY(lay(beds, p->job, fmin(top, high), p->job->column[i][1]));
+    }
+    if (high > beds->edge[beds->n])
+        TRY(lay(beds, p->job, high, 1));
+done:
+    return st;
+}
+
 /* The beds of a pile between two heights, the lower of which the table has reached. */
 static status lay_pile(struct beds *beds, const struct pile *p, double low, double high)
 {
     status st = OK;
+    if (p->job->n_column)
+        return lay_column(beds, p, high);
     int64_t i = 0;
     double foot = p->origin;
     while (foot > low) {

@@ -9,7 +9,7 @@ static void heights(const struct job *job, double *low, double *high)
 {
     struct job level = *job;
     double moved = 0;
-    level.attitude.n_faults = level.attitude.n_folds = 0;
+    level.attitude.n_faults = level.attitude.n_folds = level.attitude.n_unconformities = 0;
     *low = INFINITY;
     *high = -INFINITY;
     for (int corner = 0; corner < 8; corner++) {
@@ -25,6 +25,14 @@ static void heights(const struct job *job, double *low, double *high)
     for (size_t i = 0; i < job->attitude.n_faults; i++) {
         const struct job_fault *f = &job->attitude.faults[i];
         moved += fabs(f->throw_m) / sin(f->dip_deg * (M_PI / 180));
+    }
+    for (size_t i = 0; i < job->attitude.n_unconformities; i++) {
+        double pivot[3], far = 0;
+        attitude_pivot(job, pivot);
+        for (int a = 0; a < 2; a++)
+            far += fmax(fabs(pivot[a]), fabs(job->domain.size_m[a] - pivot[a]));
+        moved += job->attitude.unconformities[i].eroded_m + far + (*high - *low) +
+                 fabs(job->attitude.unconformities[i].at_m - *low);
     }
     moved += 2 * job->domain.spacing_m;
     *low -= moved;

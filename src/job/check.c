@@ -192,6 +192,16 @@ static status check_heights(const struct yaml *map, double from, double to)
                : yaml_fail(place(map, "to_m"), NULL, "%g m is not above from_m, which is %g m", to, from);
 }
 
+static status check_attitude(const struct yaml *map, const struct job_attitude *a)
+{
+    for (size_t i = 1; i < a->n_unconformities; i++)
+        if (!(a->unconformities[i].at_m > a->unconformities[i - 1].at_m))
+            return yaml_fail(place(yaml_item(yaml_get(map, "unconformities"), i), "at_m"), NULL,
+                             "%g m is not above the unconformity below, at %g m (they are listed bottom up)",
+                             a->unconformities[i].at_m, a->unconformities[i - 1].at_m);
+    return OK;
+}
+
 static status check_bedding(const struct yaml *map, const struct job_bedding *b)
 {
     status st = check_heights(map, b->from_m, b->to_m);
@@ -245,6 +255,8 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
         return check_material(map, base);
     case SECTION_operation:
         return check_operation(map, base);
+    case SECTION_attitude:
+        return check_attitude(map, base);
     case SECTION_bedding:
         return check_bedding(map, base);
     case SECTION_joint_set:

@@ -184,7 +184,7 @@ static status look_at_structure(struct view *v)
     for (size_t i = 0; i < job->n_strata_from; i++) {
         const struct job_bedding *b = &job->strata_from[i];
         snprintf(key, sizeof key, "strata_from.%zu.thickness_m", i);
-        if (b->thickness_m < h)
+        if (!b->n_column && b->thickness_m < h)
             TRY(say(
                 v, key,
                 "beds are %.3g m thick in the mean, less than domain.spacing_m (%g): they act together, and "

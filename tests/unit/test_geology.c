@@ -104,6 +104,26 @@ static void faults_let_the_rock_above_them_down(void **state)
     job_destroy(&job);
 }
 
+static void beds_below_an_unconformity_lie_as_they_lay(void **state)
+{
+    (void)state;
+    struct job *job = job_of(
+        40, 1,
+        "attitude: {pivot_m: [20, 20, 0], unconformities: [{at_m: 12, dip_deg: 20, dip_azimuth_deg: 0, "
+        "eroded_m: 5}]}, strata: [{to_m: 4}, {to_m: 12}, {}]");
+    const double along = tan(M_PI / 9);
+    assert_close(height_at(job, 33, 7, 12.5), 12.5, 1e-12);
+    /* right below it, at the pivot, 5 m of the older pile are gone; its beds sink towards +x */
+    assert_close(height_at(job, 20, 20, 12), 12, 1e-12);
+    assert_close(height_at(job, 20, 20, 11.999999999), 7, 1e-6);
+    assert_close(height_at(job, 26, 3, 11 - 6 * along), height_at(job, 20, 3, 11), 1e-9);
+    /* at the surface the oldest show where they rose, and no bed is from above it */
+    assert_int_equal(attitude_layer(job, (const double[]){5, 20, 11.9}), 0);
+    assert_int_equal(attitude_layer(job, (const double[]){22, 20, 11.9}), 1);
+    assert_int_equal(attitude_layer(job, (const double[]){39.9, 20, 11.9}), 1);
+    job_destroy(&job);
+}
+
 /* ---- beds */
 
 static struct structure structure_of(const struct job *job)
@@ -143,6 +163,18 @@ static void beds_are_as_thick_and_as_hard_as_they_should(void **state)
     assert_close(hardness, 0.6, 0.03);
     assert_close(relation, 0.7, 0.03);
     assert_close(all, 1, 0.03);
+    structure_destroy(&s);
+    job_destroy(&job);
+}
+
+static void a_measured_section_is_laid_as_it_is(void **state)
+{
+    (void)state;
+    struct job *job = job_of(40, 1, "strata_from: [{from_m: 10, column: [[2, 3], [0.5, 0.5], [4, 1]]}]");
+    struct structure s = structure_of(job);
+    static const double at[] = {9, 11, 12.25, 14, 30}, hardness[] = {1, 3, 0.5, 1, 1};
+    for (size_t i = 0; i < 5; i++)
+        assert_close(structure_at(&s, (const double[]){20, 20, at[i]}, 0.4).rate, 1 / hardness[i], 1e-9);
     structure_destroy(&s);
     job_destroy(&job);
 }
@@ -370,6 +402,7 @@ static void what_cannot_be_is_refused(void **state)
         {"strata_from: [{to_m: 5}, {from_m: 4}]", "strata_from.1.from_m", "within the beds before"},
         {"strata_from: [{markers: [{at_m: 1, thickness_m: 2}, {at_m: 2}]}]", "strata_from.0.markers.1.at_m",
          "within the marker below"},
+        {"attitude: {unconformities: [{at_m: 3}, {at_m: 2}]}", "attitude.unconformities.1.at_m", "not above"},
         {"joints: [{from_m: 1, to_m: 1}]", "joints.0.to_m", "not above from_m"},
         {"edits: [{frame: 1, set: {attitude.dip_deg: 3}}]", "attitude", "edit"},
     };
@@ -397,6 +430,8 @@ int main(void)
         cmocka_unit_test(beds_dip_towards_their_azimuth),
         cmocka_unit_test(folds_have_their_crests_where_they_should),
         cmocka_unit_test(faults_let_the_rock_above_them_down),
+        cmocka_unit_test(beds_below_an_unconformity_lie_as_they_lay),
+        cmocka_unit_test(a_measured_section_is_laid_as_it_is),
         cmocka_unit_test(beds_are_as_thick_and_as_hard_as_they_should),
         cmocka_unit_test(time_across_beds_is_the_same_at_any_spacing),
         cmocka_unit_test(soft_beds_lead_along_them),
