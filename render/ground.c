@@ -48,12 +48,20 @@ static void put_triangle(struct ground *g, const struct vdb_mesh *m, const uint3
         }
 }
 
-/* Surfaces end a little within the box: its outermost nodes are those beside them. */
+/* Surfaces end a little within the box, and at a wall they are rounded off although the rock goes on: the outermost nodes are as those a node
+ * or two within. */
 static void fill_edges(struct ground *g)
 {
+    int low[2] = {g->walls & WALL_X_MIN ? 2 : 1, g->walls & WALL_Y_MIN ? 2 : 1},
+        high[2] = {g->nx - 1 - (g->walls & WALL_X_MAX ? 2 : 1), g->ny - 1 - (g->walls & WALL_Y_MAX ? 2 : 1)};
     for (int j = 0; j < g->ny; j++)
         for (int i = 0; i < g->nx; i++) {
-            int x = i < 1 ? 1 : i > g->nx - 2 ? g->nx - 2 : i, y = j < 1 ? 1 : j > g->ny - 2 ? g->ny - 2 : j;
+            int x = i < low[0]    ? low[0]
+                    : i > high[0] ? high[0]
+                                  : i,
+                y = j < low[1]    ? low[1]
+                    : j > high[1] ? high[1]
+                                  : j;
             if (x != i || y != j)
                 g->top[j * g->nx + i] = fmaxf(g->top[j * g->nx + i], g->top[y * g->nx + x]);
         }
@@ -215,13 +223,26 @@ static double outline(const struct view *v, double c, double s)
                 fabs(s) > 1e-9 ? 0.5 * v->size[1] / fabs(s) : INFINITY);
 }
 
+/* The grid's height over the box. Beside a wall it rises to just below the rock, whose own surface is rounded off there. */
+static double floor_at(const struct ground *g, int i, int j)
+{
+    double apron = (double)g->apron[j * g->nx + i], top = (double)g->top[j * g->nx + i];
+    int walls[4] = {i, g->nx - 1 - i, j, g->ny - 1 - j}, nearest = 99;
+    for (int side = 0; side < 4; side++)
+        if (g->walls & WALL_X_MIN << side && walls[side] < nearest)
+            nearest = walls[side];
+    return nearest < 2 ? fmax(apron, top - (nearest ? 0.3 * fmin(g->dx, g->dy) : 0)) : apron;
+}
+
 status ground_write(const struct ground *g, int turns, struct text *out)
 {
     status st = OK;
     const double *size = g->view.size, grow = 2 * 3.14159265358979 / turns, edge = fmin(g->dx, g->dy),
-                 first = fmax(0.25 * fmin(size[0], size[1]) * grow, 0.5 * edge);
+                 first = fmax(0.25 * fmin(size[0], size[1]) * grow, 0.61 * edge),
+                 start = -0.6 *
+                         edge; /* the first ring lies just below the grid's edge, so that there is no gap */
     struct patch box = {.nx = g->nx, .ny = g->ny}, rings = {.nx = turns};
-    for (double away = -first, step = first; away < FAR; rings.ny++) {
+    for (double away = start, step = first; away < FAR; rings.ny++) {
         away += step;
         step = fmax(step, grow * (away + 0.5 * fmin(size[0], size[1])));
     }
@@ -232,16 +253,17 @@ status ground_write(const struct ground *g, int turns, struct text *out)
             double *at = box.at[j * g->nx + i];
             at[0] = i * g->dx;
             at[1] = j * g->dy;
-            at[2] = (double)g->apron[j * g->nx + i];
+            at[2] = floor_at(g, i, j);
         }
-    double away = -first, step = first;
+    double away = start, step = first;
     for (int ring = 0; ring < rings.ny; ring++) {
         for (int turn = 0; turn < turns; turn++) {
             double a = grow * turn, c = cos(a), s = sin(a), r = outline(&g->view, c, s) + away,
                    *at = rings.at[ring * turns + turn];
             at[0] = 0.5 * size[0] + r * c;
             at[1] = 0.5 * size[1] + r * s;
-            at[2] = ground_at(g, at[0], at[1], 1.2 * fmax(step, grow * r));
+            at[2] = ring ? ground_at(g, at[0], at[1], 1.2 * fmax(step, grow * r))
+                         : floor_at(g, (int)lrint(at[0] / g->dx), (int)lrint(at[1] / g->dy)) - 0.05 * edge;
         }
         away += step;
         step = fmax(step, grow * (away + 0.5 * fmin(size[0], size[1])));

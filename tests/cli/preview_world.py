@@ -135,6 +135,15 @@ red = [(rgba[y][x][0] > 3 * rgba[y][x][1], LINEAR[picture[y][x][0]] > 2.1 * LINE
 alike = sum(a == b for a, b in red) / len(red)
 check(alike > 0.87 and 0.2 < sum(a for a, _ in red) / len(red) < 0.8, f"beds that are tilted, folded and faulted twice: {100 * alike:.1f} % of {len(red)} pixels show the same one")
 
+# ---- a cliff that ends at walls runs on out of the picture, on both sides and without a gap; at open sides it ends
+for side, want in (("wall", 1), ("open", 0)):
+    run(side, {"frames": "1001-1001", "strata": [STILL], "domain": {"size_m": [16, 8, 10], "spacing_m": 0.5, "sides": {"x_min": side, "x_max": side, "y_max": side}},
+               "scene": {"box": {"min_m": [-1, 4, 0], "max_m": [17, 9, 8]}}, "light": {"sun": {"azimuth_deg": -110, "elevation_deg": 40}},
+               "cameras": {"main": {"position_m": [8, -30, 4], "target_m": [8, 4, 4]}}})
+    row = still(side, 1001, W, H, "--preset", "draft")[H // 2 - 4]
+    rock = sum(LINEAR[p[0]] > 1.15 * LINEAR[p[2]] for p in row) / W
+    check(rock == 1 if want else 0.3 < rock < 0.6, f"{side} sides: rock across {rock:.2f} of the picture, half way up")
+
 # ---- texture in metres: the same wall, seen from as near, of rocks of 26 cm, 7 m and 45 m
 waves = {}
 for size, spacing in ((0.26, 0.01), (7, 0.25), (45, 1.5)):
