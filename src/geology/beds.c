@@ -10,7 +10,7 @@
 enum { THICKNESS, HARDNESS, AZIMUTH, LAMINA };
 
 /* A job's beds are laid one upon the other; more than this is a slip of the keyboard. */
-#define MOST_BEDS 20000000
+#define MOST_BEDS 4000000
 
 /* ---- the table */
 
@@ -256,10 +256,10 @@ double beds_cross(const struct job *job, const double x[3], double height, doubl
         i++;
     if (i == job->n_strata_from || height < job->strata_from[i].from_m)
         return 1;
-    const struct pile p = pile_of(job, i);
-    const struct job_cross *c = &p.job->cross;
+    const struct job_cross *c = &job->strata_from[i].cross;
     if (!(c->set_m > 0) || c->spread == 0 || h > LAMINAE * c->lamina_m)
         return 1;
+    const struct pile p = pile_of(job, i);
     const int64_t set = (int64_t)floor((height - p.origin) / c->set_m);
     const double azimuth =
         (c->azimuth_deg + c->azimuth_spread_deg * chance_normal(p.seed, set, 0, AZIMUTH)) * (M_PI / 180);

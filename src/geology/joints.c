@@ -143,9 +143,10 @@ struct joint_effect joints_at(const struct joints *all, const double x[3], doubl
         const struct joint_plan *s = &all->set[i];
         const double at = dot(s->normal, x), reach = s->reach;
         double share = 0;
-        if (height < s->job->from_m || height >= s->job->to_m)
+        if (height < s->job->from_m || height >= s->job->to_m || !(s->job->persistence > 0))
             continue;
-        for (size_t k = first_from(s, at - reach); k < s->n && s->joint[k].at <= at + reach; k++) {
+        for (size_t k = first_from(s, at - reach); share < 1 && k < s->n && s->joint[k].at <= at + reach;
+             k++) {
             const struct joint *j = &s->joint[k];
             const double own = attitude_share(dot(j->normal, x) - j->on, s->job->weakened_m, h);
             if (own > 0 && parted(s, j, x))

@@ -269,7 +269,7 @@ static status check_scene(const struct arenite *a, const struct checkpoint *c)
     TRY(section_take(c, &rule, &data, &n));
     for (size_t i = 0; i < few.n && !differs && n == FEW_NUMBERS * few.n; i++) {
         float own[FEW_NUMBERS];
-        static const char *const names[FEW_NUMBERS] = {"strata", "noise or painted rates",
+        static const char *const names[FEW_NUMBERS] = {"strata", "noise, structure or painted rates",
                                                        "painted interlocking"};
         few_numbers(&few, i, own);
         for (size_t k = 0; k < FEW_NUMBERS && !differs; k++)

@@ -178,11 +178,31 @@ enum { LEDGE = 14, LOW = 4 }; /* m: where an overhang begins, and how high it is
 struct done {
     double wind, water; /* m3 taken */
     double fallen;      /* m3, before anything weathers */
+    double pressure;    /* near joints against far from them, likewise */
     size_t slots;       /* behind the overhang */
 };
 
-/* A plateau whose side overhangs, in wind and rain. Joints along x have this rate; with others across they part blocks, or not. */
-static struct done plateau_with(double rate, bool blocks)
+/* At the foot, behind the overhang. */
+static double pressure_near(const struct sim *s, const struct frame *frame)
+{
+    double joint[WIDE], sum[2] = {0}, n[2] = {0};
+    const size_t there = joints_of(s, joint);
+    for (size_t i = 0; i < frame->rock.n; i++) {
+        const float *P = &frame->rock.P[4 * i];
+        double from = 1e9;
+        for (size_t k = 0; k < there; k++)
+            from = fmin(from, fabs((double)P[1] - joint[k]));
+        if ((double)P[0] < LEDGE - 4 && P[2] > 1 && P[2] < 4 && (from < 0.7 || from > 2)) {
+            sum[from > 2] += (double)frame->rock.stress[i];
+            n[from > 2]++;
+        }
+    }
+    return sum[0] / n[0] / (sum[1] / n[1]);
+}
+
+/* A plateau whose side overhangs, in wind and rain. Joints along x have this rate and stiffness; with others across they part blocks, or
+ * not. */
+static struct done plateau_with(double rate, double stiffness, bool blocks)
 {
     char text[2048];
     struct done out = {0};
@@ -190,20 +210,22 @@ static struct done plateau_with(double rate, bool blocks)
     snprintf(text, sizeof text,
              "hoodoo: 1\nname: ledge\nframes: 1-5\nclock: {years_per_frame: 1500}\n"
              "domain: {size_m: [%d, %d, %d], spacing_m: 1, sides: {x_min: wall, y_min: wall, y_max: wall}}\n"
-             "rock: {gravity_m_s2: 0}\nstrata: [{weak_m_per_kyr: 0.1}]\nwind: {abrasion: 0}\n"
+             "strata: [{weak_m_per_kyr: 0.1}]\nwind: {abrasion: 0}\n"
              "rain: {m_per_yr: 1, threshold_Pa: 0, erosion: 2}\n"
              "scene: {difference: [{box: {min_m: [-1, -1, 0], max_m: [%d, 99, %d]}}, {box: {min_m: [%d, -1, "
              "-1], max_m: "
              "[99, 99, %d]}}]}\n"
-             "joints: [{spacing_m: 6, rate: %g, blocks: %s}, {strike_deg: 90, spacing_m: 4, rate: 1, blocks: "
-             "%s}]\n",
-             WIDE, WIDE, HIGH + 2, WIDE - 2, HIGH, LEDGE, LOW, rate, blocks ? "true" : "false",
+             "joints: [{spacing_m: 6, weakened_m: 1, rate: %g, stiffness: %g, blocks: %s}, {strike_deg: 90, "
+             "spacing_m: 4, rate: 1, stiffness: 1, blocks: %s}]\n",
+             WIDE, WIDE, HIGH + 2, WIDE - 2, HIGH, LEDGE, LOW, rate, stiffness, blocks ? "true" : "false",
              blocks ? "true" : "false");
     struct sim s = sim_begin(text);
     for (int f = 0; f < 5; f++) {
         if (f > 0)
             assert_ok(model_step(s.model));
         struct frame frame = sim_output(&s);
+        if (f == 0)
+            out.pressure = pressure_near(&s, &frame);
         if (f == 0)
             out.fallen = WIDE * (HIGH * (WIDE - 2) - LOW * (WIDE - 2 - LEDGE)) - frame.volume_m3;
         for (size_t i = 0; i < frame.n_changes; i++) {
@@ -217,23 +239,25 @@ static struct done plateau_with(double rate, bool blocks)
     out.slots = slots(&c, LEDGE - 2, middle);
     sim_end(&s);
     print_message(
-        "# joints that weather %g times faster%s: at first %.0f m3 fall; wind takes %.0f m3, water %.0f m3; "
-        "%zu slots\n",
-        rate, blocks ? " and part blocks" : "", out.fallen, out.wind, out.water, out.slots);
+        "# joints that weather %g times faster, %g as stiff%s: at first %.0f m3 fall, and they carry %.2f of "
+        "what the rest does; wind takes %.0f m3, water %.0f m3; %zu slots\n",
+        rate, stiffness, blocks ? ", parting blocks" : "", out.fallen, out.pressure, out.wind, out.water,
+        out.slots);
     return out;
 }
 
-static void joints_move_wind_water_and_blocks(void **state)
+static void joints_move_wind_water_blocks_and_stress(void **state)
 {
     (void)state;
-    const struct done none = plateau_with(1, false), all = plateau_with(8, true),
-                      held = plateau_with(8, false), sound = plateau_with(1, true);
+    const struct done none = plateau_with(1, 1, false), all = plateau_with(8, 0.1, true),
+                      held = plateau_with(8, 0.1, false), sound = plateau_with(1, 1, true);
     assert_true(fabs(none.fallen) < 1 && none.slots == 0);
     assert_true(all.fallen > 500 && all.slots >= 2);
     assert_true(fabs(held.fallen) < 1 && held.slots == all.slots);
     assert_true(sound.fallen == all.fallen && sound.slots == 0);
     assert_true(held.wind > 1.2 * none.wind && held.water > 1.2 * none.water);
     assert_true(all.wind > 1.2 * sound.wind && all.water > 1.2 * sound.water);
+    assert_true(all.pressure < 0.85 && fabs(sound.pressure - 1) < 0.03);
 }
 
 /* MPa: the pressure T near the foot of a block under its weight, in the rock that its joints weaken and in that far from them. */
@@ -391,7 +415,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fins_stand_as_far_apart_as_joints),
         cmocka_unit_test(columns_stand_between_two_sets),
-        cmocka_unit_test(joints_move_wind_water_and_blocks),
+        cmocka_unit_test(joints_move_wind_water_blocks_and_stress),
         cmocka_unit_test(soft_joints_hand_their_load_on),
         cmocka_unit_test(tilted_beds_make_a_cuesta),
         cmocka_unit_test(goblins_weather_by_tilted_strata),
