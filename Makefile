@@ -177,6 +177,12 @@ $(BUILD)/tests/ref/mesh_check $(BUILD)/tests/bench/surface: $(BUILD)/%: %_shim.c
 	@echo "c++ $<"
 	$(Q)mkdir -p $(@D) && $(JUDGE) -o $@ $< -lopenvdb -ltbb -lImath-3_1 -lmpfr -lgmp -lpthread
 
+# The parsers of what other people write, in libFuzzer's hands.
+FUZZ_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/fuzz/*.c))
+$(BUILD)/tests/fuzz/%: tests/fuzz/%.c tests/fuzz/fuzz.h $(BUILD)/libhoodoo.a
+	@echo "fuzz $<"
+	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) -Itests $(CFLAGS) -fsanitize=fuzzer -o $@ $< $(BUILD)/libhoodoo.a $(LDLIBS) -lseccomp
+
 ## test: build and run the tests (under 20 minutes on 2 cores)
 test: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN) $(BUILD)/tests/ref/mesh_check
 	$(Q)HOODOO_TEST_BUT=tests/later sh tests/run.sh $(BUILD) unit gpu physics restart cli
@@ -221,9 +227,12 @@ lint: $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.h
 SHARED = $(KERNELS:%=$(SHARE)/gen/gpu/%.c) $(SHARE)/gen/render/scene_parts.c $(SHARE)/gen/cli/examples.c $(SHARE)/gen/build $(SHIM_OBJ) $(BESIDE)
 SANITIZED = SHARE=$(SHARE) OPT='-O1 -g1' HOODOO_TEST_EFFORT=$(or $(HOODOO_TEST_EFFORT),0.25) test-sanitized
 ## test-asan: the unit and gpu tests under the address, leak and undefined behaviour sanitizers
-test-asan: $(SHARED)
-	$(Q)LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 \
-		$(MAKE) $(SANITIZED) BUILD=build-asan SANITIZE='-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer'
+# By clang, and counting what is reached, so that `make fuzz` shares its objects. The C++ runtime is there from the start, for what is
+# loaded later throws and allocates with it.
+ASAN = SHARE=$(SHARE) BUILD=build-asan CC=clang OPT='-O1 -g1' LDLIBS='$(LDLIBS) -Wl,--no-as-needed -lstdc++' \
+	SANITIZE='-fsanitize=address,undefined,fuzzer-no-link -fsanitize-link-c++-runtime -fno-sanitize-recover=all -fno-omit-frame-pointer'
+test-asan: $(BUILD)/.deps-dev $(SHARED)
+	$(Q)LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 $(MAKE) $(SANITIZED) $(ASAN)
 
 ## test-tsan: the unit and gpu tests under the thread sanitizer
 # By clang, whose OpenMP library tells the sanitizer what waits for what; under gcc's every parallel loop looks like a race.
@@ -231,6 +240,12 @@ test-asan: $(SHARED)
 test-tsan: $(BUILD)/.deps-dev $(SHARED)
 	$(Q)TSAN_OPTIONS=suppressions=$(CURDIR)/tests/tsan.supp:print_suppressions=0:ignore_noninstrumented_modules=1 \
 		$(MAKE) $(SANITIZED) BUILD=build-tsan CC=clang SANITIZE=-fsanitize=thread
+
+## fuzz: FUZZ_SECONDS (30) of libFuzzer for each reader of other people's bytes, under the address and undefined behaviour sanitizers
+fuzz: $(BUILD)/.deps-dev $(SHARED)
+	$(Q)$(MAKE) $(ASAN) fuzz-built
+fuzz-built: $(BUILD)/.deps-test $(FUZZ_BIN)
+	$(Q)bash tests/fuzz/run.sh $(BUILD)
 
 test-sanitized: $(BUILD)/.deps-test $(filter $(BUILD)/tests/unit/% $(BUILD)/tests/gpu/%,$(TEST_BIN))
 	$(Q)sh tests/run.sh $(BUILD) unit gpu
@@ -255,7 +270,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-long deps-dev deps-peers demo test test-later test-peers test-long faults bench reference format lint test-asan test-tsan test-sanitized install clean help
+.PHONY: all deps deps-test deps-long deps-dev deps-peers demo test test-later test-peers test-long faults bench reference format lint test-asan test-tsan test-sanitized fuzz fuzz-built install clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

@@ -177,7 +177,8 @@ const char *choice_item(const char *choices, int i, size_t *n)
 {
     for (; i > 0 && choices; i--) {
         choices = strchr(choices, '|');
-        choices += choices != NULL;
+        if (choices)
+            choices++;
     }
     if (choices)
         *n = strcspn(choices, "|");

@@ -145,7 +145,6 @@ static status csv_field(struct csv *c, struct text *out, bool *last)
     if (c->at < c->end && *c->at == '\r' && c->at + 1 < c->end && c->at[1] == '\n')
         c->at++;
     c->at += c->at < c->end;
-    c->line += *last;
     return text_status(out);
 }
 
@@ -182,24 +181,24 @@ static status csv_rows(struct job_wedge *w, struct csv *c)
     struct text field = {0};
     bool last = false;
     size_t column = 0, rows = 0;
-    while (c->at < c->end) {
-        int line = c->line;
+    /* After a comma at the file's end there is one more field, which is empty. */
+    for (; c->at < c->end || column > 0; c->line += last) {
         text_free(&field);
         field = (struct text){0};
         TRY(csv_field(c, &field, &last));
         const char *text = field.data ? field.data : "";
         if (last && column == 0 && !*text)
             continue; /* an empty line */
-        if (line == 1)
+        if (c->line == 1)
             TRY(csv_name(w, c, text));
         else if (column < w->n_over)
             TRY(csv_value(&w->over[column], c, text));
-        if (line > 1 && (column >= w->n_over || (last && column + 1 != w->n_over))) {
-            st = fail(E_INPUT, "%s:%d: %s fields than the first line's %zu", c->path, line,
+        if (c->line > 1 && (column >= w->n_over || (last && column + 1 != w->n_over))) {
+            st = fail(E_INPUT, "%s:%d: %s fields than the first line's %zu", c->path, c->line,
                       column >= w->n_over ? "more" : "fewer", w->n_over);
             goto done;
         }
-        rows += last && line > 1;
+        rows += last && c->line > 1;
         column = last ? 0 : column + 1;
         if (rows > WEDGES_MAX) {
             st = fail(E_INPUT, "%s: more than %d lines", c->path, WEDGES_MAX);

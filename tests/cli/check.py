@@ -131,6 +131,10 @@ for name, text, words in (("semi", b"seed;fps\n1;24\n", "semicolons"), ("tabs", 
         file.write(text)
     code, said = check({**GOOD, "wedge": {"csv": name + ".csv"}})
     ok(code == 3 and words in said, f"a CSV of {words} is named as that", code, said)
+with open("comma.csv", "w") as file:
+    file.write("seed,fps\n1,24\n2,")
+code, said = check({**GOOD, "wedge": {"csv": "comma.csv"}})
+ok(code == 3 and "comma.csv:3: fps is empty" in said, "a CSV that ends in a comma lacks a value", code, said)
 for path in sorted(glob.glob(os.path.join(TOP, "jobs/*.yaml"))):
     code, said = hoodoo("check", path)
     ok(code == 0 and "nothing to say" in said, os.path.basename(path) + " has no warning", said)
