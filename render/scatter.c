@@ -336,20 +336,27 @@ void scatter_rocks(const struct job *job, const struct rock *at, double radius, 
 
 /* ---- somebody */
 
+/* The height of what somebody there would stand on. */
+static double stands_at(const struct ground *g, double x, double y)
+{
+    return fmax(ground_at(g, x, y, 0.5), ground_top(g, x, y));
+}
+
 void scatter_figure(const struct ground *g, const struct camera *c, struct text *out)
 {
     const struct view *v = &g->view;
     double towards[2] = {c->eye[0] - 0.5 * v->size[0], c->eye[1] - 0.5 * v->size[1]},
-           length = fmax(hypot(towards[0], towards[1]), 1e-9), x = 0, y = 0;
-    /* From the middle of the box towards the camera, a little aside, to the first place with bare ground for a step all around. */
+           length = fmax(hypot(towards[0], towards[1]), 1e-9), x = 0, y = 0, z = 0;
+    /* From the middle of the box towards the camera, a little aside, to the first place low down that is level for a step all
+     * around. */
     for (double t = 0; t < 1.2 * v->span + 30; t += 0.1) {
-        bool bare = true;
         x = 0.5 * v->size[0] + (t * towards[0] - 0.14 * v->span * towards[1]) / length;
         y = 0.5 * v->size[1] + (t * towards[1] + 0.14 * v->span * towards[0]) / length;
-        for (int k = 0; k < 8 && bare; k++)
-            bare = ground_top(g, x + 0.9 * cos(k * PI / 4), y + 0.9 * sin(k * PI / 4)) <= 0;
-        if (bare && ground_top(g, x, y) <= 0 &&
-            (view_outside(v, x, y) <= 0 || view_outside(v, x, y) > fmin(0.1 * v->span, 3)))
+        z = stands_at(g, x, y);
+        bool level = z < 0.3 * v->size[2];
+        for (int k = 0; k < 8 && level; k++)
+            level = fabs(stands_at(g, x + 0.9 * cos(k * PI / 4), y + 0.9 * sin(k * PI / 4)) - z) < 0.4;
+        if (level)
             break;
     }
     text_add(
@@ -369,5 +376,5 @@ void scatter_figure(const struct ground *g, const struct camera *c, struct text 
         "    sphere { <-0.12, -0.05, 0.05>, 0.09 scale <0.8, 1.2, 0.7> pigment { rgb 0.05 } }\n"
         "    sphere { <0.13, -0.12, 0.05>, 0.09 scale <0.8, 1.2, 0.7> pigment { rgb 0.05 } }\n"
         "    finish { Dry }\n    rotate %.1f * z\n    translate <%.4f, %.4f, %.4f>\n}\n",
-        atan2(towards[1], towards[0]) * 180 / PI + 60, x, y, ground_at(g, x, y, 0.5));
+        atan2(towards[1], towards[0]) * 180 / PI + 60, x, y, z);
 }

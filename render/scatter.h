@@ -26,7 +26,7 @@ void scatter_scree(const struct vdb_mesh *mesh, const float *loose, double pixel
  * Rubble_Bed[Layers]. */
 void scatter_rocks(const struct job *job, const struct rock *at, double radius, struct text *out);
 
-/* Adds a person of 1.75 m who stands before the rock, on the camera's side. */
+/* Adds a person of 1.75 m who stands low on the rock or before it, on the camera's side. */
 void scatter_figure(const struct ground *g, const struct camera *camera, struct text *out);
 
 #endif
