@@ -48,7 +48,7 @@ layout() {
 }
 rule "the layout is that of .clang-format (make format)" layout
 
-rule "no Vulkan outside src/gpu" none git grep -nE '\bVk[A-Z]|\bvk[A-Z]' -- 'src/*.c' 'src/*.h' 'render' ':!src/gpu'
+rule "no Vulkan outside src/gpu" none git grep -InE '\bVk[A-Z]|\bvk[A-Z]' -- 'src/*.c' 'src/*.h' 'render' ':!src/gpu'
 rule "numbers in names and whole paths are made in src/base/path.c alone" none git grep -nE \
     '%04d|char [a-z_]*(path|root|folder|file|name|from|to|out)\[[0-9]{4}\]|%\.[34][0-9]{3}s' -- src render farm ':!src/base/path.c'
 rule "what a model is is asked of job_model()" none git grep -nE 'model *[!=]=|[!=]= *MODEL_' -- '*.c' '*.h'
