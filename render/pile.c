@@ -58,9 +58,9 @@ static void find_span(const struct job *job, double span[2])
 void pile_write(const struct job *job, struct text *out)
 {
     const struct job_attitude *a = &job->attitude;
-    double up[3], across[3], along[3], pivot[3], span[2];
+    double up[3], across[3], along[3], span[2];
     attitude_up(job, up);
-    attitude_pivot(job, pivot);
+    const double *pivot = job->attitude.pivot_m;
     find_span(job, span);
     text_add(out, "// ---- how beds lie\n#declare Bottom = %.9g;\n#declare Height = %.9g;\n", span[0] - 2,
              span[1] - span[0] + 4);

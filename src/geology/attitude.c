@@ -28,31 +28,16 @@ void attitude_normal(double strike_deg, double dip_deg, double normal[3])
     normal[2] = dip_deg == 90 ? 0 : cos(dip);
 }
 
-/* What a job means by a point: all 0 is the middle of the domain. */
-static void point_of(const struct job *job, const double given[3], double out[3])
-{
-    const bool middle = given[0] == 0 && given[1] == 0 && given[2] == 0;
-    for (int i = 0; i < 3; i++)
-        out[i] = middle ? job->domain.size_m[i] / 2 : given[i];
-}
-
-void attitude_pivot(const struct job *job, double out[3])
-{
-    point_of(job, job->attitude.pivot_m, out);
-}
-
 /* How far above a fault's plane x is, m. `down`: which way the rock above it has slipped, per metre of throw. */
-static double above_fault(const struct job *job, const struct job_fault *fault, const double x[3],
-                          double down[3])
+static double above_fault(const struct job_fault *fault, const double x[3], double down[3])
 {
-    double point[3], normal[3];
-    point_of(job, fault->point_m, point);
+    double normal[3];
     attitude_normal(fault->strike_deg, fault->dip_deg, normal);
     const double level = hypot(normal[0], normal[1]);
     for (int i = 0; i < 2; i++)
         down[i] = normal[i] / level * (normal[2] / level);
     down[2] = -1;
-    const double d[3] = {x[0] - point[0], x[1] - point[1], x[2] - point[2]};
+    const double d[3] = {x[0] - fault->point_m[0], x[1] - fault->point_m[1], x[2] - fault->point_m[2]};
     return dot(normal, d);
 }
 
@@ -81,16 +66,16 @@ void attitude_up(const struct job *job, double out[3])
 double attitude_height(const struct job *job, const double x[3], double gradient[3])
 {
     const struct job_attitude *a = &job->attitude;
-    double at[3] = {x[0], x[1], x[2]}, pivot[3], slope[3] = {0, 0, 1};
+    const double *pivot = a->pivot_m;
+    double at[3] = {x[0], x[1], x[2]}, slope[3] = {0, 0, 1};
     if (attitude_is_level(job)) {
         for (int i = 0; gradient && i < 3; i++)
             gradient[i] = slope[i];
         return x[2];
     }
-    attitude_pivot(job, pivot);
     for (size_t f = a->n_faults; f-- > 0;) {
         double down[3];
-        if (above_fault(job, &a->faults[f], at, down) > 0)
+        if (above_fault(&a->faults[f], at, down) > 0)
             for (int i = 0; i < 3; i++)
                 at[i] -= a->faults[f].throw_m * down[i];
     }
@@ -131,7 +116,7 @@ double attitude_breccia(const struct job *job, const double x[3], double h)
     for (size_t f = a->n_faults; f-- > 0;) {
         const struct job_fault *fault = &a->faults[f];
         double down[3];
-        const double above = above_fault(job, fault, at, down);
+        const double above = above_fault(fault, at, down);
         factor *= lead_mean(fault->breccia, attitude_share(above, fault->breccia_m, h));
         for (int i = 0; above > 0 && i < 3; i++)
             at[i] -= fault->throw_m * down[i];

@@ -25,9 +25,6 @@
 /* Whether beds are level everywhere: their height is z. */
 bool attitude_is_level(const struct job *job);
 
-/* Where beds keep their height when they are tilted, m. */
-void attitude_pivot(const struct job *job, double out[3]);
-
 /* The unit normal of the beds, upwards, but for folds. */
 void attitude_up(const struct job *job, double out[3]);
 

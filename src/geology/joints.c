@@ -70,9 +70,8 @@ status joints_create(const struct job *job, const double low[3], const double hi
 {
     status st = OK;
     const double diagonal = hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
-    double pivot[3];
     *j = (struct joints){.job = job};
-    attitude_pivot(job, pivot);
+    const double *pivot = job->attitude.pivot_m;
     TRY(memory_alloc(job->n_joints, sizeof *j->set, "joints", &j->set));
     for (; j->n < job->n_joints; j->n++) {
         struct joint_plan *s = &j->set[j->n];

@@ -27,8 +27,8 @@ static void heights(const struct job *job, double *low, double *high)
         moved += fabs(f->throw_m) / sin(f->dip_deg * (M_PI / 180));
     }
     for (size_t i = 0; i < job->attitude.n_unconformities; i++) {
-        double pivot[3], far = 0;
-        attitude_pivot(job, pivot);
+        const double *pivot = job->attitude.pivot_m;
+        double far = 0;
         for (int a = 0; a < 2; a++)
             far += fmax(fabs(pivot[a]), fabs(job->domain.size_m[a] - pivot[a]));
         moved += job->attitude.unconformities[i].eroded_m + far + (*high - *low) +

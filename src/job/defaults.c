@@ -124,6 +124,14 @@ void read_default_sides(const struct yaml *root, struct job *job)
         s->y_max = SIDE_Y_MAX_WALL;
 }
 
+void read_default_pivot(const struct yaml *root, struct job *job)
+{
+    struct job_attitude *a = &job->attitude;
+    const bool turns = a->dip_deg != 0 || a->n_folds || a->n_unconformities || job->n_joints;
+    for (int i = 0; i < 3 && turns && !yaml_get(yaml_get(root, "attitude"), "pivot_m"); i++)
+        a->pivot_m[i] = job->domain.size_m[i] / 2;
+}
+
 status read_default_layer(const struct yaml *root, struct job *job)
 {
     if (job->n_strata)

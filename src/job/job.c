@@ -246,6 +246,7 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     TRY(read_default_layer(root, job));
     read_default_clock(root, job);
     read_default_sides(root, job);
+    read_default_pivot(root, job);
     TRY(check_job(root, job));
     TRY(read_edited_jobs(&tree, root, folder, job));
     if (behind)

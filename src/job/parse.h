@@ -47,6 +47,9 @@ void read_default_clock(const struct yaml *root, struct job *job);
 /* The sides of a terrain's domain are walls unless the job says otherwise. */
 void read_default_sides(const struct yaml *root, struct job *job);
 
+/* Where beds and joints turn about the middle of the domain because the job does not say otherwise, puts that in. */
+void read_default_pivot(const struct yaml *root, struct job *job);
+
 /* Rock has at least one stratum: a job without any gets one of defaults. */
 MUST_USE status read_default_layer(const struct yaml *root, struct job *job);
 

@@ -10,7 +10,7 @@ clock: {years_per_frame: 400}
 domain: {size_m: [26, 22, 20], spacing_m: 1}
 scene: {box: {min_m: [1, 1, 0], max_m: [25, 21, 19]}}
 strata: [{to_m: 9, interlock_MPa: 0.6}, {weak_m_per_kyr: 0.1}]
-attitude: {dip_deg: 12, dip_azimuth_deg: 30, folds: [{wavelength_m: 20, amplitude_m: 2}], faults: [{throw_m: 3, strike_deg: 80, breccia_m: 1}]}
+attitude: {dip_deg: 12, dip_azimuth_deg: 30, folds: [{wavelength_m: 20, amplitude_m: 2}], faults: [{point_m: [16, 16, 8], throw_m: 3, strike_deg: 80, breccia_m: 1}]}
 strata_from: [{thickness_m: 0.4, parting_m: 0.02, markers: [{at_m: 14, thickness_m: 0.5}], cross: {set_m: 3}}]
 joints: [{strike_deg: 20, spacing_m: 6, persistence: 0.7}, {strike_deg: 110, spacing_m: 5, dip_deg: 80, jitter_deg: 5}]
 output: {aov: {cameras: []}}
