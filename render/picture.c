@@ -223,10 +223,11 @@ static struct camera camera_for(const struct preview *p, int frame, int view, in
 /* As near as the camera comes in any frame: detail is the same in all of them. */
 static struct view view_for(const struct preview *p, const struct camera *camera, size_t n)
 {
+    const struct job_camera *own = chosen_camera(p);
     struct view view = view_of(p->job, camera, n);
-    for (int f = p->job->frames.first; n == 1 && f <= p->job->frames.last; f++) {
-        const struct camera then = camera_for(p, f, 0, 0, camera->width, camera->height);
-        view.pixel = fmin(view.pixel, view_of(p->job, &then, 1).pixel);
+    for (int f = p->job->frames.first; own && n == 1 && f <= p->job->frames.last; f++) {
+        const struct camera then = shaped(own, f, camera->width, camera->height);
+        view.pixel = fmin(view.pixel, view_pixel(&view, &then));
     }
     return view;
 }

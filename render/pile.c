@@ -12,23 +12,20 @@ static void add_fault(const struct job *job, size_t f, struct text *out)
     const struct job_fault *fault = &job->attitude.faults[f];
     static const char *const own[3] = {"x", "y", "z"};
     char at[3][64];
-    double point[3], normal[3], down[3] = {0, 0, -1};
-    bool middle = true, youngest = f + 1 == job->attitude.n_faults;
+    double normal[3], down[3] = {0, 0, -1};
+    const bool youngest = f + 1 == job->attitude.n_faults;
     for (int i = 0; i < 3; i++) {
-        middle &= fault->point_m[i] == 0;
         if (youngest)
             snprintf(at[i], sizeof at[i], "%s", own[i]);
         else
             snprintf(at[i], sizeof at[i], "Before_%zu_%d(x, y, z)", f + 1, i);
     }
-    for (int i = 0; i < 3; i++)
-        point[i] = middle ? job->domain.size_m[i] / 2 : fault->point_m[i];
     attitude_normal(fault->strike_deg, fault->dip_deg, normal);
     double level = hypot(normal[0], normal[1]);
     for (int i = 0; i < 2; i++)
         down[i] = normal[i] / level * (normal[2] / level);
     text_add(out, "#declare Above_%zu = function(x, y, z) { %.9g * %s + %.9g * %s + %.9g * %s - %.9g }\n", f,
-             normal[0], at[0], normal[1], at[1], normal[2], at[2], dot3(normal, point));
+             normal[0], at[0], normal[1], at[1], normal[2], at[2], dot3(normal, fault->point_m));
     for (int i = 0; i < 3; i++)
         text_add(
             out,
@@ -36,7 +33,22 @@ static void add_fault(const struct job *job, size_t f, struct text *out)
             i, at[i], f, fault->throw_m * down[i]);
 }
 
-/* What beds span in the box: at its corners, and folds' crests beyond. */
+/* The height of the pile as the beds above the u-th unconformity count, from the same above the one over it: function Laid_u. */
+static void add_unconformity(const struct job *job, size_t u, char at[3][32], struct text *out)
+{
+    const struct job_unconformity *old = &job->attitude.unconformities[u];
+    const double *pivot = job->attitude.pivot_m, dip = old->dip_deg * M_PI / 180,
+                 azimuth = old->dip_azimuth_deg * M_PI / 180;
+    text_add(out,
+             "#declare Laid_%zu = function(x, y, z) {\n    select(Laid_%zu(x, y, z) - %.9g, min(%.9g, %.9g + "
+             "%.9g * "
+             "(Laid_%zu(x, y, z) - %.9g) + %.9g * (%s - %.9g) + %.9g * (%s - %.9g)), Laid_%zu(x, y, z))\n}\n",
+             u, u + 1, old->at_m, old->at_m - 1e-6 * fmax(fabs(old->at_m), 1), old->at_m - old->eroded_m,
+             cos(dip), u + 1, old->at_m, sin(dip) * cos(azimuth), at[0], pivot[0], sin(dip) * sin(azimuth),
+             at[1], pivot[1], u + 1);
+}
+
+/* What beds span in the box: at its corners, and folds' crests and older beds beyond. */
 static void find_span(const struct job *job, double span[2])
 {
     span[0] = INFINITY;
@@ -53,6 +65,10 @@ static void find_span(const struct job *job, double span[2])
         span[0] -= 2 * job->attitude.folds[f].amplitude_m;
         span[1] += 2 * job->attitude.folds[f].amplitude_m;
     }
+    for (size_t u = 0; u < job->attitude.n_unconformities; u++)
+        span[0] -= job->attitude.unconformities[u].eroded_m +
+                   sin(job->attitude.unconformities[u].dip_deg * M_PI / 180) *
+                       hypot(job->domain.size_m[0], job->domain.size_m[1]);
 }
 
 void pile_write(const struct job *job, struct text *out)
@@ -73,10 +89,12 @@ void pile_write(const struct job *job, struct text *out)
     char at[3][32] = {"x", "y", "z"};
     for (int i = 0; a->n_faults && i < 3; i++)
         snprintf(at[i], sizeof at[i], "Before_0_%d(x, y, z)", i);
-    text_add(out,
-             "#declare Pile = function(x, y, z) {\n    %.9g + %.9g * (%s - %.9g) + %.9g * (%s - %.9g) + %.9g "
-             "* (%s - %.9g)",
-             pivot[2], up[0], at[0], pivot[0], up[1], at[1], pivot[1], up[2], at[2], pivot[2]);
+    text_add(
+        out,
+        "#declare Laid_%zu = function(x, y, z) {\n    %.9g + %.9g * (%s - %.9g) + %.9g * (%s - %.9g) + %.9g "
+        "* (%s - %.9g)",
+        a->n_unconformities, pivot[2], up[0], at[0], pivot[0], up[1], at[1], pivot[1], up[2], at[2],
+        pivot[2]);
     for (size_t f = 0; f < a->n_folds; f++) {
         const struct job_fold *fold = &a->folds[f];
         double axis = fold->axis_deg * M_PI / 180;
@@ -85,6 +103,9 @@ void pile_write(const struct job *job, struct text *out)
                  at[1], pivot[1], fold->phase_deg * M_PI / 180);
     }
     text_add(out, "\n}\n");
+    for (size_t u = a->n_unconformities; u-- > 0;)
+        add_unconformity(job, u, at, out);
+    text_add(out, "#declare Pile = function(x, y, z) { Laid_0(x, y, z) }\n");
     /* Axes of the tilted beds: rows of the matrix are where x, y and z come to lie. */
     const double aside[3] = {fabs(up[0]) < 0.9, !(fabs(up[0]) < 0.9), 0};
     cross3(up, aside, across);

@@ -18,6 +18,13 @@ bool view_leaves_open(const struct view *v, double x, double y, double top)
     return top <= v->slope * view_outside(v, x, y);
 }
 
+double view_pixel(const struct view *v, const struct camera *c)
+{
+    double above = fmax(fmax(-c->eye[2], c->eye[2] - v->size[2]), 0),
+           away = fmax(hypot(view_outside(v, c->eye[0], c->eye[1]), above), 0.02 * v->span);
+    return away * 2 * sqrt(dot3(c->right, c->right)) / c->width;
+}
+
 static double slope_below(const struct view *v, const struct camera *c, double slope)
 {
     double away = view_outside(v, c->eye[0], c->eye[1]);
@@ -31,10 +38,7 @@ struct view view_of(const struct job *job, const struct camera *camera, size_t n
     v.span = fmax(fmax(size[0], size[1]), size[2]);
     for (size_t i = 0; i < n_cameras; i++) {
         const struct camera *c = &camera[i];
-        double away =
-            hypot(view_outside(&v, c->eye[0], c->eye[1]), fmax(fmax(-c->eye[2], c->eye[2] - size[2]), 0));
-        away = fmax(away, 0.02 * v.span);
-        v.pixel = fmin(v.pixel, away * 2 * sqrt(dot3(c->right, c->right)) / c->width);
+        v.pixel = fmin(v.pixel, view_pixel(&v, c));
         v.slope = slope_below(&v, c, v.slope);
     }
     for (size_t i = 0; i < job->n_cameras; i++)

@@ -16,6 +16,9 @@ struct view {
 /* cameras: those of the picture. */
 struct view view_of(const struct job *job, const struct camera *camera, size_t n_cameras);
 
+/* What a pixel of a camera covers where the box is nearest to it, m. */
+double view_pixel(const struct view *view, const struct camera *camera);
+
 /* A camera at `azimuth` (deg, as job cameras have it) that holds the box from every azimuth. */
 struct camera view_orbit(const struct job *job, double azimuth_deg, int width, int height);
 
