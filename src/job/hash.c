@@ -253,13 +253,16 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
     return OK;
 }
 
-/* Whether what was put from `at` on is what the key's default puts. */
+/* Whether what was put from `at` on is what the key's default puts; what is required has none. */
 static status is_default(struct walk *w, enum job_section_id section, const struct job_key *key, size_t at,
                          bool *out)
 {
     status st = OK;
     struct walk preset = {.of_files = w->of_files, .all = w->all};
     void *base = NULL;
+    *out = false;
+    if (key_required(key))
+        return OK;
     TRY(memory_alloc(1, job_sections[section].size, key->name, &base));
     TRY(read_default(key, NULL, key->name, base));
     TRY(walk_key(&preset, key, base));

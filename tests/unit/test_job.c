@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
-#include "job/table.h"
 #include "job_files.h"
 
 static void a_job_holds_what_its_file_says(void **state)
@@ -375,9 +374,6 @@ static void files_are_found_beside_the_job_and_hashed_by_content(void **state)
 static void later_keys_leave_the_hash_until_they_are_used(void **state)
 {
     (void)state;
-    for (int i = 0; i < JOB_SECTIONS; i++) /* what is left out is compared with a default */
-        for (size_t k = 0; k < job_sections[i].n; k++)
-            assert_false(job_sections[i].key[k].use == LATER && key_required(&job_sections[i].key[k]));
     static const char *const more[] = {"", ", nodata: refuse, channel: \"\", scale_m: 0, size_px: [0, 0]",
                                        ", nodata: fill", ", channel: 1", ", scale_m: 2"};
     uint64_t hash[sizeof more / sizeof *more];

@@ -6,7 +6,7 @@ import plyfile
 import trimesh
 
 PATH = sys.argv[1]
-COLORS = {(196, 149, 111), (170, 105, 72)}
+COLORS = {(192, 151, 118), (173, 119, 89)}
 
 
 def check(name, good, *notes):

@@ -4,7 +4,7 @@ import sys
 import bpy
 
 path = sys.argv[sys.argv.index("--") + 1]
-LINEAR = [(0.55, 0.30, 0.16), (0.40, 0.14, 0.065)]  # the layers' colours
+LINEAR = [(0.53, 0.31, 0.18), (0.42, 0.185, 0.10)]  # the layers' colours
 
 
 def check(name, good, *notes):
