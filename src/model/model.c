@@ -214,6 +214,15 @@ done:
     return st;
 }
 
+/* What memory and time grow with. */
+static void note_size(const struct model *m)
+{
+    int bricks[3];
+    log_note("frame %d: %zu particles, %zu voxels of rock that have none yet, %zu of %zu bricks of the field",
+             m->frame, m->shown ? m->shown->n : 0, m->shown ? m->shown->n_deep : 0, m->field.n_bricks,
+             grid_bricks_of(m->field.n, bricks));
+}
+
 status model_output(struct model *m, struct frame *out)
 {
     *out = (struct frame){
@@ -225,6 +234,8 @@ status model_output(struct model *m, struct frame *out)
     status st = m->type->output(m, out);
     if (st != OK)
         frame_free(out);
+    else
+        note_size(m);
     return st;
 }
 
