@@ -266,6 +266,7 @@ static status is_default(struct walk *w, enum job_section_id section, const stru
     TRY(memory_alloc(1, job_sections[section].size, key->name, &base));
     TRY(read_default(key, NULL, key->name, base));
     TRY(walk_key(&preset, key, base));
+    TRY(text_status(&preset.canonical));
     const size_t n = w->canonical.size - at;
     *out = preset.canonical.size == n &&
            (n == 0 || memcmp(preset.canonical.data, w->canonical.data + at, n) == 0);
