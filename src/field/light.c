@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/vector.h"
 #include "field/camera.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180;
@@ -47,11 +48,6 @@ static void raking(const struct job *job, double out[3])
     }
 }
 
-static double luminance(const double rgb[3])
-{
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 /* The colour of a black body, of luminance 1: chromaticities of Kim, Kwon, Lee and Lee's cubics (2002) on the Planckian locus. */
 static void black_body(double kelvin, double rgb[3])
 {
@@ -84,7 +80,7 @@ struct light light_of(const struct job *job, double frame)
         raking(job, light.sun);
     sky_sun(light.sun, turbidity, light.sun_rgb);
     if (kelvin > 0) {
-        double bright = luminance(light.sun_rgb);
+        double bright = luminance3(light.sun_rgb);
         black_body(kelvin, light.sun_rgb);
         for (int i = 0; i < 3; i++)
             light.sun_rgb[i] *= bright;

@@ -2,16 +2,12 @@
 
 #include <math.h>
 
+#include "base/vector.h"
 #include "geology/lead.h"
 
 static double radians(double degrees)
 {
     return degrees * (M_PI / 180);
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 bool attitude_is_level(const struct job *job)
@@ -38,7 +34,7 @@ static double above_fault(const struct job_fault *fault, const double x[3], doub
         down[i] = normal[i] / level * (normal[2] / level);
     down[2] = -1;
     const double d[3] = {x[0] - fault->point_m[0], x[1] - fault->point_m[1], x[2] - fault->point_m[2]};
-    return dot(normal, d);
+    return dot3(normal, d);
 }
 
 /* The height in the pile of a place that is at `height` as the beds above an unconformity count, d from the pivot: there beds go on
@@ -51,7 +47,7 @@ static double below(const struct job_unconformity *u, const double d[3], double 
         return height;
     for (int i = 0; i < 3; i++)
         slope[i] = cos(dip) * slope[i] + sin(dip) * across[i];
-    const double older = u->at_m - u->eroded_m + cos(dip) * (height - u->at_m) + sin(dip) * dot(across, d);
+    const double older = u->at_m - u->eroded_m + cos(dip) * (height - u->at_m) + sin(dip) * dot3(across, d);
     return fmin(older, nextafter(u->at_m, -INFINITY));
 }
 
@@ -81,7 +77,7 @@ double attitude_height(const struct job *job, const double x[3], double gradient
     }
     attitude_up(job, slope);
     const double d[3] = {at[0] - pivot[0], at[1] - pivot[1], at[2] - pivot[2]};
-    double height = pivot[2] + dot(slope, d);
+    double height = pivot[2] + dot3(slope, d);
     for (size_t f = 0; f < a->n_folds; f++) {
         const struct job_fold *fold = &a->folds[f];
         const double axis = radians(fold->axis_deg), wave = 2 * M_PI / fold->wavelength_m;

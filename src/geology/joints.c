@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "geology/attitude.h"
 #include "geology/chance.h"
 #include "geology/lead.h"
@@ -18,11 +19,6 @@ static const double steep_deg = 60;
 
 /* No joint is turned by more than so many standard deviations. */
 static const double most_turned = 2.5;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* ---- where they are */
 
@@ -42,7 +38,7 @@ static status add(struct joint_plan *s, const double pivot[3], int64_t index, do
     attitude_normal(s->job->strike_deg + turn * s->job->jitter_deg, s->job->dip_deg, j->normal);
     /* Where the set's own plane passes the pivot, so does this one. */
     for (int a = 0; a < 3; a++)
-        j->on += j->normal[a] * (pivot[a] + s->normal[a] * (at - dot(s->normal, pivot)));
+        j->on += j->normal[a] * (pivot[a] + s->normal[a] * (at - dot3(s->normal, pivot)));
 done:
     return st;
 }
@@ -127,7 +123,7 @@ static bool parted(const struct joint_plan *s, const struct joint *j, const doub
     if (s->job->persistence >= 1)
         return true;
     const double length = s->job->length_m;
-    const double along = dot(s->along, x) / length + chance(s->seed, j->index, 0, PHASE + 10);
+    const double along = dot3(s->along, x) / length + chance(s->seed, j->index, 0, PHASE + 10);
     const double up = x[2] / length + chance(s->seed, j->index, 1, PHASE + 10);
     const uint32_t patch = random_hash(s->seed, (uint32_t)j->index, PATCH, 0);
     return chance(patch, (int64_t)floor(along), (int64_t)floor(up), PATCH) < s->job->persistence;
@@ -140,14 +136,14 @@ struct joint_effect joints_at(const struct joints *all, const double x[3], doubl
     struct joint_effect out = {1, 1, 1};
     for (size_t i = 0; i < all->n; i++) {
         const struct joint_plan *s = &all->set[i];
-        const double at = dot(s->normal, x), reach = s->reach;
+        const double at = dot3(s->normal, x), reach = s->reach;
         double share = 0;
         if (height < s->job->from_m || height >= s->job->to_m || !(s->job->persistence > 0))
             continue;
         for (size_t k = first_from(s, at - reach); share < 1 && k < s->n && s->joint[k].at <= at + reach;
              k++) {
             const struct joint *j = &s->joint[k];
-            const double own = attitude_share(dot(j->normal, x) - j->on, s->job->weakened_m, h);
+            const double own = attitude_share(dot3(j->normal, x) - j->on, s->job->weakened_m, h);
             if (own > 0 && parted(s, j, x))
                 share += own;
         }
@@ -185,7 +181,7 @@ bool joints_between(const struct joints *all, const double a[3], const double b[
     const double x[3] = {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
     for (size_t i = 0; i < all->n; i++) {
         const struct joint_plan *s = &all->set[i];
-        const double at = dot(s->normal, x), reach = s->reach;
+        const double at = dot3(s->normal, x), reach = s->reach;
         if (!parts(s->job))
             continue;
         const double height = attitude_height(all->job, x, NULL);
@@ -193,7 +189,7 @@ bool joints_between(const struct joints *all, const double a[3], const double b[
             continue;
         for (size_t k = first_from(s, at - reach); k < s->n && s->joint[k].at <= at + reach; k++) {
             const struct joint *j = &s->joint[k];
-            if ((dot(j->normal, a) < j->on) != (dot(j->normal, b) < j->on) && parted(s, j, x))
+            if ((dot3(j->normal, a) < j->on) != (dot3(j->normal, b) < j->on) && parted(s, j, x))
                 return true;
         }
     }

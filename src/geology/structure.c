@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/vector.h"
 #include "geology/attitude.h"
 
 /* No height in the domain is beyond these. */
@@ -71,8 +72,7 @@ struct structure_rock structure_at(const struct structure *s, const double x[3],
     if (s->plain)
         return (struct structure_rock){1, 1, 1};
     const double height = attitude_height(s->job, x, gradient);
-    const double deep =
-        h * sqrt(gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2]);
+    const double deep = h * sqrt(dot3(gradient, gradient));
     const double hardness = beds_hardness(&s->beds, height - deep / 2, height + deep / 2, &along);
     const struct joint_effect joints = joints_at(&s->joints, x, height, h);
     return (struct structure_rock){

@@ -2,20 +2,16 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "output/usd.h"
 #include "output/usd_text.h"
 
 /* What an attribute is in a frame. */
 typedef void value_at(struct text *t, const struct usd_light *light);
 
-static double brightness(const double rgb[3])
-{
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 static void add_color(struct text *t, const double rgb[3])
 {
-    double bright = brightness(rgb), hue[3];
+    double bright = luminance3(rgb), hue[3];
     for (int i = 0; i < 3; i++)
         hue[i] = bright > 0 ? rgb[i] / bright : 1;
     usd_add_vector(t, hue, 3);
@@ -29,7 +25,7 @@ static void sun_color(struct text *t, const struct usd_light *l)
 /* Irradiance: pi times what a white surface sends back. */
 static void sun_intensity(struct text *t, const struct usd_light *l)
 {
-    usd_add_number(t, 3.14159265358979323846 * brightness(l->sun));
+    usd_add_number(t, 3.14159265358979323846 * luminance3(l->sun));
 }
 
 static void sun_stands(struct text *t, const struct usd_light *l)
@@ -44,7 +40,7 @@ static void sky_color(struct text *t, const struct usd_light *l)
 
 static void sky_intensity(struct text *t, const struct usd_light *l)
 {
-    usd_add_number(t, brightness(l->sky));
+    usd_add_number(t, luminance3(l->sky));
 }
 
 static void add_attribute(struct text *t, const struct usd_sequence *s, const char *name, value_at *value)

@@ -6,14 +6,7 @@ import re
 import sys
 
 sys.dont_write_bytecode = True
-HOODOO, TOP = os.environ["HOODOO"], os.environ["HOODOO_TOP"]
-failed = 0
-
-
-def check(good, what):
-    global failed
-    print("ok" if good else "not ok", what)
-    failed |= not good
+from script import HOODOO, TOP, finish, ok
 
 
 def peak_of(argv):
@@ -33,7 +26,7 @@ for spacing in os.environ.get("SPACINGS", "0.5 0.25 0.125").split():
             f"domain.spacing_m={spacing}", "--set", "clock.years_per_frame=92", "--set", "wind.flow.solver=uniform", "--set",
             "checkpoint.every=1", "--set", "output.vdb.points=surface"]
     code, peak = peak_of(argv)
-    check(code == 0, f"{spacing} m runs")
+    ok(code == 0, f"{spacing} m runs")
     with open(f"{out}/log/run.log") as file:
         born, deep, bricks, whole = map(int, re.findall(r"frame 1003: (\d+) particles, (\d+) voxels.*none yet, (\d+) of (\d+) bricks", file.read())[0])
     with open(f"{out}/log/timing.jsonl") as file:
@@ -43,9 +36,9 @@ for spacing in os.environ.get("SPACINGS", "0.5 0.25 0.125").split():
     rows.append((float(spacing), born + deep, born, bricks, whole, peak, kept, (timing["wall_seconds"] - stress) / 3, stress / 3))
 for a, b in zip(rows, rows[1:]):
     for at, what in ((2, "particles"), (3, "bricks"), (7, "time without stress")):
-        check(b[at] <= 5 * a[at], f"from {a[0]:g} to {b[0]:g} m: {b[at] / a[at]:.2f} times the {what}, where the rock has {b[1] / a[1]:.2f} times the voxels")
+        ok(b[at] <= 5 * a[at], f"from {a[0]:g} to {b[0]:g} m: {b[at] / a[at]:.2f} times the {what}, where the rock has {b[1] / a[1]:.2f} times the voxels")
 print("# | spacing (m) | voxels of rock | particles | bricks of the field | of | memory (MB) | checkpoint (MB) | a frame without stress (s) | its stress (s) |")
 print("# |---|---|---|---|---|---|---|---|---|")
 for r in rows:
     print(f"# | {r[0]:g} | {r[1]} | {r[2]} | {r[3]} | {r[4]} | {r[5]:.0f} | {r[6]:.1f} | {r[7]:.2f} | {r[8]:.2f} |")
-sys.exit(failed)
+finish()
