@@ -244,6 +244,18 @@ struct carry_params {
 };
 SHARED_SIZE(carry_params, 28)
 
+/* How long particles have been bare. */
+struct skin_params {
+    uint n;
+    uint nx, ny, nz;
+    float h; /* m */
+    uint walls;
+    float depth; /* m: where exposure is 1/e of what it is on the face */
+    uint reach;  /* voxels: as far as a face is looked for */
+    float kyr;   /* of a step, or before the first frame */
+};
+SHARED_SIZE(skin_params, 36)
+
 /* Words the erosion counts into; the fastest are floats. */
 #define COUNT_ERODED 0u
 #define COUNT_FALLEN 1u

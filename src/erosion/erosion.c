@@ -145,9 +145,15 @@ static status carry(struct gpu *gpu, struct gpu_work *work, struct erosion *e, s
         if (k.round >= NEAR_REACH)
             TRY(add_beyond(gpu, work, p, unspent, next, beyond));
         gpu_fill(gpu, next, 0);
-        GPU_RUN(gpu, erosion_carry, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->start,
-                p->field[ROCK_erodibility], unspent, p->field[ROCK_viability], shares, spent, e->parts,
-                p->held.words, next, counts, p->field[ROCK_vegetation], p->field[ROCK_phase]);
+        if (p->field[ROCK_exposed_kyr])
+            GPU_RUN(gpu, erosion_carry_exposed, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->start,
+                    p->field[ROCK_erodibility], unspent, p->field[ROCK_viability], shares, spent, e->parts,
+                    p->held.words, next, counts, p->field[ROCK_vegetation], p->field[ROCK_phase],
+                    p->field[ROCK_exposed_kyr]);
+        else
+            GPU_RUN(gpu, erosion_carry, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->start,
+                    p->field[ROCK_erodibility], unspent, p->field[ROCK_viability], shares, spent, e->parts,
+                    p->held.words, next, counts, p->field[ROCK_vegetation], p->field[ROCK_phase]);
         budget_split(gpu, budget, spent, e->parts, p->n);
         TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
         struct gpu_buffer *swap = unspent;

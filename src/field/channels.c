@@ -113,6 +113,10 @@ status channels_add(struct gpu *gpu, struct aov *a, const struct job *job, const
         record_air(gpu, a, n, air);
         break;
     default:
+        if (!p->field[value_field[value]]) { /* this rock has none of it */
+            plane_of(out, value, 0);
+            return OK;
+        }
         GPU_RUN(gpu, field_pixel, n, count, a->hit, a->ids, p->field[value_field[value]], a->pixel);
     }
     return gpu_download(gpu, a->pixel, 0, plane_of(out, value, 0), n);

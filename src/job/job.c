@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/memory.h"
 #include "job/parse.h"
+#include "job/values.h"
 #include "shared/params.h"
 
 static void free_node(struct job_node *node)
@@ -208,7 +209,16 @@ bool job_wants_layer(const struct job *job, const char *layer)
     for (size_t i = 0; i < a->n_layers; i++)
         if (strcmp(a->layers[i], layer) == 0)
             return true;
-    return a->n_layers == 0;
+    return a->n_layers == 0 &&
+           (job_keeps_exposed(job) || strcmp(layer, value_table[VALUE_exposed_kyr].layer) != 0);
+}
+
+bool job_keeps_exposed(const struct job *job)
+{
+    bool any = job->skin.exposed;
+    for (size_t i = 0; i < job->n_edits; i++)
+        any |= job->edits[i].set.job && job->edits[i].set.job->skin.exposed;
+    return any;
 }
 
 size_t job_layer_at(const struct job *job, double z)

@@ -138,7 +138,10 @@ extern const struct job_process job_processes[PROCESSES];
 bool job_has_process(const struct job *job, enum process process);
 bool job_has_processes(const struct job *job);
 
-/* Whether the job wants this layer of pictures (values.h). */
+/* Whether rock keeps how long it has been bare, from the first frame on: where the job or an edit of it asks for that. */
+bool job_keeps_exposed(const struct job *job);
+
+/* Whether the job wants this layer of pictures (values.h). Left to itself it wants all but that of exposed_kyr, where none is kept. */
 bool job_wants_layer(const struct job *job, const char *layer);
 
 /* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside

@@ -92,6 +92,8 @@ static const char *has_words(enum value_has has)
         return "arches";
     case HAS_MOTION:
         return "arenite with `clock.seconds_per_frame`";
+    case HAS_EXPOSED:
+        return "arenite with `skin`";
     }
     return "";
 }

@@ -40,7 +40,8 @@ enum value_has {
     HAS_DEPOSITS = 8,
     HAS_WIND = 16,
     HAS_TERRAIN = 32,
-    HAS_MOTION = 64
+    HAS_MOTION = 64,
+    HAS_EXPOSED = 128
 };
 enum value_where {
     IN_VOLUMES = 1,

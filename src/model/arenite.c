@@ -25,6 +25,7 @@
 #include "model/edits.h"
 #include "model/inside.h"
 #include "plants/plants.h"
+#include "skin/skin.h"
 
 /* Spacings that the fastest rock and the fastest deposits may lose in a step before it is cut into parts. A deposit that goes
  * comes to rest elsewhere once in each, so that no part may be longer than a deposit's life. */
@@ -257,6 +258,17 @@ static status find_rates(struct arenite *a)
     TRY(erosion_interlock(a->m.gpu, &a->erosion, a->m.job, a->m.frame, &a->particles));
     if (a->plants)
         plants_bind(a->m.gpu, a->m.job, &a->particles);
+    if (a->exposed)
+        skin_find(a->m.gpu, a->m.job, &a->particles);
+done:
+    return st;
+}
+
+status arenite_age_before(struct arenite *a)
+{
+    status st = OK;
+    TRY(find_surface(a));
+    skin_begin(a->m.gpu, a->m.job, &a->particles);
 done:
     return st;
 }
@@ -372,6 +384,8 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
     *kyr = part_of(s->left, s->whole / (double)job->erosion.parts, longest(a, pace));
     if (a->plants)
         plants_shield(a->m.gpu, job, &a->particles, a->erosion.intensity);
+    if (a->exposed)
+        skin_age(a->m.gpu, job, *kyr, a->erosion.intensity, &a->particles);
 done:
     return st;
 }
@@ -390,6 +404,8 @@ static status erode(struct arenite *a, int number, struct step *s)
     TRY(erosion_weather(a->m.gpu, a->m.work, &a->erosion, kyr, &a->particles, &a->m.budget, &n_eroded,
                         &a->beyond));
     TRY(crumble(a, &n_eroded));
+    if (a->exposed)
+        skin_forget(a->m.gpu, &a->particles);
     TRY(remove_eroded(a, number, n_eroded, &changed));
     if (changed)
         TRY(arenite_unsupported(a));
@@ -526,7 +542,7 @@ static status output(struct model *m, struct frame *out)
     status st = OK;
     struct arenite *a = arenite_of(m);
     const struct frame_wants wants = model_wants(m);
-    const unsigned has = arenite_has(m->job, water_ever_flows(m->job), a->plants, a->deposits);
+    const unsigned has = arenite_has(m->job, water_ever_flows(m->job), a->plants, a->deposits, a->exposed);
     struct aov_air air = {0};
     out->stress_iterations = a->elastic.iterations;
     if (wants.points || wants.volumes || wants.pictures)

@@ -57,6 +57,7 @@ struct arenite {
     double
         beyond; /* m3 that steps would have taken farther in than they may, and nobody has been told of yet */
     bool deposits, plants; /* does the run ever have any? */
+    bool exposed;          /* does its rock keep how long it has been bare? */
     struct pile_tile tile; /* of rocks to show on deposits */
 };
 
@@ -76,6 +77,9 @@ MUST_USE status arenite_unsupported(struct arenite *a);
 /* What follows from the shape: surface, normals, stress, erodibility. `solved`: the displacement is this shape's
  * already. Rock in motion has its stress. Waits. */
 MUST_USE status arenite_settle(struct arenite *a, bool solved);
+
+/* All faces have been bare for as long as the job says when it begins. Waits. */
+MUST_USE status arenite_age_before(struct arenite *a);
 
 /* ---- its state */
 
@@ -105,6 +109,6 @@ void arenite_watch(const struct model *m, struct watch_list *list);
 void arenite_destroy(struct model *m);
 
 /* Which values frames have (HAS_* of values.h) with these. The wind adds its own. */
-unsigned arenite_has(const struct job *job, bool water, bool plants, bool deposits);
+unsigned arenite_has(const struct job *job, bool water, bool plants, bool deposits, bool exposed);
 
 #endif

@@ -36,7 +36,7 @@ static uint64_t device_bytes(const struct job *job, const int voxels[3], const s
 #define PART(name, lasts, bytes, create) sum += (bytes);
     ARENITE_PARTS(PART)
 #undef PART
-    return sum;
+    return sum + (job_keeps_exposed(job) ? n * rock_field_size(ROCK_exposed_kyr) : 0);
 }
 
 static double steps(const struct job *job)
@@ -47,10 +47,11 @@ static double steps(const struct job *job)
     return sum;
 }
 
-unsigned arenite_has(const struct job *job, bool water, bool plants, bool deposits)
+unsigned arenite_has(const struct job *job, bool water, bool plants, bool deposits, bool exposed)
 {
     return HAS_ALWAYS | (water ? HAS_WATER : 0U) | (plants ? HAS_PLANTS : 0U) |
-           (deposits ? HAS_DEPOSITS : 0U) | (job->clock.seconds_per_frame > 0 ? HAS_MOTION : 0U);
+           (deposits ? HAS_DEPOSITS : 0U) | (exposed ? HAS_EXPOSED : 0U) |
+           (job->clock.seconds_per_frame > 0 ? HAS_MOTION : 0U);
 }
 
 status arenite_estimate(const struct job *job, struct model_needs *needs)
@@ -63,13 +64,15 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     const size_t n = needs->size.n_kept;
     needs->room = n < needs->size.n_particles ? particles_room_for(n) : n;
     const unsigned has = arenite_has(job, water_ever_flows(job), plants_wanted(job) || edits_plant(job),
-                                     arenite_ever(job, deposit_wanted));
+                                     arenite_ever(job, deposit_wanted), job_keeps_exposed(job));
     needs->device_bytes = device_bytes(job, needs->voxels, &needs->size, needs->room);
     needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
-    needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * needs->samples * sizeof(float);
+    const uint64_t ages = job_keeps_exposed(job) ? n : 0;
+    needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * needs->samples * sizeof(float) +
+                         ages * rock_field_size(ROCK_exposed_kyr);
     needs->disk = (struct disk_particle){
         .inside = 15.5, .bare = 45, .volumes_inside = 2.2, .volumes_bare = 88, .channel = 1.9, .has = has};
-    needs->checkpoint_bytes = 15 * (uint64_t)n + held_words(needs->voxels) / 4 +
+    needs->checkpoint_bytes = 15 * (uint64_t)n + ages + held_words(needs->voxels) / 4 +
                               (uint64_t)(0.3 * (double)wind_checkpoint_bytes(job, needs->voxels)) +
                               collapse_checkpoint_bytes(job, n);
     needs->steps = steps(job);

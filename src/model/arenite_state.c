@@ -39,6 +39,8 @@ status arenite_create_particles(struct arenite *a, const struct rock *rock)
 {
     status st = OK;
     TRY(particles_create(a->m.gpu, a->m.work, rock, STATE, a->m.voxels, a->m.h, &a->particles));
+    if (a->exposed)
+        TRY(particles_keep_exposed(a->m.gpu, &a->particles));
     a->particles.walls = job_walls(a->m.job);
     TRY(arenite_create_parts(a, LASTS_ROCK));
     a->blocks.rubble |= a->collapse.falls;
@@ -81,7 +83,7 @@ status arenite_save(struct model *m, struct checkpoint *out)
     void *data;
     const size_t n = a->particles.n;
     for (int f = 0; f < ROCK_FIELDS; f++) {
-        if (rock_field_table[f].keep != STATE)
+        if (rock_field_table[f].keep != STATE || !a->particles.field[f])
             continue;
         /* Shuffled by float, whatever the field's width. */
         TRY(section_add(out, rock_field_table[f].name, 4, n * (size_t)rock_field_table[f].components, &data));
@@ -126,7 +128,8 @@ static void set_range(const struct model *m, int f, struct section_rule *rule)
     static const double known[ROCK_FIELDS][2] = {
         [ROCK_id] = {0, UINT32_MAX},           [ROCK_viability] = {0, 1},
         [ROCK_phase] = {0, PHASE_FALLING},     [ROCK_rate_factor] = {0, factor},
-        [ROCK_interlock_factor] = {0, factor}, [ROCK_vegetation] = {0, 1}};
+        [ROCK_interlock_factor] = {0, factor}, [ROCK_vegetation] = {0, 1},
+        [ROCK_exposed_kyr] = {0, 1e12}};
     const double layers[2] = {0, (double)m->job->n_strata - 1},
                  finite[2] = {-(double)FLT_MAX, (double)FLT_MAX};
     const double *range = f == ROCK_layer ? layers : known[f][1] > 0 ? known[f] : finite;
@@ -170,7 +173,9 @@ static status restore_rock(const struct model *m, const struct checkpoint *c, st
         struct section_rule rule = {
             info->name, info->is_float ? SECTION_FLOAT : SECTION_WORD, stride * rock->n, stride, {{0}}};
         const void *data;
-        if (info->keep != STATE)
+        /* A branch may begin to keep what its run did not, and leave what it no longer keeps. */
+        if (info->keep != STATE ||
+            (f == ROCK_exposed_kyr && (!job_keeps_exposed(m->whole) || !checkpoint_find(c, info->name, 4))))
             continue;
         set_range(m, f, &rule);
         TRY(section_take(c, &rule, &data, NULL));
@@ -300,6 +305,8 @@ status arenite_begin(struct model *m)
     TRY(particles_download(m->gpu, &a->particles, STATE, &rock));
     if (!a->blocks.rubble)
         TRY(model_check_stands(m, lowest, a->particles.n_deep > 0 || lowest_of(m, &rock, NULL) < HUGE_VAL));
+    if (a->exposed)
+        TRY(arenite_age_before(a));
     m->start_volume = (model_sum(rock.viability, rock.n) + (double)a->particles.n_deep) * pow(m->h, 3);
     TRY(arrive(a, false));
 done:
@@ -313,6 +320,7 @@ status arenite_create(struct model *m)
     status st = OK;
     struct arenite *a = arenite_of(m);
     m->shown = &a->particles;
+    a->exposed = job_keeps_exposed(m->whole);
     a->plants = plants_wanted(m->whole) || edits_plant(m->whole);
     a->deposits = arenite_ever(m->whole, deposit_wanted);
     TRY(arenite_create_parts(a, LASTS_RUN));

@@ -6,7 +6,7 @@ uint64_t particles_bytes(size_t n, const int voxels[3])
 {
     uint64_t item = 4 + 3 * 4; /* surface; start, fill, taken: a voxel each */
     for (int f = 0; f < ROCK_FIELDS; f++)
-        item += f == ROCK_v ? 0 : rock_field_size((enum rock_field)f);
+        item += f == ROCK_v || f == ROCK_exposed_kyr ? 0 : rock_field_size((enum rock_field)f);
     return (uint64_t)n * item + 2 * 4 * (uint64_t)particles_scratch(voxels, n) + held_bytes(voxels, n);
 }
 
@@ -137,7 +137,8 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     *p = (struct particles){
         .n = rock->n, .n_max = rock->n, .voxels = {voxels[0], voxels[1], voxels[2]}, .h = h};
     for (int f = 0; f < ROCK_FIELDS; f++) {
-        if (f == ROCK_v && !(keep == DERIVED && moves(rock)))
+        if ((f == ROCK_v && !(keep == DERIVED && moves(rock))) ||
+            (f == ROCK_exposed_kyr && !rock->exposed_kyr))
             continue;
         TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f),
                               &p->field[f]));
@@ -193,12 +194,21 @@ status particles_hold_around(struct gpu *gpu, struct gpu_work *work, struct part
     return index_state(gpu, work, p, STAYS_LEFT);
 }
 
+static status add_field(struct gpu *gpu, struct particles *p, enum rock_field f)
+{
+    if (p->field[f])
+        return OK;
+    return gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size(f), &p->field[f]);
+}
+
 status particles_allow_motion(struct gpu *gpu, struct particles *p)
 {
-    if (p->field[ROCK_v])
-        return OK;
-    return gpu_buffer_create(gpu, rock_field_table[ROCK_v].name, p->n_max, rock_field_size(ROCK_v),
-                             &p->field[ROCK_v]);
+    return add_field(gpu, p, ROCK_v);
+}
+
+status particles_keep_exposed(struct gpu *gpu, struct particles *p)
+{
+    return add_field(gpu, p, ROCK_exposed_kyr);
 }
 
 void particles_fill(struct gpu *gpu, struct particles *p)
@@ -229,6 +239,8 @@ status particles_download(struct gpu *gpu, const struct particles *p, int keep, 
 {
     status st = OK;
     TRY(rock_alloc(out, p->n, keep));
+    if (p->field[ROCK_exposed_kyr])
+        TRY(rock_keep_exposed(out));
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (out->field[f] && p->field[f])
             TRY(gpu_download(gpu, p->field[f], 0, out->field[f], p->n));

@@ -18,10 +18,11 @@ struct particles {
     int voxels[3];
     double h;       /* m: spacing, and a voxel's size */
     unsigned walls; /* the domain's: WALL_* of shared/params.h. 0 until the caller sets it */
-    struct gpu_buffer *field[ROCK_FIELDS]; /* n_max items each; v is NULL while nothing can move */
-    struct held_voxels held;               /* voxels with particles; with `around`, those around them too */
-    bool around;                           /* particles_hold_around() */
-    struct gpu_buffer *start;              /* uint [held + 1]: the first particle of each, and the end */
+    struct gpu_buffer *field
+        [ROCK_FIELDS]; /* n_max items each; NULL: v while nothing can move, exposed_kyr where none is kept */
+    struct held_voxels held;    /* voxels with particles; with `around`, those around them too */
+    bool around;                /* particles_hold_around() */
+    struct gpu_buffer *start;   /* uint [held + 1]: the first particle of each, and the end */
     struct gpu_buffer *fill;    /* float [held]: how much of each is rock, as of particles_fill() */
     struct gpu_buffer *surface; /* uint [n_surface]: the particles with a bare face, ascending */
     size_t n_surface;
@@ -68,6 +69,9 @@ MUST_USE status particles_hold_around(struct gpu *gpu, struct gpu_work *work, st
 
 /* Makes room for velocities, 0 so far. */
 MUST_USE status particles_allow_motion(struct gpu *gpu, struct particles *p);
+
+/* From now on they keep how long they have been bare, 0 so far. */
+MUST_USE status particles_keep_exposed(struct gpu *gpu, struct particles *p);
 
 /* Takes the particles' viability into the held voxels' fill, which holds until they are indexed anew. Records only. */
 void particles_fill(struct gpu *gpu, struct particles *p);

@@ -29,13 +29,20 @@ status rock_alloc(struct rock *rock, size_t n, int keep)
     status st = OK;
     *rock = (struct rock){.n = n};
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_table[f].keep <= keep)
+        if (rock_field_table[f].keep <= keep && f != ROCK_exposed_kyr)
             TRY(memory_alloc(n, rock_field_size((enum rock_field)f), rock_field_table[f].name,
                              &rock->field[f]));
 done:
     if (st != OK)
         rock_free(rock);
     return st;
+}
+
+status rock_keep_exposed(struct rock *rock)
+{
+    return rock->exposed_kyr ? OK
+                             : memory_alloc(rock->n, sizeof *rock->exposed_kyr,
+                                            rock_field_table[ROCK_exposed_kyr].name, &rock->exposed_kyr);
 }
 
 void rock_free(struct rock *rock)

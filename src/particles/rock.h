@@ -40,8 +40,10 @@ struct rock {
     };
 };
 
-/* Zeroed arrays for n particles, for fields with keep <= `keep` (STATE, or DERIVED for all). */
+/* Zeroed arrays for n particles, for fields with keep <= `keep` (STATE, or DERIVED for all), but for exposed_kyr, which only some rock
+ * has: rock_keep_exposed() adds that. */
 MUST_USE status rock_alloc(struct rock *rock, size_t n, int keep);
+MUST_USE status rock_keep_exposed(struct rock *rock);
 void rock_free(struct rock *rock);
 
 /* Bytes of one particle's value of a field. */

@@ -361,6 +361,7 @@ static status look_at_model(struct view *v)
         {"erosion", OF_MODEL(ARENITE)},
         {"strata_from", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
         {"joints", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
+        {"skin", OF_MODEL(ARENITE)},
         {"goblins", OF_MODEL(GOBLINS)},
         {"arches", OF_MODEL(ARCHES)},
     };

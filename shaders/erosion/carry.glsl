@@ -1,0 +1,97 @@
+// The body of erosion/carry, which declares what it reads and writes; with EXPOSED it says what becomes of the time that rock has been
+// bare: what is bared has, negative, what those had that went off it, and skin/reach looks for more.
+#include "particles/voxel.glsl"
+#include "particles/bits.glsl"
+#include "particles/held.glsl"
+#include "particles/within.glsl"
+#include "erosion/budget.glsl"
+#include "erosion/parts.glsl"
+
+// What comes through faces: the step times their area, and the parts that processes have in it; their area, all of it and what
+// plants cover; and the normals, by their step.
+struct incoming {
+    vec3 step;
+    float area, cover;
+    vec3 normal;
+#ifdef EXPOSED
+    float aged, age; // the faces of rock, and how long that had been bare
+#endif
+};
+
+void through(ivec3 v, int axis, inout incoming sum)
+{
+    if (!voxel_inside(v))
+        return;
+    uvec2 in_voxel = voxel_particles(v);
+    for (uint j = in_voxel.x; j < in_voxel.y; j++) {
+        float left = LOAD_F(unspent, j);
+        if (left <= 0.0)
+            continue;
+        vec3 n = AT(normal, j).xyz;
+        float face = abs(n[axis]);
+        sum.step += left * face * vec3(1.0, shares_in(AT(shares, j)));
+        sum.area += face;
+        sum.cover += face * AT(vegetation, j);
+        sum.normal += left * face * n;
+#ifdef EXPOSED
+        if (LOAD_U(phase, j) != PHASE_DEPOSIT) {
+            sum.aged += face;
+            sum.age += face * abs(AT(exposed, j));
+        }
+#endif
+    }
+}
+
+void main()
+{
+    uint i = THREAD;
+    if (i >= k.n)
+        return;
+    float before = AT(viability, i);
+    AT(spent, i) = 0u;
+    if (before <= 0.0 || (k.round >= NEAR_REACH && LOAD_U(phase, i) != PHASE_DEPOSIT))
+        return;
+    ivec3 v = voxel_of(LOAD_V(position, i).xyz);
+    incoming sum = incoming(vec3(0.0), 0.0, 0.0, vec3(0.0)
+#ifdef EXPOSED
+                            , 0.0, 0.0
+#endif
+    );
+    for (int axis = 0; axis < 3; axis++) {
+        ivec3 side = ivec3(axis == 0, axis == 1, axis == 2);
+        through(v + side, axis, sum);
+        through(v - side, axis, sum);
+    }
+    if (sum.area <= 0.0)
+        return;
+    bool inside = AT(normal, i).xyz == vec3(0.0);
+    if (inside)
+        AT(vegetation, i) = max(AT(vegetation, i), sum.cover / sum.area);
+#ifdef EXPOSED
+    if (inside && sum.aged > 0.0 && LOAD_U(phase, i) != PHASE_DEPOSIT)
+        AT(exposed, i) = -max(abs(AT(exposed, i)), sum.age / sum.aged);
+#endif
+    float rate = LOAD_F(erodibility, i), taken = rate * sum.step.x;
+    if (taken <= 0.0)
+        return;
+    vec2 share = sum.step.yz / sum.step.x;
+    AT(parts, i) = parts_of(share.x, share.y);
+    if (LOAD_U(phase, i) == PHASE_DEPOSIT) {
+        taken *= share.y;
+        AT(parts, i) = PARTS_LOOSE;
+    }
+    float after = before - taken;
+    if (after <= 0.0 && taken > 0.0) {
+        float left = sum.step.x / sum.area * (-after / taken);
+        AT(next, i) = left;
+        AT(shares, i) = AT(parts, i);
+        if (inside) {
+            float size = length(sum.normal);
+            AT(normal, i) = vec4(size > 0.0 ? sum.normal / size : vec3(0.0, 0.0, 1.0), 0.0);
+        }
+        atomicAdd(AT(counts, COUNT_ERODED), 1u);
+        after = -rate * left;
+    }
+    AT(viability, i) = after;
+    AT(spent, i) = quanta(before) - quanta(after);
+}

@@ -1,0 +1,24 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// As erosion/carry, of rock that keeps how long it has been bare.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_V(0, position)
+WRITE_V(1, normal)
+READ_U(2, start)
+READ_F(3, erodibility)
+READ_F(4, unspent) // of those that went in the round before
+WRITE_F(5, viability)
+WRITE_U(6, shares) // of the particles that are gone: by what
+WRITE_U(7, spent)  // quanta
+WRITE_U(8, parts)  // by what
+READ_U(9, words)
+WRITE_F(10, next) // what those leave that go in this round
+WRITE_U(11, counts)
+WRITE_F(12, vegetation)
+READ_U(13, phase)
+WRITE_F(14, exposed)
+PARAMS(carry_params)
+#define EXPOSED
+#include "erosion/carry.glsl"

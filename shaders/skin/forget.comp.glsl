@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What is gone has not been bare, should it come to rest.
+#include "shared/buffers.glsl"
+#include "shared/params.h"
+
+READ_F(0, viability)
+WRITE_F(1, exposed)
+PARAMS(count_params)
+
+void main()
+{
+    uint i = THREAD;
+    if (i < k.n && LOAD_F(viability, i) <= 0.0)
+        AT(exposed, i) = 0.0;
+}
