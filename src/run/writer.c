@@ -24,18 +24,21 @@ static uint64_t identity(uint64_t job_hash, int frame, enum folder_file kind)
     return hash_bytes(words, sizeof words);
 }
 
-/* Writes the bytes, frees them, and has the manifest vouch for them. */
+/* Writes the bytes, frees them, and has the manifest vouch for them. Without a root they are only made. */
 static status put(const char *root, const char *path, struct vdb_bytes *file, struct manifest *manifest)
 {
     status st = OK;
     size_t capacity = manifest->n_files;
     struct manifest_file *entry;
+    const uint64_t hash = hash_bytes(file->bytes, file->size);
+    if (!*root)
+        goto done;
     TRY(memory_grow(&manifest->file, &capacity, manifest->n_files + 1, sizeof *manifest->file,
                     "the manifest"));
     entry = &manifest->file[manifest->n_files];
     snprintf(entry->path, sizeof entry->path, "%s", path + strlen(root) + 1);
     entry->size = file->size;
-    entry->hash = hash_bytes(file->bytes, file->size);
+    entry->hash = hash;
     manifest->n_files++;
     TRY(atomic_file_write(path, file->bytes, file->size));
 done:
@@ -52,7 +55,8 @@ static status put_beside(const char *root, const char *name, enum folder_file ki
     struct path path, folder;
     TRY(folder_path(&path, root, name, kind, frame, NULL));
     TRY(path_folder(&folder, path.text));
-    TRY(folder_make(folder.text));
+    if (*root)
+        TRY(folder_make(folder.text));
     TRY(put(root, path.text, file, manifest));
 done:
     return st;
@@ -186,7 +190,8 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
         memcpy(copy.bytes, frame->stacks.bytes, copy.size);
         TRY(put_beside(root, job->name, FILE_STACKS, frame->number, &copy, &manifest));
     }
-    TRY(manifest_write(root, job->name, &manifest));
+    if (*root)
+        TRY(manifest_write(root, job->name, &manifest));
 done:
     manifest_free(&manifest);
     return st;

@@ -30,7 +30,7 @@ MUST_USE status writer_checkpoint(struct writer *w, struct checkpoint *checkpoin
 /* Waits for all that is queued, and ends. NULL is fine. */
 MUST_USE status writer_finish(struct writer **w);
 
-/* The files of one frame, at once: what the thread does. */
+/* The files of one frame, at once: what the thread does. With "" for a root they are made in memory, and dropped. */
 MUST_USE status frame_write(const struct job *job, uint64_t job_hash, const char *root,
                             const struct frame *frame);
 

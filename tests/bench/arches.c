@@ -43,11 +43,11 @@ static void rocks(const char *name, size_t n, double area, double paper_tile, do
     struct pile_options options = {
         .radius = 0.5, .rocks = n, .erosion = 0.25, .contacts = 1, .detail = 3, .seed = 1};
     size_t n_places;
-    double t0 = cpu_seconds();
+    double t0 = clock_cpu_seconds();
     check(pile_tile_create(&options, &tile));
-    double t1 = cpu_seconds(), size[2] = {area, area};
+    double t1 = clock_cpu_seconds(), size[2] = {area, area};
     check(pile_place_all(&tile, size, layers, size, &place, &n_places));
-    double t2 = cpu_seconds();
+    double t2 = clock_cpu_seconds();
     printf("arches: %-7s tile of %zu rocks %.3f s of one core (the paper: %.1f); %zu rocks placed in %.4f s "
            "(the "
            "paper: %.1f)\n",
@@ -85,11 +85,11 @@ static void edit(void)
     int lo[2], hi[2];
     struct stabilise options = {.table = table, .n_materials = N_TABLE};
     struct stabilised out;
-    double t0 = clock_seconds(), c0 = cpu_seconds();
+    double t0 = clock_seconds(), c0 = clock_cpu_seconds();
     check(operation_apply(&s, &tools, &op, "bench", 1, lo, hi));
-    double t1 = clock_seconds(), c1 = cpu_seconds();
+    double t1 = clock_seconds(), c1 = clock_cpu_seconds();
     check(stabilise(&s, &options, lo, hi, &out));
-    double t2 = clock_seconds(), c2 = cpu_seconds();
+    double t2 = clock_seconds(), c2 = clock_cpu_seconds();
     printf("arches: a tunnel of 1200 m, open to the sky at one end, through 1000 x 750 stacks: sweep %.3f s "
            "(%.3f of cores), stabilised "
            "in %.3f s "

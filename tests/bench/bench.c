@@ -198,7 +198,7 @@ static double demo(const struct job *job, const char *root, int stages, double *
         check(folder_prepare(root));
         check(writer_create(job, 0, root, false, &writer));
     }
-    double start = clock_seconds(), cpu_start = cpu_seconds();
+    double start = clock_seconds(), cpu_start = clock_cpu_seconds();
     for (int f = 0; f < FRAMES; f++) {
         check(model_step(model));
         check(model_output(model, &frame));
@@ -209,7 +209,7 @@ static double demo(const struct job *job, const char *root, int stages, double *
     }
     check(writer_finish(&writer));
     double seconds = clock_seconds() - start;
-    *cpu = fmin(*cpu, cpu_seconds() - cpu_start);
+    *cpu = fmin(*cpu, clock_cpu_seconds() - cpu_start);
     if (stages) {
         const struct gpu_time *times;
         size_t n = gpu_stage_times(gpu, &times);

@@ -309,18 +309,18 @@ static void compare(void)
     double device = INFINITY, plain = INFINITY, sorted = INFINITY, error = 0;
     double device_cpu = INFINITY, plain_cpu = INFINITY;
     for (int i = 0; i <= REPEATS; i++) { /* the first compiles */
-        double begin = clock_seconds(), cpu = cpu_seconds();
+        double begin = clock_seconds(), cpu = clock_cpu_seconds();
         mpm_step(gpu, &m, &k, false);
         check(gpu_wait(gpu));
         if (i > 0)
             device = fmin(device, clock_seconds() - begin);
         if (i > 0)
-            device_cpu = fmin(device_cpu, cpu_seconds() - cpu);
+            device_cpu = fmin(device_cpu, clock_cpu_seconds() - cpu);
         begin = clock_seconds();
-        cpu = cpu_seconds();
+        cpu = clock_cpu_seconds();
         step_in_c(&r, p, n, start, grid);
         plain = fmin(plain, clock_seconds() - begin);
-        plain_cpu = fmin(plain_cpu, cpu_seconds() - cpu);
+        plain_cpu = fmin(plain_cpu, clock_cpu_seconds() - cpu);
     }
     check(gpu_download(gpu, m.vector[MPM_VELOCITY], 0, speed, n));
     for (size_t i = 0; i < n; i++)

@@ -121,12 +121,12 @@ int main(int argc, char **argv)
         check(gpu_wait(gpu));
         device = r ? fmin(device, clock_seconds() - start) : device;
         start = clock_seconds();
-        double start_cpu = cpu_seconds();
+        double start_cpu = clock_cpu_seconds();
         how.cells = true;
         check(water_route(gpu, work, &w, &how, &p));
         check(gpu_wait(gpu));
         all = r ? fmin(all, clock_seconds() - start) : all;
-        all_cpu = r ? fmin(all_cpu, cpu_seconds() - start_cpu) : all_cpu;
+        all_cpu = r ? fmin(all_cpu, clock_cpu_seconds() - start_cpu) : all_cpu;
     }
     for (int i = 0; i < KERNELS; i++) {
         const struct gpu_time *t = gpu_kernel_time(gpu, (enum gpu_kernel)i);
@@ -138,10 +138,10 @@ int main(int argc, char **argv)
     struct flow_ref f = {0};
     for (int r = 0; r < 2; r++) {
         flow_ref_free(&f);
-        double start = clock_seconds(), start_cpu = cpu_seconds();
+        double start = clock_seconds(), start_cpu = clock_cpu_seconds();
         f = flow_ref_route(&rock, n, 1, 2, w.shift, random, false, 0);
         plain = fmin(plain, clock_seconds() - start);
-        plain_cpu = fmin(plain_cpu, cpu_seconds() - start_cpu);
+        plain_cpu = fmin(plain_cpu, clock_cpu_seconds() - start_cpu);
     }
     check(gpu_download(gpu, w.receiver, 0, receiver, f.n));
     printf("routing on %d^3 cells, %zu spans, %zu basins: device %.1f ms (with every cell's "

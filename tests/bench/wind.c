@@ -145,11 +145,11 @@ static double first_average(const char *density, const char *divergence, double 
     open_air(&b, "wind.flow.spacing_m=4", density, divergence);
     check(flow_run(b.gpu, &b.flow, &b.particles, blows, 4, 0));
     b.flow.state = (struct flow_state){0};
-    double start = cpu_seconds();
+    double start = clock_cpu_seconds();
     check(flow_run(b.gpu, &b.flow, &b.particles, blows, 2 * flow_flush(&b.flow, blows), settled));
     *steps = b.flow.report.steps;
     *error = b.flow.report.unsettled;
-    start = cpu_seconds() - start;
+    start = clock_cpu_seconds() - start;
     close_air(&b);
     return start;
 }

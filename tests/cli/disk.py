@@ -54,7 +54,7 @@ def kind(path):
 def measure(name, job, sets):
     """Planned and written bytes, in all and by kind."""
     words = [w for s in sets for w in ("--set", s)]
-    plan = json.loads(hoodoo("plan", job, "--json", *words))
+    plan = json.loads(hoodoo("plan", job, "--rehearse", "0", "--json", *words))
     hoodoo("run", job, "--out", name, "--progress", "none", *words)
     written = {"points": 0, "usd": 0, "volumes": 0, "pictures": 0}
     for manifest in os.listdir(f"{name}/frames"):

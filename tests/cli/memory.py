@@ -60,7 +60,7 @@ group = peak.make_group(LIMIT)
 if group:
     try:
         enter = f"echo $$ >{group}/cgroup.procs && "
-        plan = json.loads(subprocess.run(["sh", "-c", enter + 'exec "$1" plan large.yaml --json', "sh", HOODOO],
+        plan = json.loads(subprocess.run(["sh", "-c", enter + 'exec "$1" plan large.yaml --rehearse 0 --json', "sh", HOODOO],
                                          stdout=subprocess.PIPE, check=True).stdout)
         check(0 < plan["host_free_bytes"] <= LIMIT and not plan["fits_in_memory"], f"a plan knows its control group's limit: {plan['host_free_bytes'] / 1e6:.0f} MB")
         refused("a run does not begin what its control group will end", enter + 'exec "$1" run large.yaml --out limited --progress none',
@@ -68,7 +68,7 @@ if group:
         # What a file of the group's leaves in the page cache is not used up.
         with open("ballast", "wb") as file:
             file.write(b"\0" * 1_000_000)
-        ballast = enter + 'dd if=/dev/zero of=ballast bs=1M count=300 conv=fsync 2>/dev/null; exec "$1" plan tiny.yaml --json'
+        ballast = enter + 'dd if=/dev/zero of=ballast bs=1M count=300 conv=fsync 2>/dev/null; exec "$1" plan tiny.yaml --rehearse 0 --json'
         plan = json.loads(subprocess.run(["sh", "-c", ballast, "sh", HOODOO], stdout=subprocess.PIPE, check=True).stdout)
         check(plan["fits_in_memory"] and plan["host_free_bytes"] > LIMIT / 2, f"page cache counts as free: {plan['host_free_bytes'] / 1e6:.0f} MB")
     finally:
@@ -79,7 +79,7 @@ shutil.rmtree("limited", ignore_errors=True)
 
 # A group in which a frame and the one before it do not fit, but either does: they take turns.
 words = [f"{JOBS}/arches_cave.yaml", "--set", "domain.spacing_m=0.75"]
-plan = json.loads(subprocess.run([HOODOO, "plan", *words, "--json"], stdout=subprocess.PIPE, check=True).stdout)
+plan = json.loads(subprocess.run([HOODOO, "plan", *words, "--rehearse", "0", "--json"], stdout=subprocess.PIPE, check=True).stdout)
 group = peak.make_group(int(0.8 * sum(plan[part + "_bytes"] for part in ("device", "host", "process"))))
 if group:
     code, said, most = peak.run(["run", *words, "--out", "turns", "--frames", "1001-1002", "--progress", "none"], group)

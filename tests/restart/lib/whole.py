@@ -157,7 +157,7 @@ def lines(path):
 
 
 def job(path):
-    return lines(path) and quiet(HOODOO, "plan", path, "--json")[0] == 0
+    return lines(path) and quiet(HOODOO, "plan", path, "--rehearse", "0", "--json")[0] == 0
 
 
 READERS = {"vdb": vdb, "exr": picture, "png": picture, "jpg": picture, "ply": ply, "obj": obj, "usdc": usdc, "usda": usda, "mp4": mp4,

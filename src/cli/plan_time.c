@@ -1,0 +1,121 @@
+#include "cli/plan_time.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/log.h"
+#include "run/room.h"
+
+/* Particles that any device steps in next to no time: of the first rehearsal, which says how far the next one may go. */
+static const double FEW = 30000;
+
+/* And that no plan begins to step before it knows how fast the device is. */
+static const double MANY = 300000;
+
+/* The first wedge at another spacing, unless it cannot be had: *f is empty then. */
+static status load_at(const struct plan_asked *asked, const struct farm *own, double spacing, struct farm *f)
+{
+    status st = OK;
+    struct words sets = {0};
+    const struct common *c = asked->common;
+    const struct job *job = own->wedge[0].job;
+    char set[64];
+    snprintf(set, sizeof set, "domain.spacing_m=%.4g", spacing);
+    for (size_t i = 0; i < c->sets.n; i++)
+        TRY(words_add(&sets, c->sets.word[i]));
+    TRY(words_add(&sets, set));
+    const bool hushed = log_hush(true);
+    st = farm_load(asked->path, sets.word, sets.n, NULL, (int)job->wedge.index, c->out, f);
+    log_hush(hushed);
+    /* A wedge may be of spacings, and a coarse scene may be no scene. */
+    if (st != OK || f->wedge[0].job->domain.spacing_m < 1.01 * job->domain.spacing_m) {
+        farm_free(f);
+        *f = (struct farm){0};
+        st = st == E_MEMORY ? st : OK;
+    }
+done:
+    words_free(&sets);
+    return st;
+}
+
+static bool fits(const struct gpu *gpu, const struct farm *f)
+{
+    return room_enough(room_free(gpu), room_needed(gpu, &f->wedge[0].estimate));
+}
+
+static status rehearse_wedge(struct gpu *gpu, const struct farm *f, double patience, struct rehearsal *out)
+{
+    status st = rehearse(gpu, f->wedge[0].job, patience, out);
+    out->n_particles = (double)f->wedge[0].estimate.n_particles;
+    return st;
+}
+
+/* The same at a spacing with so many particles. *out stays as it is where that cannot be had. */
+static status rehearse_coarse(const struct plan_asked *asked, struct gpu *gpu, const struct farm *own,
+                              double n, double patience, struct rehearsal *out)
+{
+    status st = OK;
+    struct farm f = {0};
+    const double all = (double)own->wedge[0].estimate.n_particles;
+    TRY(load_at(asked, own, own->wedge[0].job->domain.spacing_m * cbrt(all / n), &f));
+    if (f.n_wedges == 0 || !fits(gpu, &f))
+        goto done;
+    st = rehearse_wedge(gpu, &f, patience, out);
+    if (st != OK && st != E_DEVICE && st != E_MEMORY) {
+        rehearsal_free(out); /* not the job's own failure */
+        st = OK;
+    }
+done:
+    farm_free(&f);
+    return st;
+}
+
+/* s that a rehearsal of two steps takes. */
+static double shortest(const struct gpu *gpu, const struct rehearsal *r)
+{
+    double sum =
+        cost_seconds(gpu, r->start) + 2 * cost_seconds(gpu, r->step) + cost_seconds(gpu, r->checkpoint);
+    for (int set = 0; set < REHEARSAL_SETS; set++)
+        sum += 2 * (cost_seconds(gpu, r->made[1][set]) + cost_seconds(gpu, r->written[1][set]));
+    return sum;
+}
+
+status plan_rehearse(const struct plan_asked *asked, struct gpu *gpu, const struct farm *f,
+                     struct plan_time *out)
+{
+    status st = OK;
+    const struct job *job = f->wedge[0].job;
+    const double n = (double)f->wedge[0].estimate.n_particles, patience = asked->patience;
+    struct rehearsal few = {0}, more = {0}, whole = {0};
+    double may = n <= MANY ? n : 0; /* particles that patience allows */
+    char range[48];
+    if (n > FEW && !*job->from) {
+        TRY(rehearse_coarse(asked, gpu, f, FEW, patience / 2, &few));
+        if (few.n_particles > 0)
+            may = few.n_particles * patience / 2 / shortest(gpu, &few);
+    }
+    if (may >= n && fits(gpu, f)) {
+        TRY(rehearse_wedge(gpu, f, few.n_particles > 0 ? patience / 2 : patience, &whole));
+        rehearsal_follow(&whole, &few);
+        whole.start.cpu += few.start.cpu;
+        whole.start.wall += few.start.wall;
+        snprintf(out->from, sizeof out->from, "frames %s, rehearsed", range_text(whole.frames, range));
+    } else if (few.n_particles > 0) {
+        if (may > 2 * few.n_particles)
+            TRY(rehearse_coarse(asked, gpu, f, fmin(may, n / 1.5), 0, &more));
+        const struct rehearsal *last = more.n_particles > 0 ? &more : &few;
+        rehearsal_follow(&more, &few);
+        rehearsal_scale(&few, last, n, &whole);
+        snprintf(out->from, sizeof out->from,
+                 "frames %s, rehearsed with %.2g particles and drawn out from there: within a factor of two",
+                 range_text(last->frames, range), last->n_particles);
+    } else {
+        goto done;
+    }
+    out->job = rehearsal_total(&whole, job);
+done:
+    rehearsal_free(&few);
+    rehearsal_free(&more);
+    rehearsal_free(&whole);
+    return st;
+}
