@@ -23,6 +23,12 @@ static unsigned char srgb(double linear)
     return (unsigned char)lrint(255 * fmin(fmax(v, 0), 1));
 }
 
+void develop_color(const double linear[3], double exposure, unsigned char rgb[3])
+{
+    for (int c = 0; c < 3; c++)
+        rgb[c] = srgb(develop_view(exposure * linear[c]));
+}
+
 /* The next number of a header, behind blanks and comments; 0 if there is none. */
 static size_t header_number(const unsigned char *bytes, size_t n, size_t *at)
 {

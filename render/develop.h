@@ -14,6 +14,9 @@
 /* The curve alone: 0..1, linear. */
 double develop_view(double linear);
 
+/* Of a colour, after `exposure`: as the picture has it, sRGB. */
+void develop_color(const double linear[3], double exposure, unsigned char rgb[3]);
+
 /* A linear 16-bit PPM (P6), whose 65535 is scene-linear `white`, becomes one of 8 bits in sRGB; *n changes with it. Light is
  * multiplied by `exposure` before. In place. E_INPUT: it is none, or cut short. */
 MUST_USE status develop_ppm(void *bytes, size_t *n, double white, double exposure);

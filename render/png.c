@@ -112,6 +112,40 @@ status png_with_tag(const void *bytes, size_t n, const char *tag, void **out, si
     return st;
 }
 
+static bool write_rows(struct copy *c, const unsigned char *rgb, png_uint_32 width, png_uint_32 height)
+{
+    if (setjmp(png_jmpbuf(c->write)))
+        return false;
+    png_set_write_fn(c->write, &c->to, put, flush);
+    png_set_IHDR(c->write, c->info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB(c->write, c->info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(c->write, c->info);
+    for (png_uint_32 y = 0; y < height; y++)
+        png_write_row(c->write, rgb + (size_t)y * 3 * width);
+    png_write_end(c->write, NULL);
+    return true;
+}
+
+status png_encode(const unsigned char *rgb, int width, int height, void **out, size_t *n_out)
+{
+    status st = OK;
+    struct copy c = {0};
+    if (!begin(&c))
+        st = fail(E_MEMORY, "no memory for a picture");
+    else if (!write_rows(&c, rgb, (png_uint_32)width, (png_uint_32)height))
+        st = fail(E_MEMORY, "a picture of %d x %d pixels cannot be made: %s", width, height, c.message);
+    else
+        st = text_status(&c.to);
+    png_destroy_read_struct(&c.read, &c.info, NULL);
+    png_destroy_write_struct(&c.write, NULL);
+    if (st != OK)
+        text_free(&c.to);
+    *out = c.to.data;
+    *n_out = c.to.size;
+    return st;
+}
+
 static bool read_head(struct copy *c, FILE *file)
 {
     if (setjmp(png_jmpbuf(c->read)))

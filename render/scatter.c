@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "base/vector.h"
+#include "render/person.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -359,22 +360,17 @@ void scatter_figure(const struct ground *g, const struct camera *c, struct text 
         if (level)
             break;
     }
-    text_add(
-        out,
-        "// a person of 1.75 m\nunion {\n"
-        "    sphere { <0, 0, 1.64>, 0.11 pigment { rgb <0.36, 0.22, 0.15> } }\n"
-        "    sphere { <0, 0, 1.70>, 0.112 scale <1, 1, 1> translate <0, 0.005, 0.01> pigment { rgb <0.32, "
-        "0.26, 0.16> } }\n"
-        "    cone { <0, 0, 1.44>, 0.055, <0, 0, 1.58>, 0.05 pigment { rgb <0.36, 0.22, 0.15> } }\n"
-        "    sphere { <0, 0, 1.2>, 0.3 scale <0.72, 0.45, 1.0> pigment { rgb <0.10, 0.16, 0.24> } }\n"
-        "    cone { <-0.10, 0, 0.88>, 0.095, <-0.12, 0.02, 0.05>, 0.055 pigment { rgb <0.07, 0.065, 0.06> } "
-        "}\n"
-        "    cone { <0.10, 0, 0.88>, 0.095, <0.13, -0.06, 0.05>, 0.055 pigment { rgb <0.07, 0.065, 0.06> } "
-        "}\n"
-        "    cone { <-0.20, 0, 1.40>, 0.06, <-0.27, -0.06, 0.85>, 0.04 pigment { rgb <0.10, 0.16, 0.24> } }\n"
-        "    cone { <0.20, 0, 1.40>, 0.06, <0.27, 0.04, 0.85>, 0.04 pigment { rgb <0.10, 0.16, 0.24> } }\n"
-        "    sphere { <-0.12, -0.05, 0.05>, 0.09 scale <0.8, 1.2, 0.7> pigment { rgb 0.05 } }\n"
-        "    sphere { <0.13, -0.12, 0.05>, 0.09 scale <0.8, 1.2, 0.7> pigment { rgb 0.05 } }\n"
-        "    finish { Dry }\n    rotate %.1f * z\n    translate <%.4f, %.4f, %.4f>\n}\n",
-        atan2(towards[1], towards[0]) * 180 / PI + 60, x, y, z);
+    text_add(out, "// a person of 1.75 m\nunion {\n");
+    for (int i = 0; i < PERSON_PARTS; i++) {
+        const struct person_part *p = &person_part[i];
+        if (p->rb < 0)
+            text_add(out, "    sphere { 0, %g scale <%g, %g, %g> translate <%g, %g, %g>", p->ra,
+                     p->stretch[0], p->stretch[1], p->stretch[2], p->a[0], p->a[1], p->a[2]);
+        else
+            text_add(out, "    cone { <%g, %g, %g>, %g, <%g, %g, %g>, %g", p->a[0], p->a[1], p->a[2], p->ra,
+                     p->b[0], p->b[1], p->b[2], p->rb);
+        text_add(out, " pigment { rgb <%g, %g, %g> } }\n", p->rgb[0], p->rgb[1], p->rgb[2]);
+    }
+    text_add(out, "    finish { Dry }\n    rotate %.1f * z\n    translate <%.4f, %.4f, %.4f>\n}\n",
+             atan2(towards[1], towards[0]) * 180 / PI + 60, x, y, z);
 }

@@ -64,9 +64,10 @@ static bool holds(const double size[3], const struct camera *c, double share)
     return true;
 }
 
-struct camera view_orbit(const struct job *job, double azimuth_deg, int width, int height)
+struct camera view_around(const struct job *job, double azimuth_deg, double elevation_deg, int width,
+                          int height)
 {
-    const double elevation_deg = 9, film = 18.0 / 35, *size = job->domain.size_m;
+    const double film = 18.0 / 35, *size = job->domain.size_m;
     double target[3], distance = 0;
     for (int k = 0; k < 3; k++) {
         target[k] = 0.5 * size[k];
@@ -81,4 +82,9 @@ struct camera view_orbit(const struct job *job, double azimuth_deg, int width, i
             distance *= 1.01;
         }
     return camera_orbit(target, distance, azimuth_deg, elevation_deg, film, width, height);
+}
+
+struct camera view_orbit(const struct job *job, double azimuth_deg, int width, int height)
+{
+    return view_around(job, azimuth_deg, 9, width, height);
 }

@@ -19,7 +19,10 @@ struct view view_of(const struct job *job, const struct camera *camera, size_t n
 /* What a pixel of a camera covers where the box is nearest to it, m. */
 double view_pixel(const struct view *view, const struct camera *camera);
 
-/* A camera at `azimuth` (deg, as job cameras have it) that holds the box from every azimuth. */
+/* A camera at `azimuth` and `elevation` (deg, as job cameras have them) that holds the box from every azimuth; of turntables, 9 degrees
+ * up. */
+struct camera view_around(const struct job *job, double azimuth_deg, double elevation_deg, int width,
+                          int height);
 struct camera view_orbit(const struct job *job, double azimuth_deg, int width, int height);
 
 /* Of a point on the level: how far outside the box it is; 0 within. */

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // One ray a pixel into the distance field: where it meets the rock, the normal there, and what light does.
-// hit = (P, camera-plane depth or -1); facing = (N, LIT_SUN + LIT_SKY). With several samples a pixel each takes
+// hit = (P, camera-plane depth; -1: nothing; HIT_GROUND - depth: the ground around); facing = (N, LIT_SUN + LIT_SKY). With several samples a pixel each takes
 // its own point of the sun's disc and its own direction of the sky.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
@@ -32,9 +32,10 @@ void across(vec3 n, out vec3 a, out vec3 b)
     b = cross(n, a);
 }
 
-float lit(uint i, vec3 x, vec3 n)
+// `lift`: how far off the surface, in voxels, rays begin. The field is smooth over one and a half; the ground is not in it.
+float lit(uint i, vec3 x, vec3 n, float lift)
 {
-    vec3 sun = vec3(k.sun_x, k.sun_y, k.sun_z), lifted = x + 1.5 * k.voxel * n, a, b;
+    vec3 sun = vec3(k.sun_x, k.sun_y, k.sun_z), lifted = x + lift * k.voxel * n, a, b;
     float sum = 0.0;
     if (k.rays > 1u) {
         vec2 u = even(i, 1u);
@@ -70,7 +71,12 @@ void main()
         vec3 x = eye + t * along, g = gradient_at(x);
         vec3 n = dot(g, g) > 0.0 ? normalize(g) : -along;
         where = vec4(x, t * dot(along, ahead));
-        normal = vec4(n, lit(i, x, n));
+        normal = vec4(n, lit(i, x, n, 1.5));
+    } else if (k.ground != 0u && along.z < 0.0 && eye.z > 0.0) {
+        float down = -eye.z / along.z;
+        vec3 x = vec3((eye + down * along).xy, 0.0), n = vec3(0.0, 0.0, 1.0);
+        where = vec4(x, HIT_GROUND - down * dot(along, ahead));
+        normal = vec4(n, lit(i, x, n, 0.05));
     }
     AT(hit, i) = where;
     AT(facing, i) = normal;

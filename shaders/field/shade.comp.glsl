@@ -29,7 +29,28 @@ PARAMS(shade_params)
 #include "particles/within.glsl"
 
 const vec3 SAND = vec3(0.52, 0.36, 0.22);
+const vec3 DUST = vec3(0.46, 0.33, 0.22); // the ground, as the sky's light has it that it throws up
 const vec3 GREEN = vec3(0.085, 0.115, 0.045); // dry shrubs
+
+vec3 stone_of(uint j)
+{
+    vec3 stone = LOAD_V(palette, LOAD_U(layer, j)).rgb;
+    if (LOAD_U(phase, j) == PHASE_DEPOSIT)
+        stone = mix(stone, SAND, 0.6);
+    return mix(stone, GREEN, LOAD_F(vegetation, j));
+}
+
+// Sun and sky on a white surface.
+vec3 light_on(vec4 normal)
+{
+    bool sun_seen = mod(normal.w, 2.0) >= LIT_SUN, sky_seen = normal.w >= LIT_SKY;
+    float sun = sun_seen ? max(dot(normal.xyz, vec3(k.sun_x, k.sun_y, k.sun_z)), 0.0) : 0.0;
+    float up = 0.5 + 0.5 * normal.z;
+    // What does not see the sky sees rock, which sends back a part.
+    float open = k.rays == 1u || sky_seen ? 1.0 : 0.12;
+    return sun * vec3(k.sun_r, k.sun_g, k.sun_b) +
+           open * mix(vec3(k.bounce_r, k.bounce_g, k.bounce_b), vec3(k.sky_r, k.sky_g, k.sky_b), up);
+}
 
 void main()
 {
@@ -40,6 +61,8 @@ void main()
     if (k.ray + 1u == k.rays) // the first to come
         AT(color, i) = vec4(0.0);
     if (where.w < 0.0) {
+        if (where.w <= HIT_GROUND)
+            AT(color, i) += vec4(DUST * light_on(LOAD_V(facing, i)), 1.0) / float(k.rays);
         AT(fields, i) = vec4(0.0);
         for (uint b = 0u; b < 3u; b++)
             AT(ids, 3u * i + b) = 0u;
@@ -47,8 +70,11 @@ void main()
     }
     vec3 x = where.xyz;
     ivec3 v = voxel_of(x), low = max(v - 2, ivec3(0)), high = min(v + 2, ivec3(k.nx, k.ny, k.nz) - 1);
-    float nearest = 1e30;
+    float nearest = 1e30, weighed = 0.0, reach = 2.25 * k.h * k.h;
     uint found = 0u;
+    // The colour is that of the particles around, weighed by how near they are: beds and heaps go over into each other within a
+    // spacing, whatever the particles' places.
+    vec3 stone = vec3(0.0);
     for (int z = low.z; z <= high.z; z++)
         for (int y = low.y; y <= high.y; y++) {
             uvec2 row = row_particles(low.x, high.x, y, z);
@@ -58,6 +84,12 @@ void main()
                 if (d2 < nearest) {
                     nearest = d2;
                     found = j;
+                }
+                if (d2 < reach) {
+                    float weight = 1.0 - d2 / reach;
+                    weight *= weight * weight;
+                    stone += weight * stone_of(j);
+                    weighed += weight;
                 }
             }
         }
@@ -77,22 +109,10 @@ void main()
     }
     if (weights > 0.0)
         sum /= weights;
-    vec4 normal = LOAD_V(facing, i);
-    bool sun_seen = mod(normal.w, 2.0) >= LIT_SUN, sky_seen = normal.w >= LIT_SKY;
-    float sun = sun_seen ? max(dot(normal.xyz, vec3(k.sun_x, k.sun_y, k.sun_z)), 0.0) : 0.0;
-    float up = 0.5 + 0.5 * normal.z;
-    // What does not see the sky sees rock, which sends back a part.
-    float open = k.rays == 1u || sky_seen ? 1.0 : 0.12;
-    vec3 light = sun * vec3(k.sun_r, k.sun_g, k.sun_b) +
-                 open * mix(vec3(k.bounce_r, k.bounce_g, k.bounce_b), vec3(k.sky_r, k.sky_g, k.sky_b), up);
-    uint strata = LOAD_U(layer, found);
-    vec3 stone = LOAD_V(palette, strata).rgb;
-    if (LOAD_U(phase, found) == PHASE_DEPOSIT)
-        stone = mix(stone, SAND, 0.6);
-    stone = mix(stone, GREEN, LOAD_F(vegetation, found));
-    AT(color, i) += vec4(stone * light, 1.0) / float(k.rays);
+    stone = weighed > 0.0 ? stone / weighed : stone_of(found);
+    AT(color, i) += vec4(stone * light_on(LOAD_V(facing, i)), 1.0) / float(k.rays);
     AT(fields, i) = sum;
-    AT(ids, 3u * i) = strata;
+    AT(ids, 3u * i) = LOAD_U(layer, found);
     AT(ids, 3u * i + 1u) = LOAD_U(phase, found);
     AT(ids, 3u * i + 2u) = found;
 }

@@ -559,11 +559,15 @@ struct march_params {
     float sun_x, sun_y, sun_z; /* unit vector towards the sun */
     uint ray, rays;            /* of the pixel; a single one has a sun without extent and an open sky */
     float film_x, film_y;      /* px: where in the pixel */
+    uint ground;               /* 1: rays that meet no rock see the level ground at z = 0 */
 };
-SHARED_SIZE(march_params, 116)
+SHARED_SIZE(march_params, 120)
 
 #define LIT_SUN 1.0f
 #define LIT_SKY 2.0f
+
+/* Where a ray meets the ground and no rock, the last of its hit is this, less the depth. */
+#define HIT_GROUND -2.0f
 
 struct shade_params {
     uint n;

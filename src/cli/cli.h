@@ -18,6 +18,7 @@
     X(keys, "[WHAT]",                                                                                        \
       "what may stand in a job: the keys of a section, one key, or all that speak of a word")                \
     X(check, "JOB", "what is wrong with a job, and what would surprise in it; no device")                    \
+    X(look, "JOB", "a picture of one frame in seconds, without a folder; again at each save with --watch")   \
     X(plan, "JOB",                                                                                           \
       "what it would do: frames, particles, memory, disk, time, farm tasks (nothing is written)")            \
     X(status, "OUT", "frames done, missing and damaged, checkpoints, rate, time left")                       \

@@ -109,6 +109,7 @@ static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c
         .voxel = (float)f->voxel,
         .ray = (uint)sample,
         .rays = (uint)samples,
+        .ground = a->ground,
         .film_x = (float)fmod(0.5 + sample * 0.7548776662, 1),
         .film_y = (float)fmod(0.5 + sample * 0.5698402910, 1),
     };
@@ -271,8 +272,6 @@ status aov_render_all(struct gpu *gpu, struct aov *a, const struct job *job, con
                       const struct particles *p, const struct aov_air *air, struct frame *out)
 {
     status st = OK;
-    if (!job_writes(job, JOB_PICTURES, out->number))
-        return OK;
     TRY(memory_alloc(job->output.aov.n_cameras, sizeof *out->image, "pictures", &out->image));
     for (size_t i = 0; i < job->output.aov.n_cameras; i++)
         TRY(aov_render(gpu, a, job, camera_named(job, job->output.aov.cameras[i]), out->number, f, p, air,

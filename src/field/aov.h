@@ -17,6 +17,7 @@ struct aov {
     struct gpu_buffer *pixel;                        /* a word [n_pixels]: of one value after the other */
     struct gpu_buffer *palette;                      /* vec4 [layers] */
     struct gpu_buffer *still;                        /* vec4 [1]: no wind */
+    bool ground; /* set by whoever wants the level ground around the rock to be seen in the colours */
 };
 
 /* The wind as pictures see it: velocities on a lattice. Without `velocity` there is none. */

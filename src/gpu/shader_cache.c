@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/cache.h"
 #include "base/log.h"
 #include "base/path.h"
 #include "gpu/internal.h"
@@ -19,21 +20,13 @@ static const char inside[] = "mesa_shader_cache", mapped[] = "mesa_shader_cache/
 /* In bytes: the mapped file, and kernels. */
 enum { ROOM = 4 << 20 };
 
+/* What the user has told Mesa itself comes behind what hoodoo was told. */
 static bool find_folder(struct path *out)
 {
-    static const struct {
-        const char *variable, *folder;
-    } places[] = {{"HOODOO_CACHE", ""},
-                  {"MESA_SHADER_CACHE_DIR", ""},
-                  {"XDG_CACHE_HOME", "hoodoo"},
-                  {"HOME", ".cache/hoodoo"}};
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        const char *value = getenv(places[i].variable);
-        if (value && *value)
-            return (*places[i].folder ? path_join(out, value, places[i].folder)
-                                      : path_format(out, "%s", value)) == OK;
-    }
-    return false;
+    const char *hoodoo = getenv("HOODOO_CACHE"), *mesa = getenv("MESA_SHADER_CACHE_DIR");
+    if (mesa && *mesa && !(hoodoo && *hoodoo))
+        return path_format(out, "%s", mesa) == OK;
+    return cache_folder(out);
 }
 
 static bool has_room(const char *folder)

@@ -18,9 +18,15 @@ struct leaf {
     size_t end;
 };
 
+/* What of it: all; or, for the hash of a frame, what has the same value in all frames, or what one frame has. */
+enum walk_part { WALK_ALL, WALK_STEADY, WALK_MOMENT };
+
 /* Walks the job once for all uses: its canonical form of what is simulated, or of what the files of frames have, or the files it
  * reads. */
 struct walk {
+    enum walk_part part;
+    int frame;               /* WALK_MOMENT */
+    const struct job *whole; /* for a frame's hash: the job as loaded, which has the edits */
     struct text canonical;
     struct leaf *leaf; /* if wanted */
     size_t n_leaves, leaf_capacity;
@@ -55,9 +61,24 @@ static void put_range(struct walk *w, struct frame_range range)
     put_number(w, range.step);
 }
 
-/* A curve that never changes is a number, however it is written. */
+/* A curve that never changes is a number, however it is written. Of all frames together counts only whether it is ever above 0: a
+ * model has no room for water, say, where none ever flows. */
 static void put_curve(struct walk *w, const struct curve *c, size_t width)
 {
+    double now[3];
+    if (w->part == WALK_STEADY) {
+        put_count(w, width == 1 && curve_max(c) > 0);
+        return;
+    }
+    if (w->part == WALK_MOMENT) {
+        if (width == 1)
+            now[0] = curve_at(c, w->frame);
+        else
+            track_at(c, w->frame, now);
+        for (size_t a = 0; a < width; a++)
+            put_number(w, now[a]);
+        return;
+    }
     put_count(w, c->n);
     for (size_t i = 0; i < c->n; i++) {
         if (c->n > 1)
@@ -102,6 +123,7 @@ static status walk_input(struct walk *w, const char *path)
 
 static status walk_section(struct walk *w, enum job_section_id section, const void *base);
 static status walk_key(struct walk *w, const struct job_key *key, const void *base);
+static status walk_sets(struct walk *w, const struct job_sets *sets);
 
 /* Adds ".name" to the path; returns its length before, for path_back(). */
 static size_t path_add(struct walk *w, const char *name)
@@ -146,16 +168,44 @@ done:
     return st;
 }
 
+/* An edit or an operation, wholly in the frames in which it is done. Of an edit's settings the steady ones are known from the start,
+ * and whether it ever plants anything: rooms are laid out by them. */
+static status walk_deed(struct walk *w, enum job_section_id section, const void *item)
+{
+    status st = OK;
+    const struct job_edit *edit = item;
+    const struct job_operation *operation = item;
+    const enum walk_part part = w->part;
+    const struct frame_range when = section == SECTION_edit
+                                        ? (struct frame_range){(int)edit->frame, (int)edit->frame, 1}
+                                        : operation->frames;
+    if (part == WALK_STEADY && section == SECTION_edit) {
+        bool plants = false;
+        for (size_t k = 0; k < edit->n_paint; k++)
+            plants |= edit->paint[k].vegetation > 0;
+        put_count(w, plants);
+        TRY(walk_sets(w, &edit->set));
+    } else if (part == WALK_MOMENT && range_holds(when, w->frame)) {
+        w->part = WALK_ALL;
+        TRY(walk_section(w, section, item));
+    }
+done:
+    w->part = part;
+    return st;
+}
+
 static status walk_items(struct walk *w, const struct job_key *key, const void *base)
 {
+    const bool deeds = w->part != WALK_ALL && (key->child == SECTION_edit || key->child == SECTION_operation);
     const struct job_section *child = &job_sections[key->child];
     size_t n;
-    const char *items = key_items(key, base, &n);
+    const char *items = key_items(key, deeds && key->child == SECTION_edit ? w->whole : base, &n);
     status st = OK;
-    put_count(w, n);
+    if (!deeds)
+        put_count(w, n);
     for (size_t i = 0; i < n; i++) {
         size_t back = path_add_index(w, i);
-        TRY(walk_section(w, (enum job_section_id)key->child, items + i * child->size));
+        TRY((deeds ? walk_deed : walk_section)(w, (enum job_section_id)key->child, items + i * child->size));
         path_back(w, back);
     }
 done:
@@ -176,6 +226,16 @@ done:
     return st;
 }
 
+/* Whether a key can have another value in another frame, or holds keys that can. Nodes cannot. */
+static bool key_has_moments(const struct job_key *key)
+{
+    static const enum key_type those[] = {KEY_CURVE, KEY_TRACK, KEY_SUB, KEY_MAYBE, KEY_LIST, KEY_MAP};
+    bool has = false;
+    for (size_t i = 0; i < sizeof those / sizeof *those; i++)
+        has |= key->type == those[i];
+    return has;
+}
+
 static status walk_key(struct walk *w, const struct job_key *key, const void *base)
 {
     const void *member = key_member(key, base);
@@ -185,6 +245,8 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
     const double *points;
     const void *child;
     size_t n;
+    if (w->part == WALK_MOMENT && !key_has_moments(key))
+        return OK;
     switch (key->type) {
     case KEY_TEXT:
     case KEY_NAME:
@@ -308,7 +370,7 @@ static status walk_section(struct walk *w, enum job_section_id section, const vo
         put_text(w, key->name);
         const size_t at = w->canonical.size;
         TRY(walk_key(w, key, base));
-        if (!w->of_files && key_later(key))
+        if (!w->of_files && w->part == WALK_ALL && key_later(key))
             TRY(is_default(w, section, key, at, &leave));
         if (leave)
             w->canonical.size = before;
@@ -397,6 +459,26 @@ status job_hash(const struct job *job, uint64_t *hash)
 status job_files_hash(const struct job *job, uint64_t *hash)
 {
     return hash_of(&(struct walk){.of_files = true}, job, hash);
+}
+
+status job_frame_hashes(const struct job *job, int last, uint64_t *hash)
+{
+    status st = OK;
+    struct walk w = {.part = WALK_STEADY, .whole = job};
+    TRY(walk_job(&w, job));
+    for (int frame = job->frames.first; frame <= last; frame++) {
+        const size_t at = (size_t)(frame - job->frames.first);
+        w.part = WALK_MOMENT;
+        w.frame = frame;
+        TRY(walk_section(&w, SECTION_job, job_at(job, frame)));
+        TRY(text_status(&w.canonical));
+        hash[at] = hash_bytes(w.canonical.data, w.canonical.size);
+        w.canonical.size = 0;
+        put_count(&w, hash[at]);
+    }
+done:
+    walk_end(&w);
+    return st;
 }
 
 /* Where a leaf begins. */

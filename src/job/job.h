@@ -215,6 +215,11 @@ MUST_USE status job_hash(const struct job *job, uint64_t *hash);
 /* The same of everything else that the files of frames depend on (keys.def's FILES, and the cameras of output.aov.cameras). */
 MUST_USE status job_files_hash(const struct job *job, uint64_t *hash);
 
+/* hash[i]: of everything that the state in frame `first + i` depends on, up to `last`: what is steady, and the curves, edits and
+ * operations of the frames up to it. Two jobs with the same hash of a frame have the same state there. Of one build of hoodoo: it is not
+ * for files. */
+MUST_USE status job_frame_hashes(const struct job *job, int last, uint64_t *hash);
+
 /* The first key, in the table's order, in which two jobs differ: of those that are simulated, or that files have. "frames" if they
  * differ in nothing else. */
 MUST_USE status job_differ(const struct job *one, const struct job *other, bool files, char path[256]);

@@ -239,13 +239,22 @@ status model_output(struct model *m, struct frame *out)
     return st;
 }
 
+status model_pictures(struct model *m, struct frame *out)
+{
+    m->only_pictures = m->aov.ground = true;
+    const status st = model_output(m, out);
+    m->only_pictures = m->aov.ground = false;
+    return st;
+}
+
 struct frame_wants model_wants(const struct model *m)
 {
     const struct job *job = m->whole;
+    const bool only = m->only_pictures;
     struct frame_wants wants = {
-        .points = job_writes(job, JOB_POINTS, m->frame),
-        .volumes = job_writes(job, JOB_VOLUMES, m->frame),
-        .pictures = job->output.aov.n_cameras > 0 && job_writes(job, JOB_PICTURES, m->frame),
+        .points = !only && job_writes(job, JOB_POINTS, m->frame),
+        .volumes = !only && job_writes(job, JOB_VOLUMES, m->frame),
+        .pictures = job->output.aov.n_cameras > 0 && (only || job_writes(job, JOB_PICTURES, m->frame)),
     };
     wants.air = (wants.volumes && job->output.vdb.wind) ||
                 (wants.pictures && job_wants_layer(job, value_table[VALUE_wind].layer));

@@ -45,6 +45,10 @@ int model_frame(const struct model *model);
 /* What there is to write of this frame, in host memory: frame_free(). */
 MUST_USE status model_output(struct model *model, struct frame *out);
 
+/* Its pictures alone, in out->image, whichever frames the job has pictures of: those of output.aov.cameras. The level ground around the
+ * rock, on which it throws its shadow, is in their colours: opaque, and nowhere in the other layers. frame_free(). */
+MUST_USE status model_pictures(struct model *model, struct frame *out);
+
 /* The state, as sections that *out owns: checkpoint_free(). Provenance is the caller's to fill in. */
 MUST_USE status model_save(struct model *model, struct checkpoint *out);
 

@@ -27,7 +27,8 @@ struct model {
     int64_t change[PROCESSES]; /* quanta, in the last frame */
     struct gpu_work *work;
     struct field field;
-    struct aov aov; /* where the job has pictures */
+    struct aov aov;     /* where the job has pictures */
+    bool only_pictures; /* nothing else is wanted of this frame, and those in any case */
     const struct particles
         *shown;               /* the rock as particles, as long as it is on the device; NULL: it is not */
     struct gpu_buffer *found; /* numbers.h */

@@ -1,0 +1,17 @@
+#include "base/cache.h"
+
+#include <stdlib.h>
+
+bool cache_folder(struct path *out)
+{
+    static const struct {
+        const char *variable, *folder;
+    } places[] = {{"HOODOO_CACHE", ""}, {"XDG_CACHE_HOME", "hoodoo"}, {"HOME", ".cache/hoodoo"}};
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const char *value = getenv(places[i].variable);
+        if (value && *value)
+            return (*places[i].folder ? path_join(out, value, places[i].folder)
+                                      : path_format(out, "%s", value)) == OK;
+    }
+    return false;
+}

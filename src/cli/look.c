@@ -1,0 +1,309 @@
+/* hoodoo look JOB: a picture of one frame in seconds, and again whenever the job is saved. */
+#include "look/look.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "base/progress.h"
+#include "base/signals.h"
+#include "cli/cli.h"
+
+#define QUALITY_CHOICE (QUALITY_SKETCH, "sketch")(QUALITY_DRAFT, "draft")(QUALITY_FULL, "full")
+enum { CHOICE_CONSTANTS(QUALITY_CHOICE) };
+
+/* Of a quality: how long simulating may take, how wide the picture is, and its rays a pixel. */
+static const struct quality {
+    double seconds;
+    int width, samples;
+} qualities[] = {{2, 640, 4}, {20, 960, 9}, {HUGE_VAL, 1280, 16}};
+
+/* A file, as it was when it was looked at. */
+struct watched {
+    struct path path;
+    struct timespec modified;
+    off_t size;
+    bool there;
+};
+
+struct looking {
+    struct common common;
+    const char *job;
+    struct look_options options;
+    struct progress progress;
+    bool watch, abandoned;
+    struct watched *file; /* the job, and what it reads */
+    size_t n_files, capacity;
+};
+
+/* ---- files that are watched */
+
+static struct watched stat_of(const char *path)
+{
+    struct watched w = {0};
+    struct stat info;
+    if (path_format(&w.path, "%s", path) == OK && stat(path, &info) == 0) {
+        w.there = true;
+        w.modified = info.st_mtim;
+        w.size = info.st_size;
+    }
+    return w;
+}
+
+static status watch_file(struct looking *l, const char *path)
+{
+    status st = memory_grow(&l->file, &l->capacity, l->n_files + 1, sizeof *l->file, "watched files");
+    if (st == OK)
+        l->file[l->n_files++] = stat_of(path);
+    return st;
+}
+
+/* What the job reads, if it can be read: else it is known from before. */
+static status watch_all(struct looking *l)
+{
+    status st = OK;
+    struct job *job = NULL;
+    struct job_input *inputs = NULL;
+    size_t n = 0;
+    const bool hushed = log_hush(true);
+    if (job_load(l->job, l->common.sets.word, l->common.sets.n, &job) != OK ||
+        job_inputs(job, &inputs, &n) != OK) {
+        for (size_t i = 0; i < l->n_files; i++)
+            l->file[i] = stat_of(l->file[i].path.text);
+        if (l->n_files == 0)
+            TRY(watch_file(l, l->job));
+        goto done;
+    }
+    l->n_files = 0;
+    TRY(watch_file(l, l->job));
+    for (size_t i = 0; i < n; i++)
+        TRY(watch_file(l, inputs[i].path));
+done:
+    log_hush(hushed);
+    free(inputs);
+    job_destroy(&job);
+    return st;
+}
+
+static bool has_changed(const struct looking *l)
+{
+    for (size_t i = 0; i < l->n_files; i++) {
+        const struct watched now = stat_of(l->file[i].path.text), *was = &l->file[i];
+        if (now.there != was->there || now.size != was->size || now.modified.tv_sec != was->modified.tv_sec ||
+            now.modified.tv_nsec != was->modified.tv_nsec)
+            return true;
+    }
+    return false;
+}
+
+static void pause_seconds(double seconds)
+{
+    struct timespec t = {0, (long)(1e9 * seconds)};
+    nanosleep(&t, NULL);
+}
+
+/* ---- a look */
+
+static bool should_stop(void *user)
+{
+    struct looking *l = user;
+    l->abandoned = l->watch && has_changed(l);
+    return l->abandoned || stop_requested();
+}
+
+static void begin(void *user, struct frame_range frames)
+{
+    struct looking *l = user;
+    progress_begin(&l->progress, (enum progress_style)l->common.progress, frames, 1);
+}
+
+static void frame_done(void *user, int frame)
+{
+    struct looking *l = user;
+    progress_frame(&l->progress, frame, -1, "");
+}
+
+static void print_words(const struct look_made *m)
+{
+    char time[32];
+    printf("%s: %s, frame %d, at %.4g m", m->path, m->name, m->frame, m->spacing_m);
+    if (m->spacing_m != m->own_spacing_m)
+        printf(" (the job's spacing is %.4g)", m->own_spacing_m);
+    if (m->air_m > 0)
+        printf(", air at %.3g m", m->air_m);
+    printf("\n%d frames simulated", m->frame - m->began);
+    if (m->found)
+        printf(", from the state of frame %d", m->began);
+    printf("; load %.1f s, simulate %.1f s, picture %.1f s\n", m->load_seconds, m->step_seconds,
+           m->picture_seconds);
+    if (m->spacing_m != m->own_spacing_m)
+        printf("as the job is written: about %zu particles for the %zu here, and %s or so to this frame\n",
+               m->own_particles, m->n_particles, duration_text(m->own_seconds, time));
+    printf("%s", m->gizmos.data ? m->gizmos.data : "");
+}
+
+static status print_json(const struct look_made *m)
+{
+    status st = OK;
+    struct text t = {0};
+    json_object(&t, NULL);
+    json_text(&t, "picture", m->path);
+    json_text(&t, "name", m->name);
+    json_integer(&t, "frame", m->frame);
+    json_number(&t, "years", m->years);
+    json_number(&t, "spacing_m", m->spacing_m);
+    json_number(&t, "job_spacing_m", m->own_spacing_m);
+    json_integer(&t, "particles", (int64_t)m->n_particles);
+    json_integer(&t, "job_particles", (int64_t)m->own_particles);
+    json_integer(&t, "from_frame", m->began);
+    json_bool(&t, "state_found", m->found);
+    json_number(&t, "load_seconds", m->load_seconds);
+    json_number(&t, "simulate_seconds", m->step_seconds);
+    json_number(&t, "picture_seconds", m->picture_seconds);
+    json_number(&t, "job_seconds", round(m->own_seconds));
+    json_end_object(&t);
+    TRY(text_status(&t));
+    printf("%s\n", t.data);
+done:
+    text_free(&t);
+    return st;
+}
+
+static status look_once(struct looking *l, struct look *look)
+{
+    status st = OK;
+    struct look_made made = {0};
+    st = look_make(look, &l->options, &made);
+    progress_end(&l->progress);
+    if (st == OK && l->common.json)
+        st = print_json(&made);
+    else if (st == OK)
+        print_words(&made);
+    fflush(stdout);
+    text_free(&made.gizmos);
+    return st;
+}
+
+/* What the user can mend in the job, so that it is worth waiting for. */
+static bool is_theirs(status st)
+{
+    return st == E_USAGE || st == E_INPUT || st == E_NUMERIC || st == E_MEMORY;
+}
+
+/* Until a signal comes: then all is done that was asked for. */
+static status look_on(struct looking *l, struct look *look)
+{
+    status st = OK;
+    for (;;) {
+        TRY(watch_all(l));
+        st = look_once(l, look);
+        if (st == STOPPED && !l->abandoned)
+            return OK;
+        if (is_theirs(st))
+            log_error(status_message());
+        else if (st != STOPPED)
+            TRY(st);
+        st = OK;
+        while (!has_changed(l)) {
+            if (stop_requested())
+                return OK;
+            pause_seconds(0.1);
+        }
+        pause_seconds(0.05); /* whoever saves may write in pieces */
+    }
+done:
+    return st;
+}
+
+/* ---- the verb */
+
+static status take_options(struct looking *l, int quality, int show, double seconds, double spacing)
+{
+    struct sketch_options *s = &l->options.sketch;
+    s->path = l->job;
+    s->sets = l->common.sets.word;
+    s->n_sets = l->common.sets.n;
+    s->width = qualities[quality].width;
+    s->samples = qualities[quality].samples;
+    s->seconds = seconds > 0 ? seconds : qualities[quality].seconds;
+    s->spacing_m = spacing;
+    s->show = show_of_word(show);
+    if (seconds < 0 || spacing < 0)
+        return fail(E_USAGE, "%s %g: a number above 0 is wanted", seconds < 0 ? "--seconds" : "--spacing",
+                    seconds < 0 ? seconds : spacing);
+    if (seconds > 0 && spacing > 0)
+        return fail(E_USAGE, "--seconds chooses a spacing, and --spacing is one: give either");
+    if (l->options.range && s->show == VALUE_NONE)
+        return fail(E_USAGE, "--range %.40s: only values have one; say which with --show", l->options.range);
+    if (s->show != VALUE_NONE && !value_table[s->show].channel[0])
+        return fail(E_USAGE, "--show %s: pictures have no layer of it; 'hoodoo preview' shows it",
+                    value_table[s->show].name);
+    return OK;
+}
+
+status cli_look(int argc, char **argv)
+{
+    status st = OK;
+    struct words operands = {0};
+    struct look *look = NULL;
+    struct looking l = {0};
+    char shown[SHOW_WORDS];
+    double seconds = 0, spacing = 0;
+    int quality = QUALITY_SKETCH, show = 0;
+    bool help = false;
+    const struct option options[] = {
+        {"frame", "N|last", OPTION_TEXT, &l.options.sketch.frame, "which frame (default last)"},
+        {"camera", "NAME|AZ,EL", OPTION_TEXT, &l.options.sketch.camera,
+         "of the job, or a direction in degrees to see all of the domain from, such as -55,9 (default: the "
+         "job's first camera)"},
+        {"quality", CHOICE_TEXT(QUALITY_CHOICE), OPTION_CHOICE, &quality,
+         "sketch: simulated in about 2 seconds; draft: in 20, and a larger picture; full: at the job's own "
+         "spacing (default sketch)"},
+        {"seconds", "S", OPTION_NUMBER, &seconds, "choose a spacing that takes about so long to simulate"},
+        {"spacing", "M", OPTION_NUMBER, &spacing, "this spacing, in metres"},
+        {"show", show_words(shown), OPTION_CHOICE, &show,
+         "a value of the surface as colours, with a legend (default rock: as it looks)"},
+        {"range", "LO:HI", OPTION_TEXT, &l.options.range,
+         "what the colours span, in the legend's unit (default: the range that previews of the job have)"},
+        {"figure", NULL, OPTION_FLAG, &l.options.figure, "a person of 1.75 m stands before the rock"},
+        {"no-gizmos", NULL, OPTION_FLAG, &l.options.no_gizmos,
+         "without the lines that show domain, wind, water's ways, paint, edits, tools and cameras"},
+        {"no-slate", NULL, OPTION_FLAG, &l.options.no_slate,
+         "without the scale bar and the strip that says name, frame and age"},
+        {"watch", NULL, OPTION_FLAG, &l.watch,
+         "again whenever the job or a file that it reads is saved, until Ctrl-C; what is wrong with the job "
+         "is "
+         "said, and waited for"},
+        {"out", "PNG", OPTION_TEXT, &l.options.out, "the picture (default NAME.look.png)"},
+        OPTION_WEDGE(&l.options.sketch.wedge),
+        OPTION_DEVICE(&l.common),
+        OPTION_SET(&l.common),
+        OPTION_PROGRESS(&l.common),
+        OPTION_JSON(&l.common)};
+    TRY(options_parse(&usage_look, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
+    if (help)
+        goto done;
+    l.job = operands.word[0];
+    TRY(take_options(&l, quality, show, seconds, spacing));
+    l.options.stop = should_stop;
+    l.options.begin = begin;
+    l.options.frame = frame_done;
+    l.options.user = &l;
+    signals_install();
+    TRY(look_begin(l.common.device, &look));
+    l.options.sketch.gpu = look_on_gpu(look);
+    TRY(l.watch ? look_on(&l, look) : look_once(&l, look));
+done:
+    progress_end(&l.progress);
+    look_end(&look);
+    free(l.file);
+    words_free(&operands);
+    common_free(&l.common);
+    return st;
+}

@@ -1,0 +1,213 @@
+#include "look/look.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "base/memory.h"
+#include "base/vector.h"
+#include "gpu/gpu.h"
+#include "look/figure.h"
+#include "look/gizmos.h"
+#include "look/print.h"
+#include "look/shot.h"
+#include "look/states.h"
+#include "model/model.h"
+#include "run/room.h"
+
+/* Of a run, as many states are kept about, evenly, besides that of the frame looked at. */
+enum { KEPT_STATES = 16 };
+
+struct look {
+    struct gpu *gpu;
+    struct states states;
+};
+
+status look_begin(const char *device, struct look **out)
+{
+    status st = OK;
+    struct look *l = NULL;
+    TRY(memory_alloc(1, sizeof *l, "a look", &l));
+    TRY(gpu_create(&(struct gpu_options){.device = device}, &l->gpu));
+    states_open(gpu_info(l->gpu), &l->states);
+    *out = l;
+    l = NULL;
+done:
+    look_end(&l);
+    return st;
+}
+
+void look_end(struct look **look)
+{
+    if (!*look)
+        return;
+    states_trim(&(*look)->states);
+    gpu_destroy(&(*look)->gpu);
+    free(*look);
+    *look = NULL;
+}
+
+bool look_on_gpu(const struct look *look)
+{
+    return !gpu_info(look->gpu)->is_cpu;
+}
+
+/* ---- the state */
+
+/* The model in the latest frame of which a state is kept, or in the job's first. */
+static status start(struct look *l, const struct sketch *s, const uint64_t *hash, struct look_made *made,
+                    struct model **out)
+{
+    status st = OK;
+    const size_t n = (size_t)(s->frame - s->job->frames.first) + 1;
+    struct model_estimate e;
+    struct checkpoint c = {0};
+    TRY(room_check(l->gpu, s->job, &e));
+    made->n_particles = e.n_particles;
+    for (size_t at = n; !*out;) {
+        at = states_find(&l->states, hash, at, &c);
+        made->found = at < n;
+        st = model_create(l->gpu, s->job, made->found ? &c : NULL, out);
+        checkpoint_free(&c);
+        if (st != E_CHECKPOINT || !made->found)
+            break;
+        states_drop(&l->states, hash[at]);
+    }
+    made->began = *out ? model_frame(*out) : 0;
+done:
+    return st;
+}
+
+static status keep(struct look *l, struct model *m, uint64_t hash)
+{
+    status st = OK;
+    struct checkpoint c = {0};
+    if (states_has(&l->states, hash))
+        return OK;
+    TRY(model_save(m, &c));
+    states_keep(&l->states, hash, &c);
+done:
+    checkpoint_free(&c);
+    return st;
+}
+
+static status reach(struct look *l, const struct sketch *s, const struct look_options *o,
+                    struct look_made *made, struct model **out)
+{
+    status st = OK;
+    const int first = s->job->frames.first,
+              stride = (int)fmax(1, ceil((double)(s->frame - first) / KEPT_STATES));
+    uint64_t *hash = NULL;
+    TRY(memory_alloc((size_t)(s->frame - first) + 1, sizeof *hash, "hashes of frames", &hash));
+    TRY(job_frame_hashes(s->job, s->frame, hash));
+    TRY(start(l, s, hash, made, out));
+    if (o->begin)
+        o->begin(o->user, (struct frame_range){made->began, s->frame, 1});
+    for (;;) {
+        const int frame = model_frame(*out);
+        if ((frame - first) % stride == 0 || frame == s->frame)
+            TRY(keep(l, *out, hash[frame - first]));
+        if (frame == s->frame)
+            break;
+        if (o->stop && o->stop(o->user)) {
+            TRY(keep(l, *out, hash[frame - first]));
+            st = fail(STOPPED,
+                      "stopped after frame %d, whose state is kept; run the same command again to go on",
+                      frame);
+            goto done;
+        }
+        TRY(model_step(*out));
+        if (o->frame)
+            o->frame(o->user, frame + 1);
+    }
+done:
+    free(hash);
+    return st;
+}
+
+/* ---- the picture */
+
+static void describe(const struct look_options *o, const struct sketch *s, const struct camera *c,
+                     struct show_range range, struct slate *out)
+{
+    const struct job *job = s->job;
+    double to_middle[3];
+    char when[96];
+    *out = (struct slate){.width = c->width, .height = c->height, .show = o->sketch.show, .range = range};
+    if (o->no_slate)
+        return;
+    for (int k = 0; k < 3; k++)
+        to_middle[k] = 0.5 * job->domain.size_m[k] - c->eye[k];
+    const double depth = dot3(to_middle, c->ahead);
+    if (depth > 0)
+        out->px_per_m = 0.5 * c->width / sqrt(dot3(c->right, c->right)) / depth;
+    slate_when(job, s->frame, when);
+    snprintf(out->left, sizeof out->left, "%.64s   %s", job->name, when);
+    snprintf(out->right, sizeof out->right, "at %.3g m", job->domain.spacing_m);
+}
+
+static status picture(struct look *l, const struct sketch *s, const struct look_options *o, struct model *m,
+                      struct look_made *made)
+{
+    status st = OK;
+    struct frame frame = {0};
+    struct shot shot = {0};
+    struct slate slate;
+    struct path path;
+    const struct camera camera = camera_of(s->camera, s->frame);
+    struct show_range range = show_job_range(o->sketch.show, s->job);
+    (void)l;
+    if (o->range)
+        TRY(show_parse_range(o->sketch.show, o->range, &range));
+    if (o->out)
+        TRY(path_format(&path, "%s", o->out));
+    else
+        TRY(path_format(&path, "%s.look.png", s->job->name));
+    TRY(model_pictures(m, &frame));
+    made->years = frame.years;
+    TRY(shot_make(s->job, s->frame, &frame.image[0], &camera, o->sketch.show, range, &shot));
+    if (o->figure)
+        figure_draw(s->job, s->frame, &shot);
+    if (!o->no_gizmos)
+        gizmos_draw(s->job, s->frame, s->camera, &shot, &made->gizmos);
+    describe(o, s, &camera, range, &slate);
+    TRY(print_picture(&shot, &slate, path.text));
+    snprintf(made->path, sizeof made->path, "%.*s", (int)sizeof made->path - 1, path.text);
+done:
+    shot_free(&shot);
+    frame_free(&frame);
+    return st;
+}
+
+status look_make(struct look *l, const struct look_options *o, struct look_made *made)
+{
+    status st = OK;
+    const double began = clock_seconds();
+    struct sketch s = {0};
+    struct model *m = NULL;
+    *made = (struct look_made){0};
+    TRY(sketch_load(&o->sketch, &s));
+    const double loaded = clock_seconds();
+    TRY(reach(l, &s, o, made, &m));
+    const double there = clock_seconds();
+    TRY(picture(l, &s, o, m, made));
+    snprintf(made->name, sizeof made->name, "%s", s.job->name);
+    made->frame = s.frame;
+    made->spacing_m = s.job->domain.spacing_m;
+    made->own_spacing_m = s.own_spacing_m;
+    made->own_particles = s.own_particles;
+    made->air_m = s.job->wind.flow.solver == FLOW_SPH ? s.job->wind.flow.spacing_m : 0;
+    made->load_seconds = loaded - began;
+    made->step_seconds = there - loaded;
+    made->picture_seconds = clock_seconds() - there;
+    made->own_seconds = sketch_own_seconds(&s, look_on_gpu(l));
+done:
+    if (st != OK)
+        text_free(&made->gizmos);
+    model_destroy(&m);
+    sketch_free(&s);
+    return st;
+}

@@ -1,0 +1,255 @@
+#include "look/sketch.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/log.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "model/model.h"
+#include "render/view.h"
+
+/* Seconds on two cores: of a frame however small, and of a particle in a step. */
+static const double FRAME_SECONDS = 0.025, STEP_SECONDS = 4e-6;
+
+/* ---- what is set over the job's own */
+
+enum { SETS_MOST = 16 };
+
+struct sets {
+    const char **word; /* the user's, then ours */
+    size_t n, n_user;
+    struct text text[SETS_MOST];
+};
+
+static status sets_begin(const struct sketch_options *o, struct sets *s)
+{
+    status st = OK;
+    *s = (struct sets){.n = o->n_sets, .n_user = o->n_sets};
+    TRY(memory_alloc(o->n_sets + SETS_MOST, sizeof *s->word, "settings", &s->word));
+    for (size_t i = 0; i < o->n_sets; i++)
+        s->word[i] = o->sets[i];
+done:
+    return st;
+}
+
+static void sets_free(struct sets *s)
+{
+    for (size_t i = s->n_user; i < s->n; i++)
+        text_free(&s->text[i - s->n_user]);
+    free(s->word);
+}
+
+/* The text of another setting, to be filled before sets_ready(). */
+static struct text *sets_more(struct sets *s)
+{
+    return &s->text[s->n++ - s->n_user];
+}
+
+static status sets_ready(struct sets *s)
+{
+    status st = OK;
+    for (size_t i = s->n_user; i < s->n; i++) {
+        TRY(text_status(&s->text[i - s->n_user]));
+        s->word[i] = s->text[i - s->n_user].data;
+    }
+done:
+    return st;
+}
+
+/* ---- the camera */
+
+/* "AZIMUTH,ELEVATION" */
+static bool parse_direction(const char *text, double *azimuth, double *elevation)
+{
+    char rest;
+    return text && sscanf(text, "%lf,%lf%c", azimuth, elevation, &rest) == 2 && fabs(*azimuth) <= 36000 &&
+           fabs(*elevation) <= 90;
+}
+
+/* Its shape, no wider than asked for. */
+static void limit(const double resolution[2], int width, int out[2])
+{
+    const double share = fmin(1, width / resolution[0]);
+    for (int i = 0; i < 2; i++)
+        out[i] = (int)fmax(8, round(resolution[i] * share));
+}
+
+static status set_camera(const struct job *job, const struct sketch_options *o, struct sets *s, char name[72])
+{
+    double azimuth = -55, elevation = 9;
+    const bool direction = parse_direction(o->camera, &azimuth, &elevation);
+    int size[2];
+    size_t at = 0;
+    while (!direction && o->camera && at < job->n_cameras && strcmp(job->cameras[at].name, o->camera) != 0)
+        at++;
+    if (!direction && o->camera && at == job->n_cameras)
+        return fail(E_USAGE,
+                    "--camera %.60s: the job has no camera of that name; a direction is AZIMUTH,ELEVATION in "
+                    "degrees, such as -55,9",
+                    o->camera);
+    if (direction || job->n_cameras == 0) {
+        const double wide[2] = {960, 540};
+        limit(wide, o->width, size);
+        const struct camera c = view_around(job, azimuth, elevation, size[0], size[1]);
+        snprintf(name, 72, "look");
+        text_add(sets_more(s),
+                 "cameras.look={position_m: [%.17g, %.17g, %.17g], target_m: [%.17g, %.17g, %.17g], "
+                 "focal_mm: 35, aperture_mm: 36, resolution: [%d, %d]}",
+                 c.eye[0], c.eye[1], c.eye[2], c.eye[0] + c.ahead[0], c.eye[1] + c.ahead[1],
+                 c.eye[2] + c.ahead[2], size[0], size[1]);
+    } else {
+        const struct job_camera *c = &job->cameras[at];
+        limit(c->resolution, o->width, size);
+        snprintf(name, 72, "%s", c->name);
+        text_add(sets_more(s), "cameras.%s.resolution=[%d, %d]", name, size[0], size[1]);
+        text_add(sets_more(s), "cameras.%s.overscan=0", name);
+    }
+    return OK;
+}
+
+/* ---- the frame */
+
+static status choose_frame(const struct job *job, const char *text, int *out)
+{
+    char frames[48], *end;
+    const long frame = text ? strtol(text, &end, 10) : 0;
+    *out = job->frames.last;
+    if (!text || strcmp(text, "last") == 0)
+        return OK;
+    if (*end || end == text || frame < job->frames.first || frame > job->frames.last)
+        return fail(E_USAGE, "--frame %.40s: the job's frames are %s; or write last", text,
+                    range_text(job->frames, frames));
+    *out = (int)frame;
+    return OK;
+}
+
+/* ---- the spacing */
+
+static double seconds_of(double work, int frames, bool gpu)
+{
+    return FRAME_SECONDS * frames + STEP_SECONDS * work / (gpu ? LOOK_GPU : 1);
+}
+
+double sketch_own_seconds(const struct sketch *s, bool gpu)
+{
+    return seconds_of(s->own_work, s->frame - s->job->frames.first, gpu);
+}
+
+/* Particles times steps at so many times the job's spacing: particles fill space, and what erodes by a voxel takes a step, but a
+ * frame takes one at least. */
+static double work_at(const struct model_estimate *e, double frames, double factor)
+{
+    return (double)e->n_particles / (factor * factor * factor) * fmax(e->steps / factor, frames);
+}
+
+static double choose_factor(const struct model_estimate *e, int frames, double seconds, bool gpu)
+{
+    static const double factors[] = {1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32};
+    enum { N = sizeof factors / sizeof *factors };
+    double factor = 1;
+    for (int i = 0; i < N && (double)e->n_particles / pow(factors[i], 3) >= (i ? LOOK_LEAST : 0); i++) {
+        factor = factors[i];
+        if (seconds_of(work_at(e, frames, factor), frames, gpu) <= seconds)
+            break;
+    }
+    return factor;
+}
+
+static status set_spacing(const struct job *job, const struct sketch_options *o, struct sets *s,
+                          struct sketch *out)
+{
+    status st = OK;
+    const int frames = out->frame - job->frames.first;
+    const double *size = job->domain.size_m, own = job->domain.spacing_m;
+    struct model_estimate e;
+    double factor = 1;
+    TRY(model_estimate(job, &e));
+    e.steps *= (double)frames / fmax(job->frames.last - job->frames.first, 1);
+    if (o->spacing_m > 0)
+        factor = o->spacing_m / own;
+    else if (isfinite(o->seconds))
+        factor = choose_factor(&e, frames, o->seconds, o->gpu);
+    out->own_spacing_m = own;
+    out->own_particles = e.n_particles;
+    out->own_work = work_at(&e, frames, 1);
+    out->n_particles = (size_t)((double)e.n_particles / pow(factor, 3));
+    out->work = work_at(&e, frames, factor);
+    if (factor == 1 && o->spacing_m <= 0)
+        goto done;
+    text_add(sets_more(s), "domain.spacing_m=%.17g", own * factor);
+    if (job->arches.cell_m > 0)
+        text_add(sets_more(s), "arches.cell_m=%.17g", job->arches.cell_m * factor);
+    if (job->wind.flow.solver == FLOW_SPH)
+        text_add(sets_more(s), "wind.flow.spacing_m=%.17g",
+                 fmax(job->wind.flow.spacing_m, fmax(fmax(size[0], size[1]), size[2]) / 6));
+done:
+    return st;
+}
+
+/* ---- the job */
+
+static status load(const struct sketch_options *o, const char *const *sets, size_t n, struct job **out)
+{
+    status st = OK;
+    struct job *base = NULL;
+    TRY(job_load(o->path, sets, n, &base));
+    if (o->wedge) {
+        TRY(job_load_wedge(o->path, sets, n, base, o->wedge, out));
+    } else {
+        *out = base;
+        base = NULL;
+    }
+done:
+    job_destroy(&base);
+    return st;
+}
+
+static void set_pictures(const struct sketch_options *o, const char *camera, struct sets *s)
+{
+    text_add(sets_more(s), "output.aov.cameras=[%s]", camera);
+    text_add(sets_more(s), "output.aov.layers=[rgba, depth, N, P%s%s]", o->show ? ", " : "",
+             o->show ? value_table[o->show].layer : "");
+    text_add(sets_more(s), "output.aov.samples=%d", o->samples);
+    text_add(sets_more(s), "output.aov.cryptomatte=false");
+    text_add(sets_more(s), "output.up=z");
+}
+
+status sketch_load(const struct sketch_options *o, struct sketch *out)
+{
+    status st = OK;
+    struct job *job = NULL;
+    struct sets sets = {0};
+    char camera[72];
+    *out = (struct sketch){0};
+    TRY(load(o, o->sets, o->n_sets, &job));
+    if (*job->from) {
+        st = fail(E_USAGE,
+                  "from: a look begins with the job's first frame, not with another run's checkpoint; "
+                  "--set from= leaves it out");
+        goto done;
+    }
+    TRY(choose_frame(job, o->frame, &out->frame));
+    TRY(sets_begin(o, &sets));
+    TRY(set_camera(job, o, &sets, camera));
+    TRY(set_spacing(job, o, &sets, out));
+    set_pictures(o, camera, &sets);
+    TRY(sets_ready(&sets));
+    TRY(load(o, sets.word, sets.n, &out->job));
+    for (size_t i = 0; i < out->job->n_cameras; i++)
+        if (strcmp(out->job->cameras[i].name, camera) == 0)
+            out->camera = &out->job->cameras[i];
+done:
+    sets_free(&sets);
+    job_destroy(&job);
+    if (st != OK)
+        sketch_free(out);
+    return st;
+}
+
+void sketch_free(struct sketch *s)
+{
+    job_destroy(&s->job);
+}
