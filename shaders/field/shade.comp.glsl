@@ -29,7 +29,6 @@ PARAMS(shade_params)
 #include "particles/within.glsl"
 
 const vec3 SAND = vec3(0.52, 0.36, 0.22);
-const vec3 DUST = vec3(0.46, 0.33, 0.22); // the ground, as the sky's light has it that it throws up
 const vec3 GREEN = vec3(0.085, 0.115, 0.045); // dry shrubs
 
 vec3 stone_of(uint j)
@@ -62,7 +61,7 @@ void main()
         AT(color, i) = vec4(0.0);
     if (where.w < 0.0) {
         if (where.w <= HIT_GROUND)
-            AT(color, i) += vec4(DUST * light_on(LOAD_V(facing, i)), 1.0) / float(k.rays);
+            AT(color, i) += vec4(vec3(GROUND_R, GROUND_G, GROUND_B) * light_on(LOAD_V(facing, i)), 1.0) / float(k.rays);
         AT(fields, i) = vec4(0.0);
         for (uint b = 0u; b < 3u; b++)
             AT(ids, 3u * i + b) = 0u;

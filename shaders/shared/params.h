@@ -566,6 +566,11 @@ SHARED_SIZE(march_params, 120)
 #define LIT_SUN 1.0f
 #define LIT_SKY 2.0f
 
+/* What the ground around the rock sends back of light: dry sand. */
+#define GROUND_R 0.46f
+#define GROUND_G 0.33f
+#define GROUND_B 0.22f
+
 /* Where a ray meets the ground and no rock, the last of its hit is this, less the depth. */
 #define HIT_GROUND -2.0f
 

@@ -134,6 +134,13 @@ void json_end_array(struct text *t)
     close_group(t, "]");
 }
 
+void json_one_line(struct text *t)
+{
+    for (size_t i = 0; i + 1 < t->size; i++)
+        if (t->data[i] == '\n')
+            t->data[i] = ' ';
+}
+
 void json_text(struct text *t, const char *key, const char *value)
 {
     member(t, key);

@@ -45,6 +45,10 @@ void json_number(struct text *t, const char *key, double value);
 void json_integer(struct text *t, const char *key, int64_t value);
 void json_bool(struct text *t, const char *key, bool value);
 
+/* Puts JSON that was written so far on one line, for files and pipes of a document a line. Lines are broken between members only: texts
+ * hold none. */
+void json_one_line(struct text *t);
+
 /* The shortest "%.*g" form of `value` that reads back exactly, in `out` (at least 32 bytes); returns out. */
 const char *number_text(double value, char out[32]);
 

@@ -169,7 +169,8 @@ static status print_json(const struct look_made *m)
     json_number(&t, "job_seconds", round(m->own_seconds));
     json_end_object(&t);
     TRY(text_status(&t));
-    printf("%s\n", t.data);
+    json_one_line(&t);
+    printf("%s%s", t.data, t.data[t.size - 1] == '\n' ? "" : "\n");
 done:
     text_free(&t);
     return st;

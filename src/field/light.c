@@ -4,11 +4,11 @@
 
 #include "base/vector.h"
 #include "field/camera.h"
+#include "shared/params.h"
 
 static const double DEGREE = 3.14159265358979323846 / 180;
 
-/* Of the ground: dry sand. */
-static const double SAND[3] = {0.46, 0.33, 0.22};
+static const double GROUND[3] = {(double)GROUND_R, (double)GROUND_G, (double)GROUND_B};
 
 void light_direction(double azimuth_deg, double elevation_deg, double out[3])
 {
@@ -90,7 +90,7 @@ struct light light_of(const struct job *job, double frame)
     for (int i = 0; i < 3; i++) {
         light.sun_rgb[i] *= curve_at(&from->strength, frame);
         light.bounce_rgb[i] =
-            ambient * SAND[i] * (light.sun_rgb[i] * fmax(light.sun[2], 0) + light.sky_rgb[i]);
+            ambient * GROUND[i] * (light.sun_rgb[i] * fmax(light.sun[2], 0) + light.sky_rgb[i]);
     }
     light.exposure = exp2(curve_at(&from->exposure_stops, frame));
     return light;

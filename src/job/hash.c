@@ -168,8 +168,8 @@ done:
     return st;
 }
 
-/* An edit or an operation, wholly in the frames in which it is done. Of an edit's settings the steady ones are known from the start,
- * and whether it ever plants anything: rooms are laid out by them. */
+/* An edit or an operation, wholly in the frames in which it is done. What an edit sets and is steady counts from the start, and whether it
+ * plants anything: models lay out their room by it. */
 static status walk_deed(struct walk *w, enum job_section_id section, const void *item)
 {
     status st = OK;
@@ -218,6 +218,8 @@ static status walk_sets(struct walk *w, const struct job_sets *sets)
 {
     const struct job_section *s = &job_sections[SECTION_job];
     status st = OK;
+    if (w->whole && w->part == WALK_ALL) /* a frame's hash has the job as they leave it */
+        return OK;
     put_count(w, sets->n);
     for (size_t i = 0; sets->n && i < s->n; i++)
         if (job_settable(s->key[i].name))

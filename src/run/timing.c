@@ -64,10 +64,7 @@ void timing_write(const char *root, const struct gpu *gpu, int first, int last, 
         log_note("log/timing.jsonl: %s", status_message());
         goto done;
     }
-    /* The writer breaks lines between members only: texts hold none. */
-    for (size_t i = 0; i + 1 < t.size; i++)
-        if (t.data[i] == '\n')
-            t.data[i] = ' ';
+    json_one_line(&t);
     file = open(path.text, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (file < 0 || write(file, t.data, t.size) != (ssize_t)t.size)
         log_note("%s: %s", path.text, strerror(errno));

@@ -1,0 +1,170 @@
+"""hoodoo look: a picture in seconds. What a change leaves alone is taken from the states that are kept, and nothing comes out otherwise
+than from the start; --watch looks again at each save; nothing wrong passes silently."""
+import glob
+import json
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import time
+
+from script import HOODOO, TOP, cut_half, finish, hoodoo, ok
+
+sys.dont_write_bytecode = True
+EDITS = open(f"{TOP}/tests/restart/edits.yaml").read()
+
+
+def png_size(path):
+    with open(path, "rb") as file:
+        head = file.read(24)
+    return struct.unpack(">II", head[16:24]) if head[:8] == b"\x89PNG\r\n\x1a\n" else None
+
+
+# Compiled kernels stay where they are, for they cost seconds; states have folders of their own.
+KERNELS = os.environ.get("HOODOO_CACHE") or os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "hoodoo")
+
+
+def with_cache(folder):
+    environment = dict(os.environ, XDG_CACHE_HOME=os.path.abspath(folder), MESA_SHADER_CACHE_DIR=KERNELS)
+    environment.pop("HOODOO_CACHE", None)
+    return environment
+
+
+def states(cache):
+    return {os.path.basename(p): open(p, "rb").read() for p in glob.glob(f"{cache}/hoodoo/look/*.state")}
+
+
+def look(job, *words, cache="kept"):
+    """Exit code, and what it says as JSON, or in words."""
+    code, said = hoodoo("look", job, "--json", "--progress", "none", "--no-slate", *words, env=with_cache(cache))
+    lines = [line for line in said.splitlines() if line.startswith("{")]
+    return code, json.loads(lines[-1]) if lines else said
+
+
+def write(text, path="edits.yaml"):
+    with open(path, "w") as file:
+        file.write(text)
+
+
+# ---- what a change leaves alone
+
+def changed(job, first, what, *words, compare=True):
+    """Looks at the changed job with the states kept so far: it begins at `first`, and ends as from the start."""
+    code, made = look(job, "--out", "kept.png", *words)
+    if not ok(code == 0 and isinstance(made, dict), f"{what}: a picture comes", made):
+        return
+    ok(made["from_frame"] == first, f"{what}: begins with the state of frame {first}", made)
+    if not compare:
+        return
+    shutil.rmtree("fresh", ignore_errors=True)
+    code, again = look(job, "--out", "fresh.png", *words, cache="fresh")
+    kept, fresh = states("kept"), states("fresh")
+    ok(code == 0 and open("kept.png", "rb").read() == open("fresh.png", "rb").read(), f"{what}: the picture is that from the start")
+    ok(set(fresh) <= set(kept) and all(kept[name] == fresh[name] for name in fresh), f"{what}: so is every state",
+       len(set(fresh) - set(kept)), [n for n in fresh if n in kept and kept[n] != fresh[n]])
+
+
+CHANGES = [
+    ("radius_m: 1.2", "radius_m: 1.5", 1007, "a later edit's carve"),
+    ("vegetation: 0.6", "vegetation: 0.5", 1007, "a later edit's paint"),
+    ("threshold_Pa: 0.1", "threshold_Pa: 0.2", 1007, "a curve that a later edit sets"),
+    ("radius_m: 1.8", "radius_m: 1.7", 1003, "an edit's addition"),
+    ("1010: 16", "1010: 20", 1005, "a curve that an edit sets"),
+    ("rock.density_kg_m3: 2500, ", "rock.density_kg_m3: 2400, ", 1001, "a setting that is no curve"),
+    ("deposition.viability: 0.5", "deposition.viability: 0", 1001, "whether there are ever deposits"),
+    ("name: edits", "name: other", 1010, "the name"),
+    ("distance_m: 26", "distance_m: 30", 1010, "the camera"),
+    ("noise: {amplitude: 0.3, scale_m: 4}", "noise: {amplitude: 0.3, scale_m: 4}\nvegetation: {growth_per_kyr: {1008: 0.5, 1009: 0.7}}", 1001, "a curve"),
+    ("noise: {amplitude: 0.3, scale_m: 4}", "noise: {amplitude: 0.3, scale_m: 4}\nvegetation: {growth_per_kyr: {1008: 0.5, 1009: 0.8}}", 1008, "its later key"),
+]
+write(EDITS)
+code, made = look("edits.yaml")
+ok(code == 0 and made["from_frame"] == 1001 and not made["state_found"] and png_size("edits.look.png") == (96, 54), "the first look begins with the scene", made)
+ok(made["spacing_m"] == 0.5 and made["job_spacing_m"] == 0.5, "a small job is looked at as it is", made)
+code, made = look("edits.yaml")
+ok(code == 0 and made["from_frame"] == 1010 and made["state_found"], "the second finds the frame's state", made)
+for old, new, first, what in CHANGES:
+    assert old in EDITS, old
+    write(EDITS.replace(old, new))
+    changed("edits.yaml", first, what, compare=first in (1005, 1007, 1008))
+write(EDITS)
+code, made = look("edits.yaml", "--frame", "1005")
+ok(code == 0 and made["from_frame"] == 1005 and made["frame"] == 1005, "another frame of the same job is there already", made)
+
+# A state that was cut short is none.
+for path in glob.glob("kept/hoodoo/look/*.state"):
+    cut_half(path)
+changed("edits.yaml", 1001, "states that were cut short", compare=False)
+shutil.rmtree("kept")
+
+# The other models: a tool's last frame, a rate's last key.
+CAVE = open(f"{TOP}/jobs/arches_cave.yaml").read()
+write(CAVE, "cave.yaml")
+size = ("--spacing", "4")
+code, made = look("cave.yaml", *size)
+ok(code == 0 and made["spacing_m"] == 4, "arches: a look", made)
+last = json.loads(hoodoo("plan", "cave.yaml", "--json", "--device", "none")[1])["frames"].split("-")[1]
+changed("cave.yaml", int(last), "arches: the same from the start", *size)
+shutil.copy(f"{TOP}/jobs/goblin_cap.png", ".")
+GOBLIN = open(f"{TOP}/jobs/goblin_cap.yaml").read()
+write(GOBLIN, "goblin.yaml")
+code, made = look("goblin.yaml")
+ok(code == 0, "goblins: a look", made)
+changed("goblin.yaml", made["frame"], "goblins: the same from the start")
+
+# ---- how it is looked at
+
+write(EDITS)
+for words, what in [(("--camera", "30,20"), "a direction"), (("--show", "stress"), "a value"), (("--figure",), "a figure"), (("--no-gizmos",), "no lines")]:
+    code, made = look("edits.yaml", "--out", "shown.png", *words)
+    ok(code == 0 and png_size("shown.png") and open("shown.png", "rb").read() != open("kept.png", "rb").read(), f"{what} shows", made)
+code, made = look("edits.yaml", "--spacing", "1")
+ok(code == 0 and made["spacing_m"] == 1 and 6 < made["job_particles"] / made["particles"] < 10, "a coarser look has an eighth of the particles", made)
+code, said = hoodoo("look", "edits.yaml", "--out", "slate.png", "--progress", "none", "--set", "cameras.main.resolution=[320, 180]")
+ok(code == 0 and png_size("slate.png") == (320, 180) and "slate.png: edits, frame 1010, at 0.5 m" in said and "edits.3: frame 1008" in said, "in words, with the strip", said)
+first = open("slate.png", "rb").read()
+hoodoo("look", "edits.yaml", "--out", "slate.png", "--progress", "none", "--set", "cameras.main.resolution=[320, 180]")
+ok(open("slate.png", "rb").read() == first, "equal looks are equal files")
+ok(not [name for name in os.listdir(".") if name.endswith((".ppm", ".tmp"))], "nothing else is left", os.listdir("."))
+
+WRONG = [
+    (("--frame", "1011"), 2, "the job's frames are 1001-1010"),
+    (("--frame", "x"), 2, "--frame x"),
+    (("--camera", "side"), 2, "no camera of that name"),
+    (("--camera", "30,100"), 2, "no camera of that name"),
+    (("--seconds", "-1"), 2, "above 0"),
+    (("--seconds", "2", "--spacing", "1"), 2, "give either"),
+    (("--range", "0:1"), 2, "only values have one"),
+    (("--show", "deposit"), 2, "no layer of it"),
+    (("--spacing", "9"), 2, ""),
+    (("--out", "nowhere/here.png"), 4, "nowhere/here.png"),
+    (("--set", "from=elsewhere.ckpt"), 2, "begins with the job's first frame"),
+    (("--device", "99"), 6, "99"),
+]
+for words, want, sentence in WRONG:
+    code, said = look("edits.yaml", *words)
+    ok(code == want and sentence in str(said), f"{' '.join(words)}: exit {want}", code, said)
+ok("fresh" in os.listdir("."), "the folder is ours")
+code, made = look("edits.yaml", cache="edits.yaml/no")
+ok(code == 0, "a cache that cannot be is done without", made)
+
+# ---- at each save
+
+watching = subprocess.Popen([HOODOO, "look", "edits.yaml", "--watch", "--json", "--no-slate", "--progress", "none"], stdout=subprocess.PIPE, stderr=open("said", "w"),
+                            text=True, env=with_cache("kept"))
+ok(json.loads(watching.stdout.readline())["from_frame"] == 1010, "--watch: a first picture")
+write(EDITS.replace("radius_m: 1.2", "radius_m: 1.9"))
+ok(json.loads(watching.stdout.readline())["from_frame"] == 1007, "--watch: again at a save, from before the change")
+write(EDITS.replace("radius_m: 1.2", "radius_m: -1"))
+for _ in range(300):
+    if "radius_m" in open("said").read():
+        break
+    time.sleep(0.1)
+ok("edits.yaml:" in open("said").read(), "--watch: a broken job is said, with its place", open("said").read())
+write(EDITS)
+ok(json.loads(watching.stdout.readline())["from_frame"] == 1010, "--watch: and waited for")
+watching.send_signal(signal.SIGINT)
+ok(watching.wait(timeout=60) == 0, "--watch: ends cleanly")
+finish()
