@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The deep voxels that nothing on the ground holds: their particles are due. Counts them.
+// The deep voxels that nothing on the ground holds: their particles are due. Counts them. `list` has the words of bits that have
+// deep voxels; `born` is 0 in all others.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -9,6 +10,7 @@ READ_U(1, first)
 READ_U(2, root)
 WRITE_U(3, born)
 WRITE_U(4, counts)
+READ_U(5, list)
 PARAMS(runs_params)
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
@@ -16,9 +18,9 @@ PARAMS(runs_params)
 
 void main()
 {
-    uint i = THREAD;
-    if (i >= k.n)
+    if (THREAD >= k.n)
         return;
+    uint i = LOAD_U(list, THREAD);
     uint ground = voxel_rank(ivec3(0, 0, 1)), own = deep_word(i), loose = 0u;
     for (uint bits = own; bits != 0u; bits &= bits - 1u) {
         uint bit = bits & (~bits + 1u);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // blocks/join for runs of deep voxels: each is joined with the runs and the solid held voxels across the faces of its voxels, here
-// in both directions at once. Words of deep voxels alone, between others of the same kind, have nothing to join.
+// in both directions at once. `list` has the words of bits that have any.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -11,6 +11,7 @@ READ_U(2, solid)
 READ_U(3, root)
 WRITE_U(4, pointer)
 WRITE_U(5, counts)
+READ_U(6, list)
 PARAMS(runs_params)
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
@@ -50,12 +51,9 @@ void join_row(uint i, uint own, uint w)
 
 void main()
 {
-    uint i = THREAD;
-    if (i >= k.n)
+    if (THREAD >= k.n)
         return;
-    uint own = deep_word(i), across = (k.nx + 31u) >> 5, slab = across * k.ny;
-    if (own == 0u)
-        return;
+    uint i = LOAD_U(list, THREAD), own = deep_word(i), across = (k.nx + 31u) >> 5, slab = across * k.ny;
     // The held voxels before and behind each run of its row.
     for (uint bits = own & ~(own << 1); bits != 0u; bits &= bits - 1u) {
         uint bit = bits & (~bits + 1u);
@@ -77,6 +75,6 @@ void main()
         join_row(i, own, i + across);
     if (i >= slab)
         join_row(i, own, i - slab);
-    if (i + slab < k.n)
+    if (i + slab < k.words)
         join_row(i, own, i + slab);
 }

@@ -24,6 +24,18 @@ uint extent(ivec3 low, ivec3 high)
                                           (high.z << 15));
 }
 
+// Has the row of eight samples from this voxel on anything in words of bits that it is in?
+bool row_holds(ivec3 v)
+{
+    if (any(lessThan(v.yz, ivec2(0))) || any(greaterThanEqual(v.yz, ivec2(k.ny, k.nz))))
+        return false;
+    int last = min(v.x + 7, int(k.nx) - 1);
+    if (last < 0 || v.x >= int(k.nx))
+        return false;
+    uint a = HELD_STRIDE * voxel_word(ivec3(max(v.x, 0), v.yz)), b = HELD_STRIDE * voxel_word(ivec3(last, v.yz));
+    return (LOAD_U(words, a) | LOAD_U(words, a + 2u) | LOAD_U(words, b) | LOAD_U(words, b + 2u)) != 0u;
+}
+
 void main()
 {
     uint brick = THREAD;
@@ -31,7 +43,16 @@ void main()
         return;
     ivec3 first = brick_first(brick) - int(k.margin);
     ivec3 rock_low = ivec3(8), rock_high = ivec3(-1), bare_low = ivec3(8), bare_high = ivec3(-1);
-    for (int z = 0; z < 8; z++)
+    // Where walls go on with the rock at their sides, air beyond them has to be looked at, too.
+    bool holds = k.walls != 0u;
+    for (int row = 0; row < 64 && !holds; row++)
+        holds = row_holds(first + ivec3(0, row & 7, row >> 3));
+    if (!holds) {
+        bare_low = ivec3(0);
+        bare_high = ivec3(7);
+    }
+    int rows = holds ? 8 : 0;
+    for (int z = 0; z < rows; z++)
         for (int y = 0; y < 8; y++)
             for (int x = 0; x < 8; x++) {
                 ivec3 c = ivec3(x, y, z);

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Which voxels are within k.reach of an empty one, on every axis; outside the domain all are empty. One axis after the other: x
-// reads which are occupied (particles/held.glsl), y and z what the axis before has found.
+// reads which are occupied (particles/held.glsl), y and z what the axis before has found. Where all are near already, as they are in air, no
+// more is looked at.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -23,7 +24,7 @@ uint along_x(uint i, int across)
     int x = int(i) % across;
     uint row = i - uint(x), own = empty_of(x, across, row), sum = own;
     uint last = empty_of(x - 1, across, row), next = empty_of(x + 1, across, row);
-    for (uint s = 1u; s <= k.reach; s++)
+    for (uint s = 1u; sum != 0xffffffffu && s <= k.reach; s++)
         sum |= own << s | own >> s | last >> (32u - s) | next << (32u - s);
     return sum;
 }
@@ -31,11 +32,11 @@ uint along_x(uint i, int across)
 // Along y or z: words `step` apart, of which there are `most`, this one being number `at`.
 uint along(uint i, uint step, int at, int most)
 {
-    uint sum = 0u;
+    uint sum = LOAD_U(before, i);
     int reach = int(k.reach);
     if (at < reach || at + reach >= most)
         return 0xffffffffu;
-    for (int s = -reach; s <= reach; s++)
+    for (int s = -reach; sum != 0xffffffffu && s <= reach; s++)
         sum |= LOAD_U(before, uint(int(i) + s * int(step)));
     return sum;
 }

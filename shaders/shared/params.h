@@ -130,11 +130,12 @@ SHARED_SIZE(born_params, 8)
 
 /* Runs of deep voxels among the nodes of blocks. */
 struct runs_params {
-    uint n; /* words of bits, and one where runs are counted */
+    uint n; /* words of bits, and one where runs are counted; or those of the list */
     uint nx, ny, nz;
     uint slots; /* held voxels, whose nodes come first */
+    uint words; /* of bits, in all */
 };
-SHARED_SIZE(runs_params, 20)
+SHARED_SIZE(runs_params, 24)
 
 /* One axis of the search for voxels near the rock's surface. */
 struct near_params {

@@ -40,9 +40,9 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b)
     gpu_buffer_destroy(gpu, &b->first);
 }
 
-/* Pointers to roots. `runs`: NULL where there are none. */
+/* Pointers to roots. `runs`: NULL where there are none; `list` has the words of bits that they are in. */
 static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct held_voxels *h,
-                   const struct runs_params *runs, size_t n_runs)
+                   const struct runs_params *runs, size_t n_runs, struct gpu_buffer *list)
 {
     status st = OK;
     const size_t n = h->n + n_runs;
@@ -67,7 +67,7 @@ static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, con
                 parted);
         if (runs)
             GPU_RUN(gpu, blocks_join_runs, runs->n, *runs, h->words, b->first, b->solid, b->other, b->pointer,
-                    counts);
+                    counts, list);
         TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
     }
 done:
@@ -76,27 +76,32 @@ done:
 
 status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct held_voxels *h)
 {
-    return join(gpu, work, b, h, NULL, 0);
+    return join(gpu, work, b, h, NULL, 0, NULL);
 }
 
-/* Numbers the runs. */
+/* Numbers the runs, and lists in p->place the words of bits that have any. */
 static status count_runs(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct particles *p,
                          struct runs_params *k, size_t *n)
 {
     status st = OK;
     const size_t words = held_words(p->voxels);
+    const struct count_params all = {(uint)words};
+    size_t n_list;
     uint32_t found;
     *k = (struct runs_params){.n = (uint)words + 1,
                               .nx = (uint)p->voxels[0],
                               .ny = (uint)p->voxels[1],
                               .nz = (uint)p->voxels[2],
-                              .slots = (uint)p->held.n};
+                              .slots = (uint)p->held.n,
+                              .words = (uint)words};
     if (!b->first)
         TRY(gpu_buffer_create(gpu, "runs of deep voxels", words + 1, 4, &b->first));
+    GPU_RUN(gpu, blocks_deep_words, words, all, p->held.words, p->flags);
+    TRY(gpu_compact(gpu, work, p->flags, b->first, p->place, words, &n_list));
     GPU_RUN(gpu, blocks_count_runs, k->n, *k, p->held.words, b->first);
     gpu_scan(gpu, work, b->first, words + 1);
     TRY(gpu_download(gpu, b->first, words, &found, 1));
-    k->n = (uint)words;
+    k->n = (uint)n_list;
     *n = found;
 done:
     return st;
@@ -129,11 +134,13 @@ status blocks_find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
         TRY(count_runs(gpu, work, b, p, &runs, &n_runs));
     TRY(keep(gpu, b, p->held.n + n_runs));
     find_solid(gpu, b, p);
-    TRY(join(gpu, work, b, &p->held, p->n_deep ? &runs : NULL, n_runs));
+    TRY(join(gpu, work, b, &p->held, p->n_deep ? &runs : NULL, n_runs, p->place));
     if (p->n_deep == 0)
         return OK;
     gpu_fill(gpu, counts, 0);
-    GPU_RUN(gpu, blocks_cut_runs, runs.n, runs, p->held.words, b->first, b->pointer, p->flags, counts);
+    gpu_fill(gpu, p->flags, 0);
+    GPU_RUN(gpu, blocks_cut_runs, runs.n, runs, p->held.words, b->first, b->pointer, p->flags, counts,
+            p->place);
     TRY(gpu_download(gpu, counts, COUNT_BORN, &cut, 1));
     gpu_fill(gpu, counts, 0);
     *n_cut = cut;

@@ -154,8 +154,13 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
                 const Coord o = origin(i);
                 const Coord b = Coord::maxComponent(o, l.lo) - o,
                             e = Coord::minComponent(o.offsetBy(D - 1), l.hi) - o;
+                bool any = false; /* most of a box that is much larger than its rock has nothing */
+                for (int y = b[1]; y <= e[1] && !any; y++)
+                    for (int z = b[2]; z <= e[2] && !any; z++)
+                        any = p.row(vdb::sim_from_file(o.offsetBy(b[0], y, z), l.y_up)) != ROW_OUTSIDE;
+                if (!any)
+                    continue;
                 typename leaf::NodeMaskType mask;
-                bool any = false;
                 for (value &v : block)
                     v = f.background;
                 for (int y = b[1]; y <= e[1]; y++)
@@ -164,7 +169,6 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
                         const ptrdiff_t row = p.row(s);
                         if (row == ROW_OUTSIDE)
                             continue;
-                        any = true;
                         for (int x = b[0]; x <= e[0]; x++, s[0]++) {
                             const openvdb::Index at = openvdb::Index(x << 6 | y << 3 | z);
                             if (row == ROW_INSIDE ? f.deep(s, block[at])
@@ -172,7 +176,7 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
                                 mask.setOn(at);
                         }
                     }
-                bool flat = !any || mask.isOn() || mask.isOff();
+                bool flat = mask.isOn() || mask.isOff();
                 for (size_t v = 1; flat && v < leaf::SIZE; v++)
                     flat = block[v] == block[0];
                 if (flat && mask.isOff() && block[0] == f.background)
