@@ -1,5 +1,5 @@
 // The body of erosion/carry, which declares what it reads and writes; with EXPOSED it says what becomes of the time that rock has been
-// bare: what is bared has, negative, what those had that went off it, and skin/reach looks for more.
+// bare: what is bared has, negative, what those had that went off it, and skin/reach looks for more. Until then it weathers as they did.
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
@@ -14,7 +14,7 @@ struct incoming {
     float area, cover;
     vec3 normal;
 #ifdef EXPOSED
-    float aged, age; // the faces of rock, and how long that had been bare
+    float aged, age, rate; // the faces of rock, how long that had been bare, and its crust and damp in its rate
 #endif
 };
 
@@ -37,6 +37,7 @@ void through(ivec3 v, int axis, inout incoming sum)
         if (LOAD_U(phase, j) != PHASE_DEPOSIT) {
             sum.aged += face;
             sum.age += face * abs(AT(exposed, j));
+            sum.rate += face * AT(crust, j);
         }
 #endif
     }
@@ -54,7 +55,7 @@ void main()
     ivec3 v = voxel_of(LOAD_V(position, i).xyz);
     incoming sum = incoming(vec3(0.0), 0.0, 0.0, vec3(0.0)
 #ifdef EXPOSED
-                            , 0.0, 0.0
+                            , 0.0, 0.0, 0.0
 #endif
     );
     for (int axis = 0; axis < 3; axis++) {
@@ -67,11 +68,15 @@ void main()
     bool inside = AT(normal, i).xyz == vec3(0.0);
     if (inside)
         AT(vegetation, i) = max(AT(vegetation, i), sum.cover / sum.area);
+    float rate = LOAD_F(erodibility, i);
 #ifdef EXPOSED
-    if (inside && sum.aged > 0.0 && LOAD_U(phase, i) != PHASE_DEPOSIT)
+    if (inside && sum.aged > 0.0 && LOAD_U(phase, i) != PHASE_DEPOSIT) {
         AT(exposed, i) = -max(abs(AT(exposed, i)), sum.age / sum.aged);
+        AT(crust, i) = sum.rate / sum.aged;
+        rate *= AT(crust, i);
+    }
 #endif
-    float rate = LOAD_F(erodibility, i), taken = rate * sum.step.x;
+    float taken = rate * sum.step.x;
     if (taken <= 0.0)
         return;
     vec2 share = sum.step.yz / sum.step.x;

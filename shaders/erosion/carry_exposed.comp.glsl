@@ -19,6 +19,7 @@ WRITE_U(11, counts)
 WRITE_F(12, vegetation)
 READ_U(13, phase)
 WRITE_F(14, exposed)
+WRITE_F(15, crust)
 PARAMS(carry_params)
 #define EXPOSED
 #include "erosion/carry.glsl"

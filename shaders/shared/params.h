@@ -254,8 +254,12 @@ struct skin_params {
     float depth; /* m: where exposure is 1/e of what it is on the face */
     uint reach;  /* voxels: as far as a face is looked for */
     float kyr;   /* of a step, or before the first frame */
+    float crust_kyr;
+    float crust,
+        damp; /* how many times more slowly, and faster, rock weathers under a full crust, and in the damp */
+    float radius; /* m: of the ball in which rock is counted; 0: nothing is damp */
 };
-SHARED_SIZE(skin_params, 36)
+SHARED_SIZE(skin_params, 52)
 
 /* Words the erosion counts into; the fastest are floats. */
 #define COUNT_ERODED 0u

@@ -129,7 +129,7 @@ done:
 /* What is left of the step where particles are gone, on through those below, round after round. Some are gone. Farther in than
  * NEAR_REACH rock need not have particles, and none of it is taken. */
 static status carry(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
-                    struct budget *budget, uint32_t *n_eroded, double *beyond)
+                    struct gpu_buffer *crust, struct budget *budget, uint32_t *n_eroded, double *beyond)
 {
     status st = OK;
     struct carry_params k = {.n = (uint)p->n,
@@ -145,11 +145,11 @@ static status carry(struct gpu *gpu, struct gpu_work *work, struct erosion *e, s
         if (k.round >= NEAR_REACH)
             TRY(add_beyond(gpu, work, p, unspent, next, beyond));
         gpu_fill(gpu, next, 0);
-        if (p->field[ROCK_exposed_kyr])
+        if (crust)
             GPU_RUN(gpu, erosion_carry_exposed, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->start,
                     p->field[ROCK_erodibility], unspent, p->field[ROCK_viability], shares, spent, e->parts,
                     p->held.words, next, counts, p->field[ROCK_vegetation], p->field[ROCK_phase],
-                    p->field[ROCK_exposed_kyr]);
+                    p->field[ROCK_exposed_kyr], crust);
         else
             GPU_RUN(gpu, erosion_carry, k.n, k, p->field[ROCK_P], p->field[ROCK_N], p->start,
                     p->field[ROCK_erodibility], unspent, p->field[ROCK_viability], shares, spent, e->parts,
@@ -165,7 +165,8 @@ done:
 }
 
 status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,
-                       struct particles *p, struct budget *budget, uint32_t *n_eroded, double *beyond)
+                       struct particles *p, struct gpu_buffer *crust, struct budget *budget,
+                       uint32_t *n_eroded, double *beyond)
 {
     status st = OK;
     struct erosion_params k = {
@@ -188,7 +189,7 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
     budget_split(gpu, budget, spent, e->parts, p->n_surface);
     TRY(gpu_download(gpu, counts, COUNT_ERODED, n_eroded, 1));
     if (*n_eroded > 0)
-        TRY(carry(gpu, work, e, p, budget, n_eroded, beyond));
+        TRY(carry(gpu, work, e, p, crust, budget, n_eroded, beyond));
 done:
     return st;
 }

@@ -47,12 +47,12 @@ struct erosion_pace {
 MUST_USE status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
                              struct gpu_buffer *slopes, struct erosion_pace *out);
 
-/* One step: the surface's viability falls by e->intensity times erodibility, and so does that of what is bared meanwhile, for
+/* One step (`crust`: skin's, NULL: rock does not keep how long it has been bare): the surface's viability falls by e->intensity times erodibility, and so does that of what is bared meanwhile, for
  * the rest of the step, rock down to NEAR_REACH layers below: what it would have taken of rock farther in is added to *beyond,
  * m3. Those with none left are counted, not yet removed; their viability is 0, less what the step would still have taken of them. *budget has
  * what each process took. Needs surface and erodibility of the current shape; the intensity is lost. Waits. */
 MUST_USE status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e, double kyr,
-                                struct particles *p, struct budget *budget, uint32_t *n_eroded,
-                                double *beyond);
+                                struct particles *p, struct gpu_buffer *crust, struct budget *budget,
+                                uint32_t *n_eroded, double *beyond);
 
 #endif

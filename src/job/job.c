@@ -213,11 +213,16 @@ bool job_wants_layer(const struct job *job, const char *layer)
            (job_keeps_exposed(job) || strcmp(layer, value_table[VALUE_exposed_kyr].layer) != 0);
 }
 
+static bool exposes(const struct job *job)
+{
+    return job->skin.exposed || job->skin.crust > 1 || job->skin.damp > 1;
+}
+
 bool job_keeps_exposed(const struct job *job)
 {
-    bool any = job->skin.exposed;
+    bool any = exposes(job);
     for (size_t i = 0; i < job->n_edits; i++)
-        any |= job->edits[i].set.job && job->edits[i].set.job->skin.exposed;
+        any |= job->edits[i].set.job && exposes(job->edits[i].set.job);
     return any;
 }
 

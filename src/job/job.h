@@ -138,7 +138,8 @@ extern const struct job_process job_processes[PROCESSES];
 bool job_has_process(const struct job *job, enum process process);
 bool job_has_processes(const struct job *job);
 
-/* Whether rock keeps how long it has been bare, from the first frame on: where the job or an edit of it asks for that. */
+/* Whether rock keeps how long it has been bare, from the first frame on: where the job or an edit of it asks for that or for
+ * what follows from it. */
 bool job_keeps_exposed(const struct job *job);
 
 /* Whether the job wants this layer of pictures (values.h). Left to itself it wants all but that of exposed_kyr, where none is kept. */

@@ -25,7 +25,6 @@
 #include "model/edits.h"
 #include "model/inside.h"
 #include "plants/plants.h"
-#include "skin/skin.h"
 
 /* Spacings that the fastest rock and the fastest deposits may lose in a step before it is cut into parts. A deposit that goes
  * comes to rest elsewhere once in each, so that no part may be longer than a deposit's life. */
@@ -259,7 +258,7 @@ static status find_rates(struct arenite *a)
     if (a->plants)
         plants_bind(a->m.gpu, a->m.job, &a->particles);
     if (a->exposed)
-        skin_find(a->m.gpu, a->m.job, &a->particles);
+        skin_find(a->m.gpu, &a->skin, a->m.job, &a->particles);
 done:
     return st;
 }
@@ -385,7 +384,7 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
     if (a->plants)
         plants_shield(a->m.gpu, job, &a->particles, a->erosion.intensity);
     if (a->exposed)
-        skin_age(a->m.gpu, job, *kyr, a->erosion.intensity, &a->particles);
+        skin_age(a->m.gpu, &a->skin, job, *kyr, a->erosion.intensity, &a->particles);
 done:
     return st;
 }
@@ -401,8 +400,8 @@ static status erode(struct arenite *a, int number, struct step *s)
     const uint64_t fallen = a->m.ledger.fallen;
     TRY(press(a, number, s, &pace, &kyr));
     gpu_stage(a->m.gpu, "viability");
-    TRY(erosion_weather(a->m.gpu, a->m.work, &a->erosion, kyr, &a->particles, &a->m.budget, &n_eroded,
-                        &a->beyond));
+    TRY(erosion_weather(a->m.gpu, a->m.work, &a->erosion, kyr, &a->particles, a->skin.crust, &a->m.budget,
+                        &n_eroded, &a->beyond));
     TRY(crumble(a, &n_eroded));
     if (a->exposed)
         skin_forget(a->m.gpu, &a->particles);

@@ -10,6 +10,7 @@
 #include "model/type.h"
 #include "piles/piles.h"
 #include "scene/source.h"
+#include "skin/skin.h"
 #include "stress/elastic.h"
 #include "water/water.h"
 #include "wind/wind.h"
@@ -40,6 +41,8 @@
          a->deposits ? crumbs_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->crumbs) : OK)              \
     PART(erosion, LASTS_ROCK, erosion_bytes(n),                                                              \
          erosion_create(a->m.gpu, a->m.job, a->particles.n_max, &a->erosion))                                \
+    PART(skin, LASTS_ROCK, job_keeps_exposed(job) ? skin_bytes(n) : 0,                                       \
+         a->exposed ? skin_create(a->m.gpu, a->particles.n_max, &a->skin) : OK)                              \
     PART(collapse, LASTS_ROCK, collapse_bytes(job, n, voxels),                                               \
          collapse_create(a->m.gpu, a->m.job, &a->particles, &a->collapse))                                   \
     PART(mpm, LASTS_ROCK,                                                                                    \

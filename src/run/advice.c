@@ -165,6 +165,12 @@ static status look_at_sizes(struct view *v)
                 thick, h));
         below = top;
     }
+    if (job->skin.damp > 1 && job->skin.damp_m < 2 * h)
+        TRY(say(
+            v, "skin.damp_m",
+            "damp reaches %g m, less than two spacings (%g m): holes are as wide as the spacing makes them, "
+            "and with 0 there are none",
+            job->skin.damp_m, 2 * h));
     if (job->noise.amplitude > 0 && job->noise.scale_m < 2 * h)
         TRY(say(v, "noise.scale_m",
                 "features of %g m are finer than two spacings (%g m): another spacing is another rock",

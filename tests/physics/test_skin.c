@@ -1,8 +1,7 @@
 /* What becomes of rock where it meets the air: how long it has been bare, by its law, at any spacing and step; on faces that stand,
- * that retreat, that are cut and that are laid down. */
-#include "physics/beds.h"
-
-#include <string.h>
+ * that retreat, that are cut and that are laid down. Crusts that grow by that, and open into holes where hollows are damp. */
+#include "effort.h"
+#include "physics/tafoni.h"
 
 /* ---- ages */
 
@@ -147,12 +146,62 @@ static void no_ages_unless_asked_for(void **state)
     sim_end(&s);
 }
 
+/* ---- crusts */
+
+/* Of ground under a crust, by small steps of the laws: dz/dt = R, R = r / (1 + (c - 1) (1 - exp(-A / t))), A' = 1 - R A / d. */
+static double worn_by_law(double kyr, double rate, double crust, double crust_kyr, double depth, double age)
+{
+    const double dt = 1e-3;
+    double worn = 0;
+    for (double t = 0; t < kyr; t += dt) {
+        const double R = rate / (1 + (crust - 1) * (1 - exp(-age / crust_kyr)));
+        worn += R * dt;
+        age += dt * (1 - R * age / depth);
+    }
+    return worn;
+}
+
+/* At two spacings, finer and coarser than the crust is deep. */
+static void ground_wears_down_by_its_crust(void **state)
+{
+    (void)state;
+    for (int r = 0; r < 3; r++) {
+        static const double spacing[] = {1, 0.5, 0.5}, depth[] = {0.4, 0.4, 1.2};
+        char skin[128];
+        snprintf(skin, sizeof skin, "skin: {crust: 8, crust_kyr: 4, depth_m: %g}\n", depth[r]);
+        struct sim s = ground(spacing[r], 1000, 40, skin);
+        for (int f = 0; f < 40; f++)
+            assert_ok(model_step(s.model));
+        struct frame frame = sim_output(&s);
+        const double worn = 8 - frame.volume_m3 / 24, law = worn_by_law(40, 0.1, 8, 4, depth[r], 0);
+        print_message("# %g m, a crust %g m deep: %.3f m of 4 m are worn off, %.3f m by the law\n",
+                      spacing[r], depth[r], worn, law);
+        assert_true(fabs(worn / law - 1) < 0.03 && law < 3);
+        frame_free(&frame);
+        sim_end(&s);
+    }
+}
+
+/* Both at work open the face. Under a crust alone it stays whole for as long, and without either while it loses about as much. Their size:
+ * tests/long/test_tafoni. */
+static void tafoni_need_crust_and_damp(void **state)
+{
+    (void)state;
+    const struct tafoni on = weather_cliff(0.15, 3.6, 0.45, 1, 30, 0.1, "crust: 20, crust_kyr: 1, damp: 3"),
+                        dry = weather_cliff(0.15, 3.6, 0.45, 1, (int)(2 * on.kyr), 0.1, "crust: 20, damp: 1"),
+                        bare = weather_cliff(0.15, 3.6, 0.45, 1, 3, 0.1, "exposed: true");
+    assert_true(on.share >= 0.1 && on.n >= 4 && on.deepest > 0.6);
+    assert_true(dry.n == 0 && bare.n == 0 && bare.lost > 0.9 * on.lost);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(faces_that_retreat_keep_what_does_not_wear_off),
         cmocka_unit_test(faces_that_are_cut_are_new),
         cmocka_unit_test(deposits_are_new_and_keep_what_they_bury),
+        cmocka_unit_test(ground_wears_down_by_its_crust),
+        cmocka_unit_test(tafoni_need_crust_and_damp),
         cmocka_unit_test(no_ages_unless_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
