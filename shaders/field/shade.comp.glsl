@@ -68,30 +68,32 @@ void main()
         return;
     }
     vec3 x = where.xyz;
-    ivec3 v = voxel_of(x), low = max(v - 2, ivec3(0)), high = min(v + 2, ivec3(k.nx, k.ny, k.nz) - 1);
-    float nearest = 1e30, weighed = 0.0, reach = 2.25 * k.h * k.h;
+    ivec3 v = voxel_of(x), last = ivec3(k.nx, k.ny, k.nz) - 1;
+    float nearest = 1e30, weighed = 0.0;
     uint found = 0u;
-    // The colour is that of the particles around, weighed by how near they are: beds and heaps go over into each other within a
-    // spacing, whatever the particles' places.
+    // The colour is that of the particles within a spacing, weighed by how near they are: beds and heaps go over into each other,
+    // whatever the particles' places. Voxels next to x's hold all of those; farther ones are searched where there is none.
     vec3 stone = vec3(0.0);
-    for (int z = low.z; z <= high.z; z++)
-        for (int y = low.y; y <= high.y; y++) {
-            uvec2 row = row_particles(low.x, high.x, y, z);
-            for (uint j = row.x; j < row.y; j++) {
-                vec3 d = LOAD_V(position, j).xyz - x;
-                float d2 = dot(d, d);
-                if (d2 < nearest) {
-                    nearest = d2;
-                    found = j;
-                }
-                if (d2 < reach) {
-                    float weight = 1.0 - d2 / reach;
-                    weight *= weight * weight;
-                    stone += weight * stone_of(j);
-                    weighed += weight;
+    for (int reach = 1; reach <= 2 && nearest > k.h * k.h; reach++) {
+        ivec3 low = clamp(v - reach, ivec3(0), last), high = clamp(v + reach, ivec3(0), last);
+        for (int z = low.z; z <= high.z; z++)
+            for (int y = low.y; y <= high.y; y++) {
+                uvec2 row = row_particles(low.x, high.x, y, z);
+                for (uint j = row.x; j < row.y; j++) {
+                    vec3 d = LOAD_V(position, j).xyz - x;
+                    float d2 = dot(d, d), weight = 1.0 - d2 / (k.h * k.h);
+                    if (d2 < nearest) {
+                        nearest = d2;
+                        found = j;
+                    }
+                    if (weight > 0.0) {
+                        weight *= weight * weight;
+                        stone += weight * stone_of(j);
+                        weighed += weight;
+                    }
                 }
             }
-        }
+    }
     vec3 at = clamp((x - vec3(k.origin_x, k.origin_y, k.origin_z)) / k.voxel, vec3(0.0), vec3(k.fx, k.fy, k.fz) - 1.001);
     ivec3 c = ivec3(at);
     vec3 f = at - vec3(c);

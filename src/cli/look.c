@@ -145,6 +145,8 @@ static void print_words(const struct look_made *m)
     if (m->spacing_m != m->own_spacing_m)
         printf("as the job is written: about %zu particles for the %zu here, and %s or so to this frame\n",
                m->own_particles, m->n_particles, duration_text(m->own_seconds, time));
+    if (m->coarse.size)
+        printf("too fine for this spacing:\n%s", m->coarse.data);
     printf("%s", m->gizmos.data ? m->gizmos.data : "");
 }
 
@@ -187,7 +189,7 @@ static status look_once(struct looking *l, struct look *look)
     else if (st == OK)
         print_words(&made);
     fflush(stdout);
-    text_free(&made.gizmos);
+    look_made_free(&made);
     return st;
 }
 
@@ -256,7 +258,7 @@ status cli_look(int argc, char **argv)
     struct looking l = {0};
     char shown[SHOW_WORDS];
     double seconds = 0, spacing = 0;
-    int quality = QUALITY_SKETCH, show = 0;
+    int quality = QUALITY_SKETCH, show = 0, gizmos = GIZMOS_NOW;
     bool help = false;
     const struct option options[] = {
         {"frame", "N|last", OPTION_TEXT, &l.options.sketch.frame, "which frame (default last)"},
@@ -273,8 +275,10 @@ status cli_look(int argc, char **argv)
         {"range", "LO:HI", OPTION_TEXT, &l.options.range,
          "what the colours span, in the legend's unit (default: the range that previews of the job have)"},
         {"figure", NULL, OPTION_FLAG, &l.options.figure, "a person of 1.75 m stands before the rock"},
-        {"no-gizmos", NULL, OPTION_FLAG, &l.options.no_gizmos,
-         "without the lines that show domain, wind, water's ways, paint, edits, tools and cameras"},
+        {"gizmos", CHOICE_TEXT(GIZMOS_CHOICE), OPTION_CHOICE, &gizmos,
+         "lines over the picture: domain, wind, water's ways, paint, cameras, and edits and tools of the "
+         "frame (now) or of any "
+         "(default now)"},
         {"no-slate", NULL, OPTION_FLAG, &l.options.no_slate,
          "without the scale bar and the strip that says name, frame and age"},
         {"watch", NULL, OPTION_FLAG, &l.watch,
@@ -292,6 +296,7 @@ status cli_look(int argc, char **argv)
         goto done;
     l.job = operands.word[0];
     TRY(take_options(&l, quality, show, seconds, spacing));
+    l.options.gizmos = (enum gizmos)gizmos;
     l.options.stop = should_stop;
     l.options.begin = begin;
     l.options.frame = frame_done;

@@ -233,11 +233,13 @@ static void draw_sources(const struct job *job, int frame, struct shot *s, struc
     }
 }
 
-static void draw_edits(const struct job *job, struct shot *s, struct text *said)
+static void draw_edits(const struct job *job, int frame, bool all, struct shot *s, struct text *said)
 {
     for (size_t i = 0; i < job->n_edits; i++) {
         const struct job_edit *e = &job->edits[i];
         struct text words = {0};
+        if (!all && e->frame != frame)
+            continue;
         text_add(&words, "frame %lld", (long long)e->frame);
         const char *when = words.data ? words.data : "";
         if (e->carve)
@@ -267,7 +269,7 @@ static void draw_operation(const struct job_operation *o, struct drawing *d)
         line(d, o->points_m[i - 1], o->points_m[i]);
 }
 
-static void draw_operations(const struct job *job, struct shot *s, struct text *said)
+static void draw_operations(const struct job *job, int frame, bool all, struct shot *s, struct text *said)
 {
     const struct job_key *tools = table_find(SECTION_operation, "tool");
     for (size_t i = 0; i < job->arches.n_operations; i++) {
@@ -276,6 +278,8 @@ static void draw_operations(const struct job *job, struct shot *s, struct text *
         struct text words = {0};
         char frames[48];
         size_t n;
+        if (!all && !range_holds(o->frames, frame))
+            continue;
         const char *tool = choice_item(tools->choices, o->tool, &n);
         draw_operation(o, &d);
         text_add(&words, "%.*s, frames %s", (int)n, tool, range_text(o->frames, frames));
@@ -307,20 +311,23 @@ static void draw_cameras(const struct job *job, int frame, const struct job_came
     }
 }
 
-void gizmos_draw(const struct job *job, int frame, const struct job_camera *own, struct shot *s,
-                 struct text *said)
+void gizmos_draw(const struct job *job, int frame, enum gizmos which, const struct job_camera *own,
+                 struct shot *s, struct text *said)
 {
+    const bool all = which == GIZMOS_ALL;
     const double origin[3] = {0};
     struct drawing d = {.shot = s, .ink = &INK_DOMAIN};
     struct text words = {0};
     const double *size = job->domain.size_m;
+    if (which == GIZMOS_NONE)
+        return;
     box(&d, origin, size);
     text_add(&words, "%g x %g x %g m", size[0], size[1], size[2]);
     say(said, &INK_DOMAIN, "domain", SIZE_MAX, words.data ? words.data : "");
     text_free(&words);
     draw_wind(job_at(job, frame), frame, s, said);
     draw_sources(job_at(job, frame), frame, s, said);
-    draw_edits(job, s, said);
-    draw_operations(job, s, said);
+    draw_edits(job, frame, all, s, said);
+    draw_operations(job, frame, all, s, said);
     draw_cameras(job, frame, own, s, said);
 }

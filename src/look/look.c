@@ -55,6 +55,12 @@ bool look_on_gpu(const struct look *look)
     return !gpu_info(look->gpu)->is_cpu;
 }
 
+void look_made_free(struct look_made *made)
+{
+    text_free(&made->gizmos);
+    text_free(&made->coarse);
+}
+
 /* ---- the state */
 
 /* The model in the latest frame of which a state is kept, or in the job's first. */
@@ -171,8 +177,7 @@ static status picture(struct look *l, const struct sketch *s, const struct look_
     TRY(shot_make(s->job, s->frame, &frame.image[0], &camera, o->sketch.show, range, &shot));
     if (o->figure)
         figure_draw(s->job, s->frame, &shot);
-    if (!o->no_gizmos)
-        gizmos_draw(s->job, s->frame, s->camera, &shot, &made->gizmos);
+    gizmos_draw(s->job, s->frame, o->gizmos, s->camera, &shot, &made->gizmos);
     describe(o, s, &camera, range, &slate);
     TRY(print_picture(&shot, &slate, path.text));
     snprintf(made->path, sizeof made->path, "%.*s", (int)sizeof made->path - 1, path.text);
@@ -190,6 +195,7 @@ status look_make(struct look *l, const struct look_options *o, struct look_made 
     struct model *m = NULL;
     *made = (struct look_made){0};
     TRY(sketch_load(&o->sketch, &s));
+    TRY(sketch_loses(&s, &made->coarse));
     const double loaded = clock_seconds();
     TRY(reach(l, &s, o, made, &m));
     const double there = clock_seconds();
@@ -206,7 +212,7 @@ status look_make(struct look *l, const struct look_options *o, struct look_made 
     made->own_seconds = sketch_own_seconds(&s, look_on_gpu(l));
 done:
     if (st != OK)
-        text_free(&made->gizmos);
+        look_made_free(made);
     model_destroy(&m);
     sketch_free(&s);
     return st;

@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #include "base/text.h"
+#include "look/gizmos.h"
 #include "look/sketch.h"
 #include "render/show.h"
 
@@ -26,7 +27,8 @@ bool look_on_gpu(const struct look *look);
 struct look_options {
     struct sketch_options sketch;
     const char *out; /* the PNG; NULL: NAME.look.png */
-    bool no_gizmos, no_slate, figure;
+    bool no_slate, figure;
+    enum gizmos gizmos;
     const char *range; /* of what is shown: "LO:HI", or NULL: the job's */
     bool (*stop)(void *user);
     void (*frame)(void *user, int frame); /* it is simulated; NULL: nobody asks */
@@ -46,10 +48,12 @@ struct look_made {
     double
         own_seconds; /* what the job as it is written would take to that frame here, about; 0: it is not known */
     struct text gizmos; /* a line each */
+    struct text coarse; /* what is lost at the coarse spacing, a line each */
 };
+void look_made_free(struct look_made *made);
 
 /* E_OUTPUT: the picture cannot be written. STOPPED: options->stop said so; states on the way are kept. As sketch_load(),
- * model_create() and model_step() besides. text_free(&out->gizmos). */
+ * model_create() and model_step() besides. look_made_free(). */
 MUST_USE status look_make(struct look *look, const struct look_options *options, struct look_made *out);
 
 #endif

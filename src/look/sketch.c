@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "model/model.h"
 #include "render/view.h"
+#include "run/advice.h"
 
 /* Seconds on two cores: of a frame however small, and of a particle in a step. */
 static const double FRAME_SECONDS = 0.025, STEP_SECONDS = 4e-6;
@@ -241,6 +242,8 @@ status sketch_load(const struct sketch_options *o, struct sketch *out)
     for (size_t i = 0; i < out->job->n_cameras; i++)
         if (strcmp(out->job->cameras[i].name, camera) == 0)
             out->camera = &out->job->cameras[i];
+    out->own = job;
+    job = NULL;
 done:
     sets_free(&sets);
     job_destroy(&job);
@@ -249,7 +252,36 @@ done:
     return st;
 }
 
+static bool has(const struct advices *all, const struct advice *a)
+{
+    bool found = false;
+    for (size_t i = 0; i < all->n; i++)
+        found |= strcmp(all->one[i].key, a->key) == 0;
+    return found;
+}
+
+status sketch_loses(const struct sketch *s, struct text *out)
+{
+    status st = OK;
+    struct advices coarse = {0}, own = {0};
+    const bool hushed = log_hush(true);
+    if (s->job->domain.spacing_m > s->own_spacing_m) {
+        TRY(advices_of(s->job, true, &coarse));
+        TRY(advices_of(s->own, true, &own));
+    }
+    for (size_t i = 0; i < coarse.n; i++)
+        if (!has(&own, &coarse.one[i]))
+            text_add(out, "%s: %s\n", coarse.one[i].key, coarse.one[i].text);
+    TRY(text_status(out));
+done:
+    log_hush(hushed);
+    advices_free(&coarse);
+    advices_free(&own);
+    return st;
+}
+
 void sketch_free(struct sketch *s)
 {
+    job_destroy(&s->own);
     job_destroy(&s->job);
 }

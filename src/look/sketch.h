@@ -37,6 +37,7 @@ struct sketch_options {
 
 struct sketch {
     struct job *job;                 /* to be simulated */
+    struct job *own;                 /* as it is written */
     const struct job_camera *camera; /* of it */
     int frame;
     double own_spacing_m; /* the job's as it is written */
@@ -48,6 +49,10 @@ struct sketch {
 /* E_USAGE: there is no such camera or frame; the job begins with another run's checkpoint. As job_load() besides. sketch_free(). */
 MUST_USE status sketch_load(const struct sketch_options *options, struct sketch *out);
 void sketch_free(struct sketch *s);
+
+/* What advice (run/advice.h) has to say of the coarse job and not of the job as it is written, a line each: what is too thin for the
+ * spacing, mostly. */
+MUST_USE status sketch_loses(const struct sketch *s, struct text *out);
 
 /* Simulating the job as it is written, up to the frame, is guessed to take so many seconds; its wind, where it flows, is not counted. */
 double sketch_own_seconds(const struct sketch *s, bool gpu);

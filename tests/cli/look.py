@@ -117,15 +117,15 @@ changed("goblin.yaml", made["frame"], "goblins: the same from the start")
 # ---- how it is looked at
 
 write(EDITS)
-for words, what in [(("--camera", "30,20"), "a direction"), (("--show", "stress"), "a value"), (("--figure",), "a figure"), (("--no-gizmos",), "no lines")]:
+for words, what in [(("--camera", "30,20"), "a direction"), (("--show", "stress"), "a value"), (("--figure",), "a figure"), (("--gizmos", "none"), "no lines"), (("--gizmos", "all"), "all lines")]:
     code, made = look("edits.yaml", "--out", "shown.png", *words)
     ok(code == 0 and png_size("shown.png") and open("shown.png", "rb").read() != open("kept.png", "rb").read(), f"{what} shows", made)
 code, made = look("edits.yaml", "--spacing", "1")
 ok(code == 0 and made["spacing_m"] == 1 and 6 < made["job_particles"] / made["particles"] < 10, "a coarser look has an eighth of the particles", made)
-code, said = hoodoo("look", "edits.yaml", "--out", "slate.png", "--progress", "none", "--set", "cameras.main.resolution=[320, 180]")
+code, said = hoodoo("look", "edits.yaml", "--out", "slate.png", "--gizmos", "all", "--progress", "none", "--set", "cameras.main.resolution=[320, 180]")
 ok(code == 0 and png_size("slate.png") == (320, 180) and "slate.png: edits, frame 1010, at 0.5 m" in said and "edits.3: frame 1008" in said, "in words, with the strip", said)
 first = open("slate.png", "rb").read()
-hoodoo("look", "edits.yaml", "--out", "slate.png", "--progress", "none", "--set", "cameras.main.resolution=[320, 180]")
+hoodoo("look", "edits.yaml", "--out", "slate.png", "--gizmos", "all", "--progress", "none", "--set", "cameras.main.resolution=[320, 180]")
 ok(open("slate.png", "rb").read() == first, "equal looks are equal files")
 ok(not [name for name in os.listdir(".") if name.endswith((".ppm", ".tmp"))], "nothing else is left", os.listdir("."))
 
