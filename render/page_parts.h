@@ -1,4 +1,4 @@
-/* report.html, style.css and script.js beside this, embedded: lines, the last NULL. */
+/* report.html, style.css, script.js and look.html beside this, embedded: lines, the last NULL. */
 #ifndef HOODOO_PAGE_PARTS_H
 #define HOODOO_PAGE_PARTS_H
 
@@ -7,5 +7,6 @@
 extern const char *const page_report[];
 extern const char *const page_style[];
 extern const char *const page_script[];
+extern const char *const page_look[];
 
 #endif

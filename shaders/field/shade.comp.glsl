@@ -71,8 +71,9 @@ void main()
     ivec3 v = voxel_of(x), last = ivec3(k.nx, k.ny, k.nz) - 1;
     float nearest = 1e30, weighed = 0.0;
     uint found = 0u;
-    // The colour is that of the particles within a spacing, weighed by how near they are: beds and heaps go over into each other,
-    // whatever the particles' places. Voxels next to x's hold all of those; farther ones are searched where there is none.
+    // The colour is that of the particles around, weighed by how near they are: beds and heaps go over into each other, whatever the
+    // particles' places. Voxels next to x's hold all within a spacing, beyond which hardly any weight is left; farther ones are searched
+    // where there is none.
     vec3 stone = vec3(0.0);
     for (int reach = 1; reach <= 2 && nearest > k.h * k.h; reach++) {
         ivec3 low = clamp(v - reach, ivec3(0), last), high = clamp(v + reach, ivec3(0), last);
@@ -81,7 +82,7 @@ void main()
                 uvec2 row = row_particles(low.x, high.x, y, z);
                 for (uint j = row.x; j < row.y; j++) {
                     vec3 d = LOAD_V(position, j).xyz - x;
-                    float d2 = dot(d, d), weight = 1.0 - d2 / (k.h * k.h);
+                    float d2 = dot(d, d), weight = 1.0 - 0.64 * d2 / (k.h * k.h);
                     if (d2 < nearest) {
                         nearest = d2;
                         found = j;

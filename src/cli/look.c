@@ -8,12 +8,13 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "base/clock.h"
+#include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/signals.h"
 #include "cli/cli.h"
+#include "look/live.h"
 
 #define QUALITY_CHOICE (QUALITY_SKETCH, "sketch")(QUALITY_DRAFT, "draft")(QUALITY_FULL, "full")
 enum { CHOICE_CONSTANTS(QUALITY_CHOICE) };
@@ -34,10 +35,11 @@ struct watched {
 
 struct looking {
     struct common common;
-    const char *job;
+    const char *job, *out;
+    struct path folder; /* of the picture */
     struct look_options options;
     struct progress progress;
-    bool watch, abandoned;
+    bool watch, serves, abandoned;
     struct watched *file; /* the job, and what it reads */
     size_t n_files, capacity;
 };
@@ -113,7 +115,7 @@ static void pause_seconds(double seconds)
 static bool should_stop(void *user)
 {
     struct looking *l = user;
-    l->abandoned = l->watch && has_changed(l);
+    l->abandoned = (l->watch || l->serves) && has_changed(l);
     return l->abandoned || stop_requested();
 }
 
@@ -129,10 +131,10 @@ static void frame_done(void *user, int frame)
     progress_frame(&l->progress, frame, -1, "");
 }
 
-static void print_words(const struct look_made *m)
+static void print_words(const char *path, const struct look_made *m)
 {
     char time[32];
-    printf("%s: %s, frame %d, at %.4g m", m->path, m->name, m->frame, m->spacing_m);
+    printf("%s: %s, frame %d, at %.4g m", path, m->name, m->frame, m->spacing_m);
     if (m->spacing_m != m->own_spacing_m)
         printf(" (the job's spacing is %.4g)", m->own_spacing_m);
     if (m->air_m > 0)
@@ -150,12 +152,12 @@ static void print_words(const struct look_made *m)
     printf("%s", m->gizmos.data ? m->gizmos.data : "");
 }
 
-static status print_json(const struct look_made *m)
+static status print_json(const char *path, const struct look_made *m)
 {
     status st = OK;
     struct text t = {0};
     json_object(&t, NULL);
-    json_text(&t, "picture", m->path);
+    json_text(&t, "picture", path);
     json_text(&t, "name", m->name);
     json_integer(&t, "frame", m->frame);
     json_number(&t, "years", m->years);
@@ -182,12 +184,18 @@ static status look_once(struct looking *l, struct look *look)
 {
     status st = OK;
     struct look_made made = {0};
+    struct path path, name;
     st = look_make(look, &l->options, &made);
     progress_end(&l->progress);
-    if (st == OK && l->common.json)
-        st = print_json(&made);
-    else if (st == OK)
-        print_words(&made);
+    TRY(st);
+    TRY(path_format(&name, "%s.look.png", made.name));
+    TRY(path_format(&path, "%s", l->out ? l->out : name.text));
+    TRY(atomic_file_write(path.text, made.png, made.png_size));
+    if (l->common.json)
+        TRY(print_json(path.text, &made));
+    else
+        print_words(path.text, &made);
+done:
     fflush(stdout);
     look_made_free(&made);
     return st;
@@ -221,6 +229,30 @@ static status look_on(struct looking *l, struct look *look)
         pause_seconds(0.05); /* whoever saves may write in pieces */
     }
 done:
+    return st;
+}
+
+/* The page, until a signal comes. */
+static status serve(struct looking *l, struct look *look, int port)
+{
+    status st = OK;
+    struct serve *serve = NULL;
+    struct live live = {.look = look, .options = &l->options};
+    TRY(watch_all(l));
+    TRY(serve_begin(port, live_answer, &live, &serve));
+    printf("%s\n", serve_address(serve));
+    fflush(stdout);
+    while (!stop_requested() && live.broken == OK) {
+        TRY(serve_wait(serve, 0.2));
+        if (has_changed(l)) {
+            TRY(watch_all(l));
+            live.saves++;
+        }
+    }
+    if (live.broken != OK)
+        st = fail(live.broken, "%s", live.message);
+done:
+    serve_end(&serve);
     return st;
 }
 
@@ -259,7 +291,8 @@ status cli_look(int argc, char **argv)
     char shown[SHOW_WORDS];
     double seconds = 0, spacing = 0;
     int quality = QUALITY_SKETCH, show = 0, gizmos = GIZMOS_NOW;
-    bool help = false;
+    bool help = false, page = false;
+    int port = 0;
     const struct option options[] = {
         {"frame", "N|last", OPTION_TEXT, &l.options.sketch.frame, "which frame (default last)"},
         {"camera", "NAME|AZ,EL", OPTION_TEXT, &l.options.sketch.camera,
@@ -285,7 +318,12 @@ status cli_look(int argc, char **argv)
          "again whenever the job or a file that it reads is saved, until Ctrl-C; what is wrong with the job "
          "is "
          "said, and waited for"},
-        {"out", "PNG", OPTION_TEXT, &l.options.out, "the picture (default NAME.look.png)"},
+        {"serve", NULL, OPTION_FLAG, &page,
+         "a page for a browser on this machine: turn it, go through the frames, click for places and values. "
+         "Its "
+         "address is printed; who has it can see the page. Until Ctrl-C"},
+        {"port", "N", OPTION_INT, &port, "of the page (default: one that is free)"},
+        {"out", "PNG", OPTION_TEXT, &l.out, "the picture (default NAME.look.png)"},
         OPTION_WEDGE(&l.options.sketch.wedge),
         OPTION_DEVICE(&l.common),
         OPTION_SET(&l.common),
@@ -296,7 +334,16 @@ status cli_look(int argc, char **argv)
         goto done;
     l.job = operands.word[0];
     TRY(take_options(&l, quality, show, seconds, spacing));
+    TRY(path_folder(&l.folder, l.out ? l.out : ""));
+    l.options.folder = l.folder.text;
     l.options.gizmos = (enum gizmos)gizmos;
+    l.serves = page;
+    if (page && l.watch) {
+        st = fail(E_USAGE, "--serve watches the job anyway: leave --watch out");
+        goto done;
+    }
+    if (page)
+        l.common.progress = PROGRESS_NONE;
     l.options.stop = should_stop;
     l.options.begin = begin;
     l.options.frame = frame_done;
@@ -304,7 +351,7 @@ status cli_look(int argc, char **argv)
     signals_install();
     TRY(look_begin(l.common.device, &look));
     l.options.sketch.gpu = look_on_gpu(look);
-    TRY(l.watch ? look_on(&l, look) : look_once(&l, look));
+    TRY(page ? serve(&l, look, port) : l.watch ? look_on(&l, look) : look_once(&l, look));
 done:
     progress_end(&l.progress);
     look_end(&look);

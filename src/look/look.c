@@ -24,6 +24,7 @@ enum { KEPT_STATES = 16 };
 struct look {
     struct gpu *gpu;
     struct states states;
+    struct frame last; /* of the last picture */
 };
 
 status look_begin(const char *device, struct look **out)
@@ -45,6 +46,7 @@ void look_end(struct look **look)
     if (!*look)
         return;
     states_trim(&(*look)->states);
+    frame_free(&(*look)->last);
     gpu_destroy(&(*look)->gpu);
     free(*look);
     *look = NULL;
@@ -57,6 +59,7 @@ bool look_on_gpu(const struct look *look)
 
 void look_made_free(struct look_made *made)
 {
+    free(made->png);
     text_free(&made->gizmos);
     text_free(&made->coarse);
 }
@@ -162,16 +165,10 @@ static status picture(struct look *l, const struct sketch *s, const struct look_
     struct frame frame = {0};
     struct shot shot = {0};
     struct slate slate;
-    struct path path;
     const struct camera camera = camera_of(s->camera, s->frame);
     struct show_range range = show_job_range(o->sketch.show, s->job);
-    (void)l;
     if (o->range)
         TRY(show_parse_range(o->sketch.show, o->range, &range));
-    if (o->out)
-        TRY(path_format(&path, "%s", o->out));
-    else
-        TRY(path_format(&path, "%s.look.png", s->job->name));
     TRY(model_pictures(m, &frame));
     made->years = frame.years;
     TRY(shot_make(s->job, s->frame, &frame.image[0], &camera, o->sketch.show, range, &shot));
@@ -179,12 +176,36 @@ static status picture(struct look *l, const struct sketch *s, const struct look_
         figure_draw(s->job, s->frame, &shot);
     gizmos_draw(s->job, s->frame, o->gizmos, s->camera, &shot, &made->gizmos);
     describe(o, s, &camera, range, &slate);
-    TRY(print_picture(&shot, &slate, path.text));
-    snprintf(made->path, sizeof made->path, "%.*s", (int)sizeof made->path - 1, path.text);
+    TRY(print_picture(&shot, &slate, o->folder, &made->png, &made->png_size));
+    made->range = range;
+    frame_free(&l->last);
+    l->last = frame;
+    frame = (struct frame){0};
 done:
     shot_free(&shot);
     frame_free(&frame);
     return st;
+}
+
+void look_at(const struct look *l, double x, double y, struct text *json)
+{
+    const struct aov_image *image = l->last.n_images ? &l->last.image[0] : NULL;
+    if (!image)
+        return;
+    const size_t px = (size_t)fmin(fmax(x * image->width, 0), image->width - 1),
+                 py = (size_t)fmin(fmax(y * image->height, 0), image->height - 1),
+                 i = py * (size_t)image->width + px;
+    bool rock = false;
+    for (size_t c = 0; c < image->n_channels; c++)
+        rock |= strcmp(image->channel[c].name, "Z") == 0 && image->channel[c].value[i] < 1e9F;
+    json_bool(json, "rock", rock);
+    for (size_t c = 0; rock && c < image->n_channels; c++) {
+        const struct aov_channel *channel = &image->channel[c];
+        if (channel->value && strcmp(channel->part, "rgba") != 0)
+            json_number(json, channel->name, (double)channel->value[i]);
+        else if (channel->id)
+            json_integer(json, channel->name, channel->id[i]);
+    }
 }
 
 status look_make(struct look *l, const struct look_options *o, struct look_made *made)

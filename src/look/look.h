@@ -26,7 +26,7 @@ bool look_on_gpu(const struct look *look);
 
 struct look_options {
     struct sketch_options sketch;
-    const char *out; /* the PNG; NULL: NAME.look.png */
+    const char *folder; /* for files of a moment where there is a slate */
     bool no_slate, figure;
     enum gizmos gizmos;
     const char *range; /* of what is shown: "LO:HI", or NULL: the job's */
@@ -38,10 +38,12 @@ struct look_options {
 
 /* What came of it. */
 struct look_made {
-    char path[300];   /* of the picture, its end if it is longer */
-    char name[72];    /* of the job */
-    int frame, began; /* `began`: the frame whose state was there; the job's first if none was */
-    bool found;       /* a state was there */
+    void *png; /* the picture as a file's bytes */
+    size_t png_size;
+    char name[72];           /* of the job */
+    struct show_range range; /* of what is shown */
+    int frame, began;        /* `began`: the frame whose state was there; the job's first if none was */
+    bool found;              /* a state was there */
     double years, spacing_m, own_spacing_m, air_m;
     size_t n_particles, own_particles; /* about */
     double load_seconds, step_seconds, picture_seconds;
@@ -52,8 +54,12 @@ struct look_made {
 };
 void look_made_free(struct look_made *made);
 
-/* E_OUTPUT: the picture cannot be written. STOPPED: options->stop said so; states on the way are kept. As sketch_load(),
+/* E_OUTPUT: the folder cannot be written. STOPPED: options->stop said so; states on the way are kept. As sketch_load(),
  * model_create() and model_step() besides. look_made_free(). */
 MUST_USE status look_make(struct look *look, const struct look_options *options, struct look_made *out);
+
+/* What is at a place of the last picture (0..1 from its upper left corner), as members of a JSON object: place and every value there,
+ * and "rock" says whether there is any. Only of pictures with `all_layers`. */
+void look_at(const struct look *look, double x, double y, struct text *json);
 
 #endif

@@ -9,15 +9,15 @@
 #include "render/picture.h"
 #include "render/png.h"
 
-/* Files beside the picture while it is drawn, whose names mean nothing to oiiotool. */
+/* Files while it is drawn, whose names mean nothing to oiiotool. */
 struct drawn {
     struct path folder, picture, bar, png, log;
 };
 
-static status name_files(const char *path, struct drawn *d)
+static status name_files(const char *folder, struct drawn *d)
 {
     status st = OK;
-    TRY(path_folder(&d->folder, path));
+    TRY(path_format(&d->folder, "%s", folder));
     TRY(atomic_file_temporary("look", ".ppm", &d->picture));
     TRY(atomic_file_temporary("look", ".ppm", &d->bar));
     TRY(atomic_file_temporary("look", "", &d->png));
@@ -65,26 +65,23 @@ done:
     return st;
 }
 
-status print_picture(const struct shot *shot, const struct slate *slate, const char *path)
+status print_picture(const struct shot *shot, const struct slate *slate, const char *folder, void **out,
+                     size_t *n)
 {
     status st = OK;
     struct drawn d = {0};
     struct path full;
-    void *bytes = NULL, *whole = NULL;
-    size_t n;
-    if (!slate_draws(slate)) {
-        TRY(png_encode(shot->rgb, shot->camera.width, shot->camera.height, &whole, &n));
-    } else {
-        TRY(name_files(path, &d));
-        TRY(draw(shot, slate, &d));
-        TRY(path_join(&full, d.folder.text, d.png.text));
-        TRY(file_read(full.text, (size_t)1 << 30, &bytes, &n));
-        TRY(png_with_tag(bytes, n, "look", &whole, &n));
-    }
-    TRY(atomic_file_write(path, whole, n));
+    void *bytes = NULL;
+    *out = NULL;
+    if (!slate_draws(slate))
+        return png_encode(shot->rgb, shot->camera.width, shot->camera.height, out, n);
+    TRY(name_files(folder, &d));
+    TRY(draw(shot, slate, &d));
+    TRY(path_join(&full, d.folder.text, d.png.text));
+    TRY(file_read(full.text, (size_t)1 << 30, &bytes, n));
+    TRY(png_with_tag(bytes, *n, "look", out, n));
 done:
     remove_files(&d);
     free(bytes);
-    free(whole);
     return st;
 }

@@ -1,12 +1,13 @@
-/* A shot as a PNG file, with the strip, the scale bar and the legend that previews have. */
+/* A shot as a PNG, with the strip, the scale bar and the legend that previews have. */
 #ifndef HOODOO_LOOK_PRINT_H
 #define HOODOO_LOOK_PRINT_H
 
 #include "look/shot.h"
 #include "render/slate.h"
 
-/* Without anything to draw, libpng alone writes it; else oiiotool draws. E_INPUT: that is not installed. E_OUTPUT: the file cannot be
- * written; what was there before stays. */
-MUST_USE status print_picture(const struct shot *shot, const struct slate *slate, const char *path);
+/* Without anything to draw, libpng alone makes it; else oiiotool does, with files of its own for a moment in `folder`. *out is freed with
+ * free(). E_INPUT: oiiotool is not installed. E_OUTPUT: `folder` cannot be written. */
+MUST_USE status print_picture(const struct shot *shot, const struct slate *slate, const char *folder,
+                              void **out, size_t *n);
 
 #endif

@@ -98,9 +98,9 @@ static status set_camera(const struct job *job, const struct sketch_options *o, 
         snprintf(name, 72, "look");
         text_add(sets_more(s),
                  "cameras.look={position_m: [%.17g, %.17g, %.17g], target_m: [%.17g, %.17g, %.17g], "
-                 "focal_mm: 35, aperture_mm: 36, resolution: [%d, %d]}",
+                 "focal_mm: %.17g, aperture_mm: 36, resolution: [%d, %d]}",
                  c.eye[0], c.eye[1], c.eye[2], c.eye[0] + c.ahead[0], c.eye[1] + c.ahead[1],
-                 c.eye[2] + c.ahead[2], size[0], size[1]);
+                 c.eye[2] + c.ahead[2], 35 * (o->zoom > 0 ? o->zoom : 1), size[0], size[1]);
     } else {
         const struct job_camera *c = &job->cameras[at];
         limit(c->resolution, o->width, size);
@@ -211,8 +211,11 @@ done:
 static void set_pictures(const struct sketch_options *o, const char *camera, struct sets *s)
 {
     text_add(sets_more(s), "output.aov.cameras=[%s]", camera);
-    text_add(sets_more(s), "output.aov.layers=[rgba, depth, N, P%s%s]", o->show ? ", " : "",
-             o->show ? value_table[o->show].layer : "");
+    if (o->all_layers)
+        text_add(sets_more(s), "output.aov.layers=[]");
+    else
+        text_add(sets_more(s), "output.aov.layers=[rgba, depth, N, P%s%s]", o->show ? ", " : "",
+                 o->show ? value_table[o->show].layer : "");
     text_add(sets_more(s), "output.aov.samples=%d", o->samples);
     text_add(sets_more(s), "output.aov.cryptomatte=false");
     text_add(sets_more(s), "output.up=z");

@@ -31,7 +31,9 @@ struct sketch_options {
     int samples;    /* rays a pixel */
     double seconds; /* HUGE_VAL: the job's own spacing */
     double spacing_m;   /* > 0: this one, whatever it takes */
+    double zoom;        /* of a direction: so many times as large; 0: 1 */
     enum value_id show; /* VALUE_NONE: the rock as it looks */
+    bool all_layers;    /* of the picture, for look_at() */
     bool gpu;           /* it will be worked on one */
 };
 

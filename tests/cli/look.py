@@ -1,14 +1,18 @@
 """hoodoo look: a picture in seconds. What a change leaves alone is taken from the states that are kept, and nothing comes out otherwise
 than from the start; --watch looks again at each save; nothing wrong passes silently."""
 import glob
+import http.client
 import json
 import os
+import re
 import shutil
 import signal
+import socket
 import struct
 import subprocess
 import sys
 import time
+import urllib.parse
 
 from script import HOODOO, TOP, cut_half, finish, hoodoo, ok
 
@@ -167,4 +171,61 @@ write(EDITS)
 ok(json.loads(watching.stdout.readline())["from_frame"] == 1010, "--watch: and waited for")
 watching.send_signal(signal.SIGINT)
 ok(watching.wait(timeout=60) == 0, "--watch: ends cleanly")
+
+# ---- the page
+
+
+def fetch(path, method="GET", host=None, **query):
+    """Status, content type, X-Look and body."""
+    asked = http.client.HTTPConnection(*server, timeout=120)
+    asked.request(method, path + "?" + urllib.parse.urlencode(query), headers={"Host": host or f"{server[0]}:{server[1]}"})
+    answer = asked.getresponse()
+    return answer.status, answer.headers.get("Content-Type", ""), answer.headers.get("X-Look"), answer.read()
+
+
+def raw(text):
+    """The first line of what comes back on these bytes; "" if nothing does."""
+    try:
+        with socket.create_connection(server, timeout=30) as s:
+            s.sendall(text)
+            s.shutdown(socket.SHUT_WR)
+            return s.recv(1000).decode("latin-1").split("\r\n")[0]
+    except OSError:  # it is closed as soon as it makes no sense
+        return ""
+
+
+serving = subprocess.Popen([HOODOO, "look", "edits.yaml", "--serve"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=with_cache("kept"))
+address = urllib.parse.urlsplit(serving.stdout.readline().strip())
+server, token = (address.hostname, address.port), urllib.parse.parse_qs(address.query)["token"][0]
+ok(address.hostname == "127.0.0.1" and len(token) == 32, "--serve: an address on this machine, with a token", address)
+code, kind, _, body = fetch("/", token=token)
+ok(code == 200 and kind.startswith("text/html") and b"<title>hoodoo look" in body and not re.search(rb"https?://", body), "the page, which asks nobody else for anything")
+code, kind, _, body = fetch("/job", token=token)
+job = json.loads(body)
+ok(code == 200 and (job["name"], job["first"], job["last"], job["cameras"]) == ("edits", 1001, 1010, ["main"]) and {"name": "stress", "unit": "MPa"} in job["values"], "the job", job)
+code, kind, note, body = fetch("/picture", token=token, frame=1005, show="stress", camera="20,30", zoom=2)
+note = json.loads(note)
+ok(code == 200 and kind == "image/png" and body[:4] == b"\x89PNG" and note["frame"] == 1005 and note["legend"]["unit"] == "MPa", "a picture of a value", note)
+places = [json.loads(fetch("/at", token=token, x=x / 8, y=0.6)[3]) for x in range(1, 8)]
+rock = [p for p in places if p["rock"]]
+ok(rock and len(rock) < 7 and all(1.5 < p["P.X"] < 12.5 and -0.5 < p["P.Z"] < 14 and abs(p["stress.trace"]) < 1e7 for p in rock), "places and values in it", places)
+code, _, _, body = fetch("/picture", token=token, frame=1500)
+ok(code == 422 and b"1001-1010" in body, "a frame that is not there", code, body)
+for what, want, got in [("no token", 403, fetch("/")[0]), ("a wrong one", 403, fetch("/job", token=token[:-1] + "x")[0]), ("another name for this machine", 400, fetch("/", host="rock.example:80", token=token)[0]),
+                        ("POST", 400, fetch("/picture", "POST", token=token)[0]), ("another page", 404, fetch("/../edits.yaml", token=token)[0])]:
+    ok(got == want, f"{what}: {want}", got)
+for text in (b"GARBAGE\r\n\r\n", b"GET / HTTP/1.1\r\n\r\n", b"GET " + b"/" * 100000 + b" HTTP/1.1\r\n\r\n", b"\0" * 50, b"GET /?token= HTTP/9.9\r\nHost: x\r\n\r\n"):
+    line = raw(text)
+    ok(line == "" or re.match(r"HTTP/1.[01] (4|5)\d\d", line), f"hostile bytes ({text[:12]}): {line or 'no answer'}", line)
+write(EDITS.replace("radius_m: 1.2", "radius_m: -1"))
+for _ in range(100):
+    job = json.loads(fetch("/job", token=token)[3])
+    if job["saves"]:
+        break
+    time.sleep(0.1)
+ok(job["saves"] > 0 and "radius_m" in job.get("error", "") and fetch("/picture", token=token)[0] == 422, "a save is known, and what is wrong with it", job)
+serving.send_signal(signal.SIGTERM)
+ok(serving.wait(timeout=60) == 0, "--serve: ends cleanly")
+code, said = hoodoo("look", "edits.yaml", "--serve", "--port", "70000")
+ok(code == 2 and "65535" in said, "--port 70000: exit 2", code, said)
 finish()
