@@ -21,7 +21,8 @@ enum random_purpose {
     RANDOM_FUNCTION = 9,
     RANDOM_PAINT = 20,
     RANDOM_BEDS = 21,
-    RANDOM_JOINTS = 22
+    RANDOM_JOINTS = 22,
+    RANDOM_CONCRETIONS = 23
 };
 
 /* 32 random bits; every argument moves all of them. Nest calls for more than four arguments. */

@@ -4,6 +4,7 @@
 
 #include "base/vector.h"
 #include "geology/attitude.h"
+#include "geology/concretions.h"
 
 /* No height in the domain is beyond these. */
 static void heights(const struct job *job, double *low, double *high)
@@ -46,9 +47,21 @@ status structure_create(const struct job *job, struct structure *s)
     static const double origin[3];
     double low, high, end[3];
     *s = (struct structure){.job = job,
-                            .plain = !job->n_strata_from && !job->n_joints && !job->attitude.n_faults};
+                            .plain = !job->n_strata_from && !job->n_joints && !job->attitude.n_faults &&
+                                     !job->n_concretions};
     if (s->plain)
         return OK;
+    for (size_t i = 0; i < job->n_concretions; i++) {
+        double count;
+        const double side = concretions_cube(&job->concretions[i], &count);
+        if (count > CONCRETIONS_MOST)
+            return fail(
+                E_USAGE,
+                "concretions.%zu: %.3g lie in each cube of %.3g m, which the largest fill: %d at most; lower "
+                "per_m3 (%g), radius_m (%g) or spread (%g)",
+                i, count, side, (int)CONCRETIONS_MOST, job->concretions[i].per_m3,
+                job->concretions[i].radius_m, job->concretions[i].spread);
+    }
     heights(job, &low, &high);
     for (int a = 0; a < 3; a++)
         end[a] = job->domain.size_m[a] + 2 * job->domain.spacing_m; /* the last voxels may reach farther */
@@ -76,7 +89,8 @@ struct structure_rock structure_at(const struct structure *s, const double x[3],
     const double hardness = beds_hardness(&s->beds, height - deep / 2, height + deep / 2, &along);
     const struct joint_effect joints = joints_at(&s->joints, x, height, h);
     return (struct structure_rock){
-        .rate = beds_cross(s->job, x, height, h) * attitude_breccia(s->job, x, h) * joints.rate / hardness,
+        .rate = beds_cross(s->job, x, height, h) * attitude_breccia(s->job, x, h) * joints.rate /
+                (hardness * concretions_hardness(s->job, x, height, h)),
         .interlock = joints.interlock,
         .along = fmax(hardness / along, 1),
     };

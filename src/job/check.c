@@ -259,6 +259,9 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
         return check_attitude(map, base);
     case SECTION_bedding:
         return check_bedding(map, base);
+    case SECTION_concretion:
+        return check_heights(map, ((const struct job_concretion *)base)->from_m,
+                             ((const struct job_concretion *)base)->to_m);
     case SECTION_joint_set:
         return check_heights(map, ((const struct job_joint_set *)base)->from_m,
                              ((const struct job_joint_set *)base)->to_m);

@@ -171,8 +171,9 @@ done:
 /* ---- settings of edits */
 
 /* What a run is made of from its first frame on: an edit comes too late for it. */
-static const char *const fixed[] = {"hoodoo", "name",  "model", "frames",   "from",        "seed",  "domain",
-                                    "scene",  "paint", "edits", "attitude", "strata_from", "joints"};
+static const char *const fixed[] = {"hoodoo",   "name",        "model",  "frames",     "from",
+                                    "seed",     "domain",      "scene",  "paint",      "edits",
+                                    "attitude", "strata_from", "joints", "concretions"};
 
 bool job_settable(const char *top)
 {

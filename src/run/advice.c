@@ -203,6 +203,16 @@ static status look_at_structure(struct view *v)
                 "laminae are %.3g m thick, less than domain.spacing_m (%g): hardly anything of them shows",
                 b->cross.lamina_m, h));
     }
+    for (size_t i = 0; i < job->n_concretions; i++) {
+        snprintf(key, sizeof key, "concretions.%zu.radius_m", i);
+        const struct job_concretion *c = &job->concretions[i];
+        if (c->radius_m * fmin(1, 1 / c->flatten) < h)
+            TRY(say(v, key,
+                    "concretions are %.3g m in radius, %.3g m across the beds, less than domain.spacing_m "
+                    "(%g): they "
+                    "hardly show",
+                    c->radius_m, c->radius_m / c->flatten, h));
+    }
     for (size_t i = 0; i < job->n_joints; i++) {
         snprintf(key, sizeof key, "joints.%zu.spacing_m", i);
         if (job->joints[i].spacing_m < 2 * h)
@@ -367,6 +377,7 @@ static status look_at_model(struct view *v)
         {"erosion", OF_MODEL(ARENITE)},
         {"strata_from", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
         {"joints", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
+        {"concretions", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
         {"skin", OF_MODEL(ARENITE)},
         {"goblins", OF_MODEL(GOBLINS)},
         {"arches", OF_MODEL(ARCHES)},

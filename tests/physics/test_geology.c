@@ -2,6 +2,7 @@
  * beds, blocks that joints bound; each at two spacings or seeds, and gone where its coupling is switched off. Thin beds retreat alike. */
 #include "effort.h"
 #include "geology/attitude.h"
+#include "geology/concretions.h"
 #include "geology/structure.h"
 #include "physics/beds.h"
 
@@ -168,6 +169,59 @@ static void columns_stand_between_two_sets(void **state)
             assert_true(columns[r] >= 5);
             assert_true(fabs((double)columns[r] / columns[0] - 1) <= 0.15);
         }
+    }
+}
+
+/* ---- concretions */
+
+/* Knobs stand on the ground where concretions reach above it, and nowhere else; as the ground goes down they come off. */
+static void concretions_stand_out_and_come_off(void **state)
+{
+    (void)state;
+    const double level = 10.6;
+    for (int r = 0; r < 3; r++) {
+        char text[256];
+        static double e[4000][4];
+        const double hard = r == 2 ? 1 : 20;
+        snprintf(
+            text, sizeof text,
+            "wind: {abrasion: 0}\nconcretions: [{per_m3: 0.015, radius_m: 1.2, spread: 0.1, hardness: %g}]\n",
+            hard);
+        struct sim s = plateau(r == 1 ? 0.5 : 1, 1, 18, text);
+        size_t there = 0, stand = 0, bare = 0, elsewhere = 0;
+        weather(&s, 8); /* down to 10.1 m */
+        const struct section c = cut(&s, level - 0.5, level + 0.5);
+        const size_t n = concretions_in(s.job, 0, (const double[]){-3, -3, 8},
+                                        (const double[]){WIDE + 3, WIDE + 3, 13}, e, 4000);
+        for (size_t i = 0; i < n; i++) {
+            const bool in = fabs(e[i][2] - level) < 0.6 && fabs(e[i][0] - WIDE / 2) < WIDE / 2 - 1 &&
+                            fabs(e[i][1] - WIDE / 2) < WIDE / 2 - 1;
+            there += in;
+            stand += in && c.share[(int)e[i][1]][(int)e[i][0]] > 0.5;
+        }
+        for (int y = 1; y < WIDE - 1; y++)
+            for (int x = 1; x < WIDE - 1; x++) {
+                double from = 1e9;
+                for (size_t i = 0; i < n; i++)
+                    from = fmin(from, hypot(x + 0.5 - e[i][0], y + 0.5 - e[i][1]));
+                bare += from > 3;
+                elsewhere += from > 3 && c.share[y][x] > 0.3;
+            }
+        struct frame frame = sim_output(&s);
+        const uint64_t before = frame.ledger.fallen;
+        frame_free(&frame);
+        weather(&s, 10); /* 2.4 m more */
+        frame = sim_output(&s);
+        const double fallen = (double)(frame.ledger.fallen - before) * pow(s.job->domain.spacing_m, 3);
+        print_message(
+            "# %g m, %g times as hard: of %zu concretions %zu stand out, and of %zu m2 elsewhere %zu; then "
+            "%.0f m3 come off\n",
+            s.job->domain.spacing_m, hard, there, stand, bare, elsewhere, fallen);
+        frame_free(&frame);
+        sim_end(&s);
+        assert_true(there >= 6 && bare > 30 && elsewhere == 0);
+        assert_true(r == 2 ? stand == 0 : (double)stand > 0.85 * (double)there);
+        assert_true(r == 2 ? fallen == 0 : fallen > 2);
     }
 }
 
@@ -415,6 +469,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fins_stand_as_far_apart_as_joints),
         cmocka_unit_test(columns_stand_between_two_sets),
+        cmocka_unit_test(concretions_stand_out_and_come_off),
         cmocka_unit_test(joints_move_wind_water_blocks_and_stress),
         cmocka_unit_test(soft_joints_hand_their_load_on),
         cmocka_unit_test(tilted_beds_make_a_cuesta),

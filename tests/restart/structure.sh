@@ -13,6 +13,7 @@ strata: [{to_m: 9, interlock_MPa: 0.6}, {weak_m_per_kyr: 0.1}]
 attitude: {dip_deg: 12, dip_azimuth_deg: 30, folds: [{wavelength_m: 20, amplitude_m: 2}], faults: [{point_m: [16, 16, 8], throw_m: 3, strike_deg: 80, breccia_m: 1}]}
 strata_from: [{thickness_m: 0.4, parting_m: 0.02, markers: [{at_m: 14, thickness_m: 0.5}], cross: {set_m: 3}}]
 joints: [{strike_deg: 20, spacing_m: 6, persistence: 0.7}, {strike_deg: 110, spacing_m: 5, dip_deg: 80, jitter_deg: 5}]
+concretions: [{per_m3: 0.02, radius_m: 1.2, flatten: 2}]
 output: {aov: {cameras: []}}
 checkpoint: {every: 1}
 JOB

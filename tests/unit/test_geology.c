@@ -2,6 +2,7 @@
 #include "scene_help.h"
 
 #include "geology/attitude.h"
+#include "geology/concretions.h"
 #include "geology/structure.h"
 
 /* A job in a box of rock, with more of its keys. */
@@ -315,6 +316,47 @@ static void joints_lead_alike_at_any_spacing(void **state)
 
 /* ---- both */
 
+/* ---- concretions */
+
+/* As many and as large as they should be, and as much of the rock whatever voxels it is cut into. */
+static void concretions_are_as_many_as_they_should(void **state)
+{
+    (void)state;
+    enum { MOST = 20000 };
+    static double e[MOST][4];
+    struct job *job =
+        job_of(40, 1,
+               "attitude: {dip_deg: 30}, concretions: [{per_m3: 0.05, radius_m: 0.7, spread: 0.3, "
+               "flatten: 2, hardness: 5}]");
+    const size_t n = concretions_in(job, 0, (const double[]){0, 0, 0}, (const double[]){40, 40, 40}, e, MOST);
+    double sum = 0, square = 0, volume = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double z = log(e[i][3] / 0.7);
+        sum += z / (double)n;
+        square += z * z / (double)n;
+        volume += 4 * M_PI / 3 * pow(e[i][3], 3) / 2 / 64000;
+    }
+    print_message("# %zu concretions (3200), log radius %.3f +- %.3f (0, 0.27), %.3f of the rock\n", n, sum,
+                  sqrt(square), volume);
+    assert_true(fabs((double)n / 3200 - 1) < 0.05);
+    assert_true(fabs(sum) < 0.02 && fabs(sqrt(square) - 0.27) < 0.02); /* cut off at two of 0.3 */
+    double share_at[3];
+    for (int r = 0; r < 3; r++) {
+        const double h = 2 / pow(2, r);
+        const int cells = (int)(20 / h);
+        double share = 0;
+        for (int i = 0; i < cells * cells * cells; i++) {
+            const double x[3] = {10 + (i % cells + 0.5) * h, 10 + (i / cells % cells + 0.5) * h,
+                                 10 + (i / cells / cells + 0.5) * h};
+            share += (concretions_hardness(job, x, x[2], h) - 1) / 4 / pow(cells, 3);
+        }
+        share_at[r] = share;
+        print_message("# %g m: %.4f of the rock\n", h, share);
+        assert_true(fabs(share / share_at[0] - 1) < 0.05 && fabs(share / volume - 1) < 0.2);
+    }
+    job_destroy(&job);
+}
+
 static void the_domain_decides_nothing(void **state)
 {
     (void)state;
@@ -379,11 +421,15 @@ static void rock_has_its_structure(void **state)
 static void what_says_nothing_leaves_the_hash(void **state)
 {
     (void)state;
-    static const char *const text[] = {"seed: 1",
-                                       "attitude: {dip_deg: 0, folds: []}, strata_from: [], joints: []",
-                                       "attitude: {dip_deg: 1}", "strata_from: [{}]", "joints: [{}]"};
-    uint64_t hash[5];
-    for (size_t i = 0; i < 5; i++) {
+    static const char *const text[] = {
+        "seed: 1",
+        "attitude: {dip_deg: 0, folds: []}, strata_from: [], joints: [], concretions: []",
+        "attitude: {dip_deg: 1}",
+        "strata_from: [{}]",
+        "joints: [{}]",
+        "concretions: [{}]"};
+    uint64_t hash[6];
+    for (size_t i = 0; i < 6; i++) {
         struct job *job = job_of(8, 1, text[i]);
         assert_int_equal(job_hash(job, &hash[i]), OK);
         job_destroy(&job);
@@ -404,6 +450,7 @@ static void what_cannot_be_is_refused(void **state)
          "within the marker below"},
         {"attitude: {unconformities: [{at_m: 3}, {at_m: 2}]}", "attitude.unconformities.1.at_m", "not above"},
         {"joints: [{from_m: 1, to_m: 1}]", "joints.0.to_m", "not above from_m"},
+        {"concretions: [{from_m: 2, to_m: 1}]", "concretions.0.to_m", "not above from_m"},
         {"edits: [{frame: 1, set: {attitude.dip_deg: 3}}]", "attitude", "edit"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -420,6 +467,9 @@ static void what_cannot_be_is_refused(void **state)
     struct job *job = job_of(8, 1, "strata_from: [{from_m: -1e5, thickness_m: 0.001}]");
     struct structure s;
     assert_failed(structure_create(job, &s), E_USAGE, "strata_from", "thickness_m");
+    job_destroy(&job);
+    job = job_of(8, 1, "concretions: [{per_m3: 1000, radius_m: 1}]");
+    assert_failed(structure_create(job, &s), E_USAGE, "concretions.0", "per_m3");
     job_destroy(&job);
 }
 
@@ -438,6 +488,7 @@ int main(void)
         cmocka_unit_test(laminae_dip_as_they_should),
         cmocka_unit_test(joints_are_as_far_apart_as_they_should),
         cmocka_unit_test(joints_lead_alike_at_any_spacing),
+        cmocka_unit_test(concretions_are_as_many_as_they_should),
         cmocka_unit_test(the_domain_decides_nothing),
         cmocka_unit_test(rock_has_its_structure),
         cmocka_unit_test(what_says_nothing_leaves_the_hash),
