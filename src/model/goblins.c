@@ -352,7 +352,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
     needs->disk = job->goblins.stress ? stressed : bare;
     needs->checkpoint_bytes = (uint64_t)(0.1 * (double)state);
     needs->steps = cycles(job);
-    needs->kernels = 40;
+    needs->kernels = 70;
 done:
     return st;
 }

@@ -27,6 +27,25 @@ static const struct model_type *type_of(const struct job *job)
 
 /* ---- what a job takes */
 
+/* Frames within what output.memory_GB allows: two of them, or else one. */
+static status keep_to(const struct job *job, struct model_estimate *e)
+{
+    const double most = job->output.memory_GB * 1e9;
+    if (most <= 0 || (double)e->host_bytes <= most)
+        return OK;
+    e->turns = true;
+    e->host_bytes -= e->waiting_bytes;
+    e->waiting_bytes = 0;
+    if ((double)e->host_bytes <= most)
+        return OK;
+    return fail(E_USAGE,
+                "output.memory_GB: %g GB are less than the %.3f GB that one frame of %zu particles takes "
+                "beside the device: "
+                "output.memory_GB: %.2f would do, or a larger domain.spacing_m",
+                job->output.memory_GB, (double)e->host_bytes / 1e9, e->n_particles,
+                ceil((double)e->host_bytes / 1e7) / 100);
+}
+
 status model_estimate(const struct job *job, struct model_estimate *out)
 {
     status st = OK;
@@ -48,6 +67,7 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     out->checkpoint_bytes = needs.checkpoint_bytes;
     out->steps = needs.steps;
     out->kernels = needs.kernels;
+    TRY(keep_to(job, out));
 done:
     free(needs.size.point);
     return st;

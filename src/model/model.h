@@ -21,13 +21,14 @@ struct model_estimate {
     uint64_t device_bytes;
     uint64_t host_bytes;    /* besides the device's, with a frame that is written while the next is made */
     uint64_t waiting_bytes; /* of these: not taken where it is written first */
+    bool turns;             /* it is, for output.memory_GB wants it so: host_bytes are without them */
     struct disk_frame disk; /* of a frame */
     uint64_t checkpoint_bytes;
     double steps; /* of erosion and equilibrium, over all frames */
     int kernels;  /* that it runs, about */
 };
 
-/* E_USAGE, E_INPUT: the scene is wrong, or a file of it. */
+/* E_USAGE, E_INPUT: the scene is wrong, or a file of it; E_USAGE: output.memory_GB is less than one frame takes. */
 MUST_USE status model_estimate(const struct job *job, struct model_estimate *out);
 
 /* The job's first frame; or, with `from`, the state that checkpoint holds: E_CHECKPOINT if it is not one of this

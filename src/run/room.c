@@ -12,8 +12,8 @@ struct room room_free(const struct gpu *gpu)
 }
 
 /* What a process comes to hold after its device is opened, beside its job's own: OpenVDB, 32 MB, and on Mesa 22.3's
- * lavapipe the compiler's code and what it made, whether just now or kept in a cache. Of models with 40 kernels it took 65 to 100
- * MB, of those with 80 90 to 130. */
+ * lavapipe the compiler's code and what it made: more of it where that was just now than where it comes from a cache. Of goblins, with 70
+ * kernels, it took 75 to 115 MB, of models with 80 90 to 130. */
 static uint64_t later(const struct model_estimate *e)
 {
     return 50000000 + 625000 * (uint64_t)e->kernels;

@@ -382,7 +382,7 @@ static status check_memory(struct run *r)
         return st;
     log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
              info->name, info->driver);
-    r->alone = !room_enough(room_free(r->gpu), room_at_once(r->gpu, &e));
+    r->alone = e.turns || !room_enough(room_free(r->gpu), room_at_once(r->gpu, &e));
     if (r->alone)
         log_info("memory holds one frame: each is written before the next is made");
     return OK;

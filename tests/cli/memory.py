@@ -87,4 +87,18 @@ if group:
     log = open("turns/log/run.log").read() if code == 0 else said.strip()
     check(code == 0 and "memory holds one frame" in log, f"two frames take turns: {most / 1e6:.0f} MB" + (f": {said}" if code else ""))
 shutil.rmtree("turns", ignore_errors=True)
+
+# The same by output.memory_GB, whatever there is of memory; what is too little for one frame is refused with what would do.
+both = [plan["host_bytes"], plan["host_bytes"] // 10]
+said = subprocess.run([HOODOO, "run", *words, "--out", "turns", "--set", f"output.memory_GB={both[1] / 1e9:g}"], capture_output=True, text=True)
+would = re.search(r"output\.memory_GB: ([0-9.]+) would do", said.stderr)
+check(said.returncode == 2 and would and not os.path.exists("turns/frames/arches_cave.1001.json"), f"too small a budget is refused: {said.stderr.strip()}")
+budget = ["--set", f"output.memory_GB={would[1] if would else 1}"]
+less = json.loads(subprocess.run([HOODOO, "plan", *words, *budget, "--rehearse", "0", "--json"], stdout=subprocess.PIPE, check=True).stdout)
+check(less["frames_in_memory"] == 1 and less["host_bytes"] <= float(budget[1].split("=")[1]) * 1e9 < both[0] and plan["frames_in_memory"] == 2,
+      f"what it names will do: {less['host_bytes'] / 1e6:.0f} MB, one frame at a time, in place of {both[0] / 1e6:.0f} MB")
+code, said, most = peak.run(["run", *words, *budget, "--out", "turns", "--frames", "1001-1002", "--progress", "none"])
+beside = most - plan["device_bytes"] - plan["process_bytes"]
+check(code == 0 and "memory holds one frame" in open("turns/log/run.log").read() and beside <= 1.15 * less["host_bytes"], f"and the run keeps to it: {beside / 1e6:.0f} MB beside device and process")
+shutil.rmtree("turns", ignore_errors=True)
 sys.exit(peak.failed)
