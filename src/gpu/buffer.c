@@ -65,6 +65,11 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
     struct gpu_buffer *b = NULL;
     assert(item == 4 || item == 16);
     TRY(gpu_status(gpu));
+    if (n > GPU_ITEMS_MAX)
+        return fail(
+            E_MEMORY,
+            "the %s buffer needs %.1f MB for %zu items, and kernels count up to %zu: raise domain.spacing_m",
+            name, (double)n * (double)item / 1e6, n, GPU_ITEMS_MAX);
     TRY(memory_alloc(1, sizeof *b, name, &b));
     snprintf(b->name, sizeof b->name, "%s", name);
     b->n = n;

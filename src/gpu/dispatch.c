@@ -140,6 +140,10 @@ void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const
     assert(n_buffers == binding_count(kernel) && params_size <= PARAMS_MAX);
     for (uint32_t i = 0; i < n; i++)
         assert(buffers[i]->item == (binding_letter(kernel, i) == 'V' ? 16 : 4));
+    if (threads > GPU_ITEMS_MAX) {
+        gpu_break(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "more threads than 32 bits count");
+        return;
+    }
     VkCommandBuffer commands = threads ? record_begin(gpu) : VK_NULL_HANDLE;
     if (!commands)
         return;

@@ -61,6 +61,10 @@ const struct gpu_info *gpu_info(const struct gpu *gpu);
 /* Bytes that can still be allocated, as far as device and host tell. */
 uint64_t gpu_memory_free(const struct gpu *gpu);
 
+/* Kernels count in 32 bits, and round threads up to whole groups: no buffer has more items, no dispatch more threads, so that none
+ * of their counts wraps. */
+#define GPU_ITEMS_MAX ((size_t)4294966272)
+
 /* n items of `item` bytes (4: float or uint; 16: vec4), zeroed. E_MEMORY names the buffer and its size. */
 MUST_USE status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t item,
                                   struct gpu_buffer **out);

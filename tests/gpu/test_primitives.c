@@ -258,6 +258,17 @@ static void limits_of_allocations_are_named(void **state)
     assert_null(more);
     assert_non_null(strstr(status_message(), "the wide buffer needs 71.3 MB"));
     assert_non_null(strstr(status_message(), "no more than 67.1 MB in one piece"));
+    /* The last count that 32 bits hold is one of memory, and those after it are told apart from what they would wrap to. */
+    assert_int_equal(gpu_buffer_create(gpu, "largest", GPU_ITEMS_MAX, 4, &more), E_MEMORY);
+    assert_null(strstr(status_message(), "kernels count"));
+    static const size_t beyond[] = {GPU_ITEMS_MAX + 1, (size_t)UINT32_MAX + 17, (size_t)1 << 40,
+                                    SIZE_MAX / 16};
+    for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
+        assert_int_equal(gpu_buffer_create(gpu, "endless", beyond[i], 4, &more), E_MEMORY);
+        assert_null(more);
+        assert_non_null(strstr(status_message(), "the endless buffer needs "));
+        assert_non_null(strstr(status_message(), "kernels count up to 4294966272"));
+    }
     while (n < MOST && gpu_buffer_create(gpu, "small", 16, 4, &buffer[n]) == OK)
         n++;
     assert_in_range(n, 1, 12);
