@@ -31,7 +31,7 @@ void main()
     uint lane = THREAD;
     if (lane >= k.n)
         return;
-    uvec2 deflation = uvec2(0u), water = uvec2(0u), abrasion = uvec2(0u), reworking = uvec2(0u);
+    uvec2 deflation = uvec2(0u), sheets = uvec2(0u), water = uvec2(0u), abrasion = uvec2(0u), reworking = uvec2(0u);
     for (uint i = lane; i < k.n_values; i += BUDGET_LANES) {
         uint whole = LOAD_U(spent, i);
         if (whole == 0u)
@@ -47,7 +47,10 @@ void main()
         }
         uint first = share_of(whole, share.x), rest = whole - first;
         uint second = share.x + share.y >= 0.99999 ? rest : min(share_of(whole, share.y), rest);
-        deflation = plus(deflation, first);
+        if ((LOAD_U(parts, i) & PARTS_SHEETS) != 0u)
+            sheets = plus(sheets, first);
+        else
+            deflation = plus(deflation, first);
         water = plus(water, second);
         abrasion = plus(abrasion, rest - second);
     }
@@ -55,4 +58,5 @@ void main()
     take(k.water, lane, water);
     take(k.abrasion, lane, abrasion);
     take(k.reworking, lane, reworking);
+    take(k.sheets, lane, sheets);
 }

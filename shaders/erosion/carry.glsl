@@ -12,6 +12,7 @@
 struct incoming {
     vec3 step;
     float area, cover;
+    uint sheets;
     vec3 normal;
 #ifdef EXPOSED
     float aged, age, rate; // the faces of rock, how long that had been bare, and its crust and damp in its rate
@@ -31,6 +32,7 @@ void through(ivec3 v, int axis, inout incoming sum)
         float face = abs(n[axis]);
         sum.step += left * face * vec3(1.0, shares_in(AT(shares, j)));
         sum.area += face;
+        sum.sheets |= AT(shares, j) & PARTS_SHEETS;
         sum.cover += face * AT(vegetation, j);
         sum.normal += left * face * n;
 #ifdef EXPOSED
@@ -53,7 +55,7 @@ void main()
     if (before <= 0.0 || (k.round >= NEAR_REACH && LOAD_U(phase, i) != PHASE_DEPOSIT))
         return;
     ivec3 v = voxel_of(LOAD_V(position, i).xyz);
-    incoming sum = incoming(vec3(0.0), 0.0, 0.0, vec3(0.0)
+    incoming sum = incoming(vec3(0.0), 0.0, 0.0, 0u, vec3(0.0)
 #ifdef EXPOSED
                             , 0.0, 0.0, 0.0
 #endif
@@ -80,7 +82,7 @@ void main()
     if (taken <= 0.0)
         return;
     vec2 share = sum.step.yz / sum.step.x;
-    AT(parts, i) = parts_of(share.x, share.y);
+    AT(parts, i) = parts_of(share.x, share.y) | sum.sheets;
     if (LOAD_U(phase, i) == PHASE_DEPOSIT) {
         taken *= share.y;
         AT(parts, i) = PARTS_LOOSE;

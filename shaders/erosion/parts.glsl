@@ -1,7 +1,8 @@
 // What processes have in an intensity, packed in a word: the shares of deflation and of water, 15 bits each; the rest is
-// abrasion's. PARTS_LOOSE alone: water's, of a deposit.
+// abrasion's. PARTS_LOOSE alone: water's, of a deposit. With PARTS_SHEETS the first share is that of sheets that come off, and what
+// wind plucks meanwhile is in the rest.
 
-const uint PARTS_LOOSE = 1u << 31;
+const uint PARTS_LOOSE = 1u << 31, PARTS_SHEETS = 1u << 30;
 const float PARTS_WHOLE = 32767.0;
 
 uint parts_of(float deflation, float water)

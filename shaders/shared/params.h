@@ -245,6 +245,17 @@ struct carry_params {
 };
 SHARED_SIZE(carry_params, 28)
 
+/* Sheets that come off the surface in a step. */
+struct sheeting_params {
+    uint n;
+    uint seed;
+    float thick, wide; /* m */
+    float strength;    /* Pa */
+    float from, to;    /* when the step begins and ends, in sheets */
+    float kyr;         /* how long it is */
+};
+SHARED_SIZE(sheeting_params, 32)
+
 /* How long particles have been bare. */
 struct skin_params {
     uint n;
@@ -285,9 +296,9 @@ SHARED_SIZE(budget_params, 16)
 struct budget_split_params {
     uint n; /* lanes */
     uint n_values;
-    uint deflation, water, abrasion, reworking; /* their rows */
+    uint deflation, water, abrasion, reworking, sheets; /* their rows */
 };
-SHARED_SIZE(budget_split_params, 24)
+SHARED_SIZE(budget_split_params, 28)
 
 /* ---- wind */
 

@@ -22,7 +22,8 @@ enum random_purpose {
     RANDOM_PAINT = 20,
     RANDOM_BEDS = 21,
     RANDOM_JOINTS = 22,
-    RANDOM_CONCRETIONS = 23
+    RANDOM_CONCRETIONS = 23,
+    RANDOM_SHEETS = 24
 };
 
 /* 32 random bits; every argument moves all of them. Nest calls for more than four arguments. */

@@ -40,7 +40,8 @@ void budget_split(struct gpu *gpu, struct budget *b, struct gpu_buffer *spent, s
                                     .deflation = PROCESS_DEFLATION,
                                     .water = PROCESS_WATER,
                                     .abrasion = PROCESS_ABRASION,
-                                    .reworking = PROCESS_REWORKING};
+                                    .reworking = PROCESS_REWORKING,
+                                    .sheets = PROCESS_BLOCKS};
     GPU_RUN(gpu, erosion_budget_split, k.n, k, spent, parts, b->sums);
 }
 

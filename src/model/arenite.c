@@ -25,6 +25,7 @@
 #include "model/edits.h"
 #include "model/inside.h"
 #include "plants/plants.h"
+#include "sheeting/sheeting.h"
 
 /* Spacings that the fastest rock and the fastest deposits may lose in a step before it is cut into parts. A deposit that goes
  * comes to rest elsewhere once in each, so that no part may be longer than a deposit's life. */
@@ -363,6 +364,7 @@ done:
 /* What is to come of a step, kyr; and how far rock has gone since its stress was solved, spacings. */
 struct step {
     double whole, left, moved;
+    double from; /* kyr since the first frame, when it began */
 };
 
 /* Wind and water on the surface, and the part of a step in which nothing goes too far under them, kyr. */
@@ -379,6 +381,9 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
     TRY(run_water(a, number, slopes));
     if (a->maps.along)
         erosion_lead(a->m.gpu, &a->erosion, job, a->maps.along, &a->particles);
+    if (sheeting_wanted(job))
+        sheeting_press(a->m.gpu, job, s->from, s->whole, &a->particles, a->erosion.intensity,
+                       a->erosion.parts);
     TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, slopes, pace));
     *kyr = part_of(s->left, s->whole / (double)job->erosion.parts, longest(a, pace));
     if (a->plants)
@@ -428,13 +433,14 @@ static status weather(struct arenite *a)
     const struct job *job = a->m.job;
     const int steps = erosion_steps(job, wind_fastest(job, a->m.frame));
     const double whole = job->clock.years_per_frame / 1000 / steps;
+    const double began = job_years(a->m.whole, a->m.whole->frames.first, a->m.frame - 1) / 1000;
     int number = 0;
     if (a->plants) {
         gpu_stage(a->m.gpu, "plants");
         plants_grow(a->m.gpu, job, a->m.frame, &a->particles);
     }
     for (int i = 0; i < steps; i++)
-        for (struct step s = {whole, whole, 0}; s.left > 0 && a->particles.n > 0;)
+        for (struct step s = {whole, whole, 0, began + i * whole}; s.left > 0 && a->particles.n > 0;)
             TRY(erode(a, number++, &s));
     if (a->beyond >= pow(a->m.h, 3)) {
         log_warn("frame %d: %.3g m3 more would have gone of rock that a part of a step may not reach, more "

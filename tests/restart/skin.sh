@@ -1,5 +1,5 @@
 #!/bin/sh
-# Rock under crusts, in pieces: frames run in two goes are byte for byte those of one go, and rock whose particles come when the
+# Rock under crusts, from which sheets come off, in pieces: frames run in two goes are byte for byte those of one go, and rock whose particles come when the
 # weather does is the rock that had them all at first. A branch begins to keep ages, or leaves them.
 set -u
 cat >job.yaml <<'JOB'
@@ -12,6 +12,7 @@ scene: {union: [{box: {min_m: [4, 4, 0], max_m: [22, 18, 6]}}, {box: {min_m: [1,
 strata: [{to_m: 9, interlock_MPa: 0.6, weak_m_per_kyr: 0.4}, {weak_m_per_kyr: 0.3}]
 noise: {amplitude: 0.4, scale_m: 5}
 deposition: {viability: 0.5}
+sheeting: {per_kyr: 2, thick_m: 0.5, strength_MPa: 0.002}
 skin: {crust: 5, crust_kyr: 2, depth_m: 0.7, before_kyr: 2, damp: 2, damp_m: 3}
 cameras: {main: {orbit: {target_m: [13, 11, 9], distance_m: 60}, resolution: [64, 48]}}
 output: {aov: {cameras: [main]}}
