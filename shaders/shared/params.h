@@ -245,6 +245,15 @@ struct carry_params {
 };
 SHARED_SIZE(carry_params, 28)
 
+/* Frost and heat. */
+struct aspect_params {
+    uint n;
+    float x,
+        y; /* towards the slopes that weather fastest: half of the logarithm of their rate over that of those opposite */
+    float per_m; /* logarithm of the rate a metre higher */
+};
+SHARED_SIZE(aspect_params, 16)
+
 /* Sheets that come off the surface in a step. */
 struct sheeting_params {
     uint n;

@@ -91,6 +91,23 @@ void erosion_lead(struct gpu *gpu, struct erosion *e, const struct job *job, str
             along, e->intensity);
 }
 
+bool erosion_has_aspect(const struct job *job)
+{
+    return job->aspect.rate != 1 || job->aspect.rate_per_100m != 1;
+}
+
+void erosion_aspect(struct gpu *gpu, struct erosion *e, const struct job *job, struct particles *p)
+{
+    const double azimuth = job->aspect.azimuth_deg * 3.14159265358979323846 / 180,
+                 half = log(job->aspect.rate) / 2;
+    const struct aspect_params k = {.n = (uint)p->n_surface,
+                                    .x = (float)(half * cos(azimuth)),
+                                    .y = (float)(half * sin(azimuth)),
+                                    .per_m = (float)(log(job->aspect.rate_per_100m) / 100)};
+    GPU_RUN(gpu, erosion_aspect, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], p->field[ROCK_phase],
+            e->intensity);
+}
+
 status erosion_pace(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
                     struct gpu_buffer *slopes, struct erosion_pace *out)
 {

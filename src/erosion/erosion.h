@@ -37,6 +37,14 @@ MUST_USE status erosion_interlock(struct gpu *gpu, struct erosion *e, const stru
 void erosion_lead(struct gpu *gpu, struct erosion *e, const struct job *job, struct gpu_buffer *along,
                   struct particles *p);
 
+/* Frost and heat: intensities of rock grow and fall by the aspect of its surface and its height (job->aspect). Records only.
+ *
+ * f = rate^(a / 2) rate_per_100m^(z / 100 m), a being the normal's part along the azimuth. The form is chosen; that slopes in the shade,
+ * which stay moist and freeze, weather otherwise than those in the sun is in Burnett, Meyer and McFadden, J. Geophys. Res. 113, 2008, and
+ * that frost cracks rock at heights where it is cold for long in Hales and Roering, J. Geophys. Res. 112, 2007. */
+bool erosion_has_aspect(const struct job *job);
+void erosion_aspect(struct gpu *gpu, struct erosion *e, const struct job *job, struct particles *p);
+
 /* The retreat of the fastest spots of the surface, m/kyr: of rock, and of deposits where water takes them. And how fast water's
  * slopes change, 1/kyr: in a longer step than its inverse floors pass by those below them, and swing. */
 struct erosion_pace {

@@ -381,6 +381,8 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
     TRY(run_water(a, number, slopes));
     if (a->maps.along)
         erosion_lead(a->m.gpu, &a->erosion, job, a->maps.along, &a->particles);
+    if (erosion_has_aspect(job))
+        erosion_aspect(a->m.gpu, &a->erosion, job, &a->particles);
     if (sheeting_wanted(job))
         sheeting_press(a->m.gpu, job, s->from, s->whole, &a->particles, a->erosion.intensity,
                        a->erosion.parts);

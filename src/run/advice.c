@@ -379,6 +379,7 @@ static status look_at_model(struct view *v)
         {"joints", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
         {"concretions", OF_MODEL(ARENITE) | OF_MODEL(GOBLINS)},
         {"skin", OF_MODEL(ARENITE)},
+        {"aspect", OF_MODEL(ARENITE)},
         {"sheeting", OF_MODEL(ARENITE)},
         {"goblins", OF_MODEL(GOBLINS)},
         {"arches", OF_MODEL(ARCHES)},

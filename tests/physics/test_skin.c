@@ -194,6 +194,61 @@ static void tafoni_need_crust_and_damp(void **state)
     assert_true(dry.n == 0 && bare.n == 0 && bare.lost > 0.9 * on.lost);
 }
 
+/* ---- frost and heat */
+
+/* How far the four walls of a block and its top have gone, m, as the block narrows: +x, -x, +y, -y, top. */
+static void walls_of(double h, const char *aspect, double gone[5])
+{
+    enum { SIDE = 12, TALL = 10 };
+    char text[1024];
+    snprintf(text, sizeof text,
+             "hoodoo: 1\nname: block\nframes: 1-11\nclock: {years_per_frame: 1000}\n"
+             "domain: {size_m: [%d, %d, %d], spacing_m: %g}\nrock: {gravity_m_s2: 0}\n"
+             "strata: [{weak_m_per_kyr: 0.1, strong_m_per_kyr: 0.1}]\nwind: {abrasion: 0}\n"
+             "scene: {box: {min_m: [2, 2, 0], max_m: [%d, %d, %d]}}\n%s\n",
+             SIDE + 4, SIDE + 4, TALL + 2, h, SIDE + 2, SIDE + 2, TALL, aspect);
+    struct sim s = sim_begin(text);
+    double left[5] = {0}, middle = SIDE / 2.0 + 2;
+    for (int f = 0; f < 10; f++)
+        assert_ok(model_step(s.model));
+    struct frame frame = sim_output(&s);
+    for (size_t i = 0; i < frame.rock.n; i++) {
+        const float *P = &frame.rock.P[4 * i];
+        const double x = (double)P[0] - middle, y = (double)P[1] - middle, z = (double)P[2];
+        const double m = h * h * h * (double)frame.rock.viability[i];
+        if (fabs(y) < 2 && z > 3 && z < 5)
+            left[x < 0] += m / 8;
+        if (fabs(x) < 2 && z > 3 && z < 5)
+            left[2 + (y < 0)] += m / 8;
+        if (fabs(x) < 2 && fabs(y) < 2)
+            left[4] += m / 16;
+    }
+    for (int w = 0; w < 5; w++)
+        gone[w] = (w < 4 ? SIDE / 2.0 : TALL) - left[w];
+    print_message("# %g m, {%s}: walls have gone by %.2f %.2f %.2f %.2f m, the top by %.2f m\n", h, aspect,
+                  gone[0], gone[1], gone[2], gone[3], gone[4]);
+    frame_free(&frame);
+    sim_end(&s);
+}
+
+/* At two spacings; and all alike where all slopes are. */
+static void walls_weather_by_where_they_face(void **state)
+{
+    (void)state;
+    for (int r = 0; r < 2; r++) {
+        double gone[5];
+        walls_of(r ? 0.5 : 1, "aspect: {azimuth_deg: 90, rate: 4, rate_per_100m: 2}", gone);
+        const double lift = pow(2, 0.04);
+        assert_true(fabs(gone[2] / (2 * lift) - 1) < 0.06 && fabs(gone[3] / (0.5 * lift) - 1) < 0.06);
+        assert_true(fabs(gone[0] / lift - 1) < 0.06 && fabs(gone[1] / lift - 1) < 0.06);
+        assert_true(fabs(gone[4] / pow(2, 0.095) - 1) < 0.06);
+    }
+    double alike[5];
+    walls_of(1, "", alike);
+    for (int w = 0; w < 5; w++)
+        assert_true(fabs(alike[w] - 1) < 0.02);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -202,6 +257,7 @@ int main(void)
         cmocka_unit_test(deposits_are_new_and_keep_what_they_bury),
         cmocka_unit_test(ground_wears_down_by_its_crust),
         cmocka_unit_test(tafoni_need_crust_and_damp),
+        cmocka_unit_test(walls_weather_by_where_they_face),
         cmocka_unit_test(no_ages_unless_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
