@@ -61,6 +61,8 @@ void skin_find(struct gpu *gpu, struct skin *s, const struct job *job, struct pa
     GPU_RUN(gpu, skin_harden, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_N], p->field[ROCK_phase],
             p->field[ROCK_viability], p->held.words, p->fill, found, p->field[ROCK_exposed_kyr], s->crust,
             s->damp, p->field[ROCK_erodibility]);
+    const struct count_params all = {(uint)p->n};
+    GPU_RUN(gpu, skin_cover, all.n, all, p->field[ROCK_exposed_kyr]);
 }
 
 void skin_age(struct gpu *gpu, const struct skin *s, const struct job *job, double kyr,

@@ -54,4 +54,28 @@ say $? "volumes have them"
 say $? "pictures have them"
 ! "$HOODOO" inspect none/aov/bare.0004.exr 2>>log | grep -q exposed
 say $? "and only where they are kept"
+# What water bares and covers in one frame is inside again before anyone has seen it: its age is one that a run goes on from.
+cat >covered.yaml <<'JOB'
+hoodoo: 1
+name: covered
+frames: 1-4
+clock: {years_per_frame: 900}
+seed: 3
+domain: {size_m: [16, 10, 12], spacing_m: 0.5}
+scene: {union: [{box: {min_m: [1, 1, 0], max_m: [15, 9, 1.5]}}, {box: {min_m: [2, 2, 4], max_m: [14, 8, 10]}}, {box: {min_m: [2, 2, 1], max_m: [5, 8, 5], inert: true}}, {box: {min_m: [11, 2, 1], max_m: [14, 8, 5], inert: true}}]}
+strata: [{to_m: 6, weak_m_per_kyr: 0.2, strong_m_per_kyr: 0.02, interlock_MPa: 0.2}, {weak_m_per_kyr: 0.05, strong_m_per_kyr: 0.01, interlock_MPa: 0.2}]
+noise: {amplitude: 0.4, scale_m: 4}
+wind: {direction: [0.8, 0.6, 0], speed_m_s: 9, abrasion: 0.55}
+rain: {m_per_yr: 0.4, erosion: 2, threshold_Pa: 0.1}
+deposition: {viability: 0.3, repose_deg: 34}
+skin: {exposed: true}
+checkpoint: {every: 1, keep: 9}
+JOB
+"$HOODOO" run covered.yaml --out covered --progress none >>log 2>&1
+say $? "rock that deposits cover"
+for frame in 2 3; do
+    sed "s/name: covered/name: goes_on/" covered.yaml >goes_on.yaml
+    "$HOODOO" run goes_on.yaml --out "on$frame" --from "covered@$frame" --progress none >>log 2>&1
+    say $? "goes on from frame $frame"
+done
 exit 0
