@@ -112,7 +112,7 @@ $(BUILD)/hoodoo-vdb.so: $(VDB_OBJ) src/vdb.map
 # What is simulated and what is in a frame's files comes from these objects. Their hash tells builds apart that may give
 # other numbers: objects and not sources, since compiler and flags count and comments do not. Debug information, which
 # names folders, is left out. The commands, the control of a run, the farm and the previews are no part of it.
-COMPUTES = $(sort $(filter-out $(addprefix $(BUILD)/,src/base/version.o src/cli/% src/run/% src/look/% farm/% render/% gen/render/%),$(LIB_OBJ)))
+COMPUTES = $(sort $(filter-out $(addprefix $(BUILD)/,src/base/version.o src/cli/% src/run/% src/look/% src/selftest/% farm/% render/% gen/render/%),$(LIB_OBJ)))
 $(BUILD)/gen/build: $(COMPUTES) Makefile
 	$(Q)ld -r -S -o $@.o $(COMPUTES) && { echo $(VERSION); cat $@.o; } | sha256sum | cut -c 1-16 > $@ && rm $@.o
 

@@ -58,7 +58,7 @@ rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*
 rank() {
     case $1 in
     base) echo 0 ;; gpu | job | mesh | reader) echo 1 ;; particles | stacks | geology) echo 2 ;;
-    frame | checkpoint) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; look) echo 9 ;; cli) echo 10 ;; *) echo 3 ;;
+    frame | checkpoint) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; look | selftest) echo 9 ;; cli) echo 10 ;; *) echo 3 ;;
     esac
 }
 includes() {

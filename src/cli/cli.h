@@ -30,7 +30,9 @@
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
     X(report, "OUT", "one static HTML page: pictures, curves, provenance, timing")                           \
     X(inspect, "FILE", "what a checkpoint, VDB, EXR or manifest holds, in words or --json")                  \
-    X(devices, "", "the Vulkan devices, by index, name, UUID, PCI address, memory")
+    X(devices, "", "the Vulkan devices, by index, name, UUID, PCI address, memory")                          \
+    X(selftest, "",                                                                                          \
+      "is this machine right, and how fast: kernels, models, memory, the demo; a table or --json")
 
 #define VERB_DECLARE(verb, operands, summary)                                                                \
     MUST_USE status cli_##verb(int argc, char **argv);                                                       \

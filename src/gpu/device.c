@@ -202,8 +202,10 @@ static status device_open(struct gpu *gpu)
                                .pQueueCreateInfos = &queue,
                                .enabledExtensionCount = n_extensions,
                                .ppEnabledExtensionNames = extension};
+    VkPhysicalDeviceSubgroupProperties subgroup = {.sType =
+                                                       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceMaintenance3Properties sizes = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, .pNext = &subgroup};
     VkPhysicalDeviceProperties2 asked = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
                                          .pNext = &sizes};
     const VkPhysicalDeviceLimits *limits = &asked.properties.limits;
@@ -217,6 +219,7 @@ static status device_open(struct gpu *gpu)
     gpu->allocation_limit = o->allocation_limit ? o->allocation_limit : sizes.maxMemoryAllocationSize;
     gpu->allocations_limit = o->allocations_limit ? o->allocations_limit : limits->maxMemoryAllocationCount;
     gpu->texel_limit = limits->maxTexelBufferElements;
+    gpu->subgroup = subgroup.subgroupSize;
     gpu->group_limit = limits->maxComputeWorkGroupCount[0];
     gpu->timestamp_ns = (double)limits->timestampPeriod;
     gpu->variant = o->variant         ? (enum kernel_variant)(o->variant - 1)
@@ -291,6 +294,18 @@ void gpu_destroy(struct gpu **handle)
 const struct gpu_info *gpu_info(const struct gpu *gpu)
 {
     return &gpu->info;
+}
+
+struct gpu_limits gpu_limits(const struct gpu *gpu)
+{
+    static const char *const variants[VARIANTS] = {"texel", "storage", "wide"};
+    return (struct gpu_limits){.range = gpu->range_limit,
+                               .texels = gpu->texel_limit,
+                               .allocation = gpu->allocation_limit,
+                               .allocations = gpu->allocations_limit,
+                               .subgroup = gpu->subgroup,
+                               .timestamp_bits = gpu->timestamp_bits,
+                               .variant = variants[gpu->variant]};
 }
 
 uint64_t gpu_memory_free(const struct gpu *gpu)

@@ -58,6 +58,18 @@ MUST_USE status gpu_create(const struct gpu_options *options, struct gpu **out);
 void gpu_destroy(struct gpu **gpu);
 const struct gpu_info *gpu_info(const struct gpu *gpu);
 
+/* What the device allows, as it says or as the options pretend. */
+struct gpu_limits {
+    uint64_t range;  /* bytes of a buffer that a kernel binds; larger ones are reached by their addresses */
+    uint64_t texels; /* items of one that is read as texels */
+    uint64_t allocation;     /* bytes in one piece that the device promises */
+    uint32_t allocations;    /* how many at once */
+    uint32_t subgroup;       /* threads that go in step */
+    uint32_t timestamp_bits; /* 0: the device has no clock, and no kernel's time is known */
+    const char *variant;     /* how kernels reach their buffers: "texel", "storage", "wide" */
+};
+struct gpu_limits gpu_limits(const struct gpu *gpu);
+
 /* Bytes that can still be allocated, as far as device and host tell. */
 uint64_t gpu_memory_free(const struct gpu *gpu);
 

@@ -60,7 +60,7 @@ struct gpu {
     uint32_t family;
     VkPhysicalDeviceMemoryProperties memory;
     uint64_t range_limit, texel_limit, allocation_limit; /* of bytes, texels, bytes */
-    uint32_t group_limit, timestamp_bits, n_allocations, allocations_limit;
+    uint32_t group_limit, timestamp_bits, n_allocations, allocations_limit, subgroup;
     double timestamp_ns;
     bool has_budget;
     enum kernel_variant variant;

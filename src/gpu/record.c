@@ -58,13 +58,16 @@ void slots_destroy(struct gpu *gpu)
 static void collect_times(struct gpu *gpu, struct slot *s)
 {
     uint64_t stamp[2 * DISPATCHES_PER_SLOT];
-    if (!gpu->timestamp_bits || s->n_dispatches == 0)
+    if (s->n_dispatches == 0)
         return;
-    VK_TRY(gpu, vkGetQueryPoolResults(gpu->device, s->queries, 0, 2 * s->n_dispatches,
-                                      2 * s->n_dispatches * sizeof *stamp, stamp, sizeof *stamp,
-                                      VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    if (gpu->timestamp_bits)
+        VK_TRY(gpu, vkGetQueryPoolResults(gpu->device, s->queries, 0, 2 * s->n_dispatches,
+                                          2 * s->n_dispatches * sizeof *stamp, stamp, sizeof *stamp,
+                                          VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     for (uint32_t i = 0; i < s->n_dispatches; i++) {
-        uint64_t ns = timestamp_ns(stamp[2 * i], stamp[2 * i + 1], gpu->timestamp_bits, gpu->timestamp_ns);
+        uint64_t ns = gpu->timestamp_bits ? timestamp_ns(stamp[2 * i], stamp[2 * i + 1], gpu->timestamp_bits,
+                                                         gpu->timestamp_ns)
+                                          : 0;
         struct gpu_time *times[] = {&gpu->kernel[s->dispatch[i].kernel], &gpu->stage[s->dispatch[i].stage]};
         for (int t = 0; t < 2; t++) {
             times[t]->ns += ns;

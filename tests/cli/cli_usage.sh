@@ -1,7 +1,7 @@
 #!/bin/sh
 # What the command line says about itself, and to whoever gets it wrong.
 set -u
-VERBS="run check new keys plan submit status verify mesh preview inspect devices"
+VERBS="run check new keys plan submit status verify mesh preview inspect devices selftest"
 
 # check NAME COMMAND...: ok if the command succeeds
 . "$HOODOO_TOP/tests/lib/check.sh"
