@@ -281,6 +281,20 @@ struct skin_params {
 };
 SHARED_SIZE(skin_params, 52)
 
+/* Where groundwater comes out. */
+struct seep_params {
+    uint n;
+    uint nx, ny, nz;
+    float h; /* m */
+    uint walls;
+    uint beds;             /* that hold water */
+    float zone;            /* m: how far above a bed faces are wet */
+    float rate, threshold; /* yr/m, m/yr: what each m/yr above the threshold adds to the intensity */
+    float strength;        /* of wet rock, as a share of dry rock's */
+    float band;
+};
+SHARED_SIZE(seep_params, 48)
+
 /* Words the erosion counts into; the fastest are floats. */
 #define COUNT_ERODED 0u
 #define COUNT_FALLEN 1u

@@ -8,7 +8,7 @@ uint64_t host_rock_bytes(size_t n)
 {
     uint64_t bytes = 0;
     for (int f = 0; f < ROCK_FIELDS; f++)
-        bytes += f == ROCK_v || f == ROCK_exposed_kyr ? 0 : n * rock_field_size((enum rock_field)f);
+        bytes += f == ROCK_v || rock_field_asked(f) ? 0 : n * rock_field_size((enum rock_field)f);
     return bytes;
 }
 

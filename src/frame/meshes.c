@@ -34,8 +34,7 @@ static struct carried carried_by(const struct job *job)
         for (int v = 1; v < VALUES; v++) {
             const struct value *a = &value_table[v];
             if (!(a->where & IN_MESHES) || (a->has != HAS_ALWAYS) != optional ||
-                (a->has == HAS_TERRAIN && !job_model(job)->terrain) ||
-                (a->has == HAS_EXPOSED && !job_keeps_exposed(job)))
+                (a->has == HAS_TERRAIN && !job_model(job)->terrain) || !job_may_have(job, a->has))
                 continue;
             c.id[c.n] = (enum value_id)v;
             c.name[c.n++] = a->name;

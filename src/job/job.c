@@ -209,8 +209,23 @@ bool job_wants_layer(const struct job *job, const char *layer)
     for (size_t i = 0; i < a->n_layers; i++)
         if (strcmp(a->layers[i], layer) == 0)
             return true;
-    return a->n_layers == 0 &&
-           (job_keeps_exposed(job) || strcmp(layer, value_table[VALUE_exposed_kyr].layer) != 0);
+    for (int v = 1; v < VALUES && a->n_layers == 0; v++)
+        if (!job_may_have(job, value_table[v].has) && strcmp(layer, value_table[v].layer) == 0)
+            return false;
+    return a->n_layers == 0;
+}
+
+bool job_may_have(const struct job *job, unsigned has)
+{
+    return has == HAS_EXPOSED ? job_keeps_exposed(job) : has == HAS_SEEPAGE ? job_seeps(job) : true;
+}
+
+bool job_seeps(const struct job *job)
+{
+    bool any = job->groundwater.recharge_m_per_yr > 0;
+    for (size_t i = 0; i < job->n_edits; i++)
+        any |= job->edits[i].set.job && job->edits[i].set.job->groundwater.recharge_m_per_yr > 0;
+    return any;
 }
 
 static bool exposes(const struct job *job)

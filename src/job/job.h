@@ -142,7 +142,13 @@ bool job_has_processes(const struct job *job);
  * what follows from it. */
 bool job_keeps_exposed(const struct job *job);
 
-/* Whether the job wants this layer of pictures (values.h). Left to itself it wants all but that of exposed_kyr, where none is kept. */
+/* Whether rock ever has groundwater: by the job or an edit of it. */
+bool job_seeps(const struct job *job);
+
+/* Whether its frames may have what values need (HAS_* of values.h), as far as the keys say that rock keeps for them alone: exposed_kyr, seepage. */
+bool job_may_have(const struct job *job, unsigned has);
+
+/* Whether the job wants this layer of pictures (values.h). Left to itself it wants all but those of values that its frames cannot have. */
 bool job_wants_layer(const struct job *job, const char *layer);
 
 /* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside

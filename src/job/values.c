@@ -94,6 +94,8 @@ static const char *has_words(enum value_has has)
         return "arenite with `clock.seconds_per_frame`";
     case HAS_EXPOSED:
         return "arenite with `skin`";
+    case HAS_SEEPAGE:
+        return "arenite with `groundwater`";
     }
     return "";
 }

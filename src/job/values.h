@@ -41,7 +41,8 @@ enum value_has {
     HAS_WIND = 16,
     HAS_TERRAIN = 32,
     HAS_MOTION = 64,
-    HAS_EXPOSED = 128
+    HAS_EXPOSED = 128,
+    HAS_SEEPAGE = 256
 };
 enum value_where {
     IN_VOLUMES = 1,

@@ -31,6 +31,9 @@
  * comes to rest elsewhere once in each, so that no part may be longer than a deposit's life. */
 static const double ROCK_STEP = 1.5, LOOSE_STEP = 0.7;
 
+/* The same of rock where groundwater seeps: what is left of a step goes on into what is around, wet or not. */
+static const double SEEPING_STEP = 0.35;
+
 /* Of the time in which a floor would come down to those below it, did they not go on. */
 static const double SLOPE_STEP = 1;
 
@@ -256,6 +259,9 @@ static status find_rates(struct arenite *a)
     status st = OK;
     gpu_stage(a->m.gpu, "erodibility");
     TRY(erosion_interlock(a->m.gpu, &a->erosion, a->m.job, a->m.frame, &a->particles));
+    if (a->seeps)
+        TRY(groundwater_find(a->m.gpu, &a->groundwater, a->m.job, a->m.frame, a->erosion.layers,
+                             &a->particles));
     if (a->plants)
         plants_bind(a->m.gpu, a->m.job, &a->particles);
     if (a->exposed)
@@ -295,7 +301,8 @@ done:
 /* The longest step in which neither rock nor deposits lose more than they may, and no floor passes by those below it, kyr. */
 static double longest(const struct arenite *a, const struct erosion_pace *pace)
 {
-    const double moved = fmin(ROCK_STEP / fmax(pace->rock, 1e-30), LOOSE_STEP / fmax(pace->loose, 1e-30));
+    const double rock = a->seeps ? SEEPING_STEP : ROCK_STEP;
+    const double moved = fmin(rock / fmax(pace->rock, 1e-30), LOOSE_STEP / fmax(pace->loose, 1e-30));
     return fmin(a->m.h * moved, SLOPE_STEP / fmax(pace->slopes, 1e-30));
 }
 
@@ -383,6 +390,7 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
         erosion_lead(a->m.gpu, &a->erosion, job, a->maps.along, &a->particles);
     if (erosion_has_aspect(job))
         erosion_aspect(a->m.gpu, &a->erosion, job, &a->particles);
+    groundwater_sap(a->m.gpu, &a->groundwater, job, &a->particles, a->erosion.intensity, a->erosion.parts);
     if (sheeting_wanted(job))
         sheeting_press(a->m.gpu, job, s->from, s->whole, &a->particles, a->erosion.intensity,
                        a->erosion.parts);

@@ -6,6 +6,7 @@
 #include "deposit/deposit.h"
 #include "erosion/erosion.h"
 #include "geology/maps.h"
+#include "groundwater/groundwater.h"
 #include "model/collapse.h"
 #include "model/type.h"
 #include "piles/piles.h"
@@ -39,6 +40,8 @@
                                     : OK)                                                                    \
     PART(crumbs, LASTS_JOB, arenite_ever(job, deposit_wanted) ? water_bytes(voxels, 2) : 0,                  \
          a->deposits ? crumbs_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->crumbs) : OK)              \
+    PART(groundwater, LASTS_JOB, groundwater_bytes(job, voxels),                                             \
+         groundwater_create(a->m.gpu, a->m.job, a->m.voxels, &a->groundwater))                               \
     PART(erosion, LASTS_ROCK, erosion_bytes(n),                                                              \
          erosion_create(a->m.gpu, a->m.job, a->particles.n_max, &a->erosion))                                \
     PART(skin, LASTS_ROCK, job_keeps_exposed(job) ? skin_bytes(n) : 0,                                       \
@@ -61,6 +64,7 @@ struct arenite {
         beyond; /* m3 that steps would have taken farther in than they may, and nobody has been told of yet */
     bool deposits, plants; /* does the run ever have any? */
     bool exposed;          /* does its rock keep how long it has been bare? */
+    bool seeps;            /* does the run ever have groundwater? */
     struct pile_tile tile; /* of rocks to show on deposits */
 };
 

@@ -36,7 +36,8 @@ static uint64_t device_bytes(const struct job *job, const int voxels[3], const s
 #define PART(name, lasts, bytes, create) sum += (bytes);
     ARENITE_PARTS(PART)
 #undef PART
-    return sum + (job_keeps_exposed(job) ? n * rock_field_size(ROCK_exposed_kyr) : 0);
+    return sum + (job_keeps_exposed(job) ? n * rock_field_size(ROCK_exposed_kyr) : 0) +
+           (job_seeps(job) ? n * rock_field_size(ROCK_seepage) : 0);
 }
 
 static double steps(const struct job *job)
@@ -51,7 +52,7 @@ unsigned arenite_has(const struct job *job, bool water, bool plants, bool deposi
 {
     return HAS_ALWAYS | (water ? HAS_WATER : 0U) | (plants ? HAS_PLANTS : 0U) |
            (deposits ? HAS_DEPOSITS : 0U) | (exposed ? HAS_EXPOSED : 0U) |
-           (job->clock.seconds_per_frame > 0 ? HAS_MOTION : 0U);
+           (job_seeps(job) ? HAS_SEEPAGE : 0U) | (job->clock.seconds_per_frame > 0 ? HAS_MOTION : 0U);
 }
 
 status arenite_estimate(const struct job *job, struct model_needs *needs)
@@ -69,7 +70,8 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     const uint64_t ages = job_keeps_exposed(job) ? n : 0;
     needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * needs->samples * sizeof(float) +
-                         ages * rock_field_size(ROCK_exposed_kyr);
+                         ages * rock_field_size(ROCK_exposed_kyr) +
+                         (job_seeps(job) ? n * rock_field_size(ROCK_seepage) : 0);
     needs->disk = (struct disk_particle){
         .inside = 15.5, .bare = 45, .volumes_inside = 2.2, .volumes_bare = 88, .channel = 1.9, .has = has};
     needs->checkpoint_bytes = 15 * (uint64_t)n + ages + held_words(needs->voxels) / 4 +

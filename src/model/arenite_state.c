@@ -40,7 +40,9 @@ status arenite_create_particles(struct arenite *a, const struct rock *rock)
     status st = OK;
     TRY(particles_create(a->m.gpu, a->m.work, rock, STATE, a->m.voxels, a->m.h, &a->particles));
     if (a->exposed)
-        TRY(particles_keep_exposed(a->m.gpu, &a->particles));
+        TRY(particles_keep(a->m.gpu, &a->particles, ROCK_exposed_kyr));
+    if (a->seeps)
+        TRY(particles_keep(a->m.gpu, &a->particles, ROCK_seepage));
     a->particles.walls = job_walls(a->m.job);
     TRY(arenite_create_parts(a, LASTS_ROCK));
     a->blocks.rubble |= a->collapse.falls;
@@ -321,6 +323,7 @@ status arenite_create(struct model *m)
     struct arenite *a = arenite_of(m);
     m->shown = &a->particles;
     a->exposed = job_keeps_exposed(m->whole);
+    a->seeps = job_seeps(m->whole);
     a->plants = plants_wanted(m->whole) || edits_plant(m->whole);
     a->deposits = arenite_ever(m->whole, deposit_wanted);
     TRY(arenite_create_parts(a, LASTS_RUN));

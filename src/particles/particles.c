@@ -6,7 +6,7 @@ uint64_t particles_bytes(size_t n, const int voxels[3])
 {
     uint64_t item = 4 + 3 * 4; /* surface; start, fill, taken: a voxel each */
     for (int f = 0; f < ROCK_FIELDS; f++)
-        item += f == ROCK_v || f == ROCK_exposed_kyr ? 0 : rock_field_size((enum rock_field)f);
+        item += f == ROCK_v || rock_field_asked(f) ? 0 : rock_field_size((enum rock_field)f);
     return (uint64_t)n * item + 2 * 4 * (uint64_t)particles_scratch(voxels, n) + held_bytes(voxels, n);
 }
 
@@ -137,8 +137,7 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     *p = (struct particles){
         .n = rock->n, .n_max = rock->n, .voxels = {voxels[0], voxels[1], voxels[2]}, .h = h};
     for (int f = 0; f < ROCK_FIELDS; f++) {
-        if ((f == ROCK_v && !(keep == DERIVED && moves(rock))) ||
-            (f == ROCK_exposed_kyr && !rock->exposed_kyr))
+        if ((f == ROCK_v && !(keep == DERIVED && moves(rock))) || (rock_field_asked(f) && !rock->field[f]))
             continue;
         TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f),
                               &p->field[f]));
@@ -206,9 +205,9 @@ status particles_allow_motion(struct gpu *gpu, struct particles *p)
     return add_field(gpu, p, ROCK_v);
 }
 
-status particles_keep_exposed(struct gpu *gpu, struct particles *p)
+status particles_keep(struct gpu *gpu, struct particles *p, enum rock_field field)
 {
-    return add_field(gpu, p, ROCK_exposed_kyr);
+    return add_field(gpu, p, field);
 }
 
 void particles_fill(struct gpu *gpu, struct particles *p)
@@ -239,8 +238,9 @@ status particles_download(struct gpu *gpu, const struct particles *p, int keep, 
 {
     status st = OK;
     TRY(rock_alloc(out, p->n, keep));
-    if (p->field[ROCK_exposed_kyr])
-        TRY(rock_keep_exposed(out));
+    for (int f = 0; f < ROCK_FIELDS; f++)
+        if (rock_field_asked(f) && rock_field_table[f].keep <= keep && p->field[f])
+            TRY(rock_keep(out, (enum rock_field)f));
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (out->field[f] && p->field[f])
             TRY(gpu_download(gpu, p->field[f], 0, out->field[f], p->n));

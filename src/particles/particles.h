@@ -19,7 +19,7 @@ struct particles {
     double h;       /* m: spacing, and a voxel's size */
     unsigned walls; /* the domain's: WALL_* of shared/params.h. 0 until the caller sets it */
     struct gpu_buffer *field
-        [ROCK_FIELDS]; /* n_max items each; NULL: v while nothing can move, exposed_kyr where none is kept */
+        [ROCK_FIELDS]; /* n_max items each; NULL: v while nothing can move, and what only some rock has (rock_field_asked()) */
     struct held_voxels held;    /* voxels with particles; with `around`, those around them too */
     bool around;                /* particles_hold_around() */
     struct gpu_buffer *start;   /* uint [held + 1]: the first particle of each, and the end */
@@ -70,8 +70,8 @@ MUST_USE status particles_hold_around(struct gpu *gpu, struct gpu_work *work, st
 /* Makes room for velocities, 0 so far. */
 MUST_USE status particles_allow_motion(struct gpu *gpu, struct particles *p);
 
-/* From now on they keep how long they have been bare, 0 so far. */
-MUST_USE status particles_keep_exposed(struct gpu *gpu, struct particles *p);
+/* From now on they have a field that only some rock has, 0 so far. */
+MUST_USE status particles_keep(struct gpu *gpu, struct particles *p, enum rock_field field);
 
 /* Takes the particles' viability into the held voxels' fill, which holds until they are indexed anew. Records only. */
 void particles_fill(struct gpu *gpu, struct particles *p);

@@ -29,7 +29,7 @@ status rock_alloc(struct rock *rock, size_t n, int keep)
     status st = OK;
     *rock = (struct rock){.n = n};
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_table[f].keep <= keep && f != ROCK_exposed_kyr)
+        if (rock_field_table[f].keep <= keep && !rock_field_asked(f))
             TRY(memory_alloc(n, rock_field_size((enum rock_field)f), rock_field_table[f].name,
                              &rock->field[f]));
 done:
@@ -38,11 +38,11 @@ done:
     return st;
 }
 
-status rock_keep_exposed(struct rock *rock)
+status rock_keep(struct rock *rock, enum rock_field f)
 {
-    return rock->exposed_kyr ? OK
-                             : memory_alloc(rock->n, sizeof *rock->exposed_kyr,
-                                            rock_field_table[ROCK_exposed_kyr].name, &rock->exposed_kyr);
+    return rock->field[f]
+               ? OK
+               : memory_alloc(rock->n, rock_field_size(f), rock_field_table[f].name, &rock->field[f]);
 }
 
 void rock_free(struct rock *rock)

@@ -2,6 +2,7 @@
 #ifndef HOODOO_ROCK_H
 #define HOODOO_ROCK_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -40,10 +41,16 @@ struct rock {
     };
 };
 
-/* Zeroed arrays for n particles, for fields with keep <= `keep` (STATE, or DERIVED for all), but for exposed_kyr, which only some rock
- * has: rock_keep_exposed() adds that. */
+/* Does only some rock have the field: where the job asks for it? Its arrays are NULL elsewhere. */
+static inline bool rock_field_asked(int field)
+{
+    return field == ROCK_exposed_kyr || field == ROCK_seepage;
+}
+
+/* Zeroed arrays for n particles, for fields with keep <= `keep` (STATE, or DERIVED for all), but for those that only some rock
+ * has: rock_keep() adds one of these. */
 MUST_USE status rock_alloc(struct rock *rock, size_t n, int keep);
-MUST_USE status rock_keep_exposed(struct rock *rock);
+MUST_USE status rock_keep(struct rock *rock, enum rock_field field);
 void rock_free(struct rock *rock);
 
 /* Bytes of one particle's value of a field. */

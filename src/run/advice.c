@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "field/camera.h"
+#include "groundwater/contacts.h"
 #include "job/table.h"
 #include "scene/scene.h"
 #include "shared/params.h"
@@ -171,6 +172,12 @@ static status look_at_sizes(struct view *v)
             "damp reaches %g m, less than two spacings (%g m): holes are as wide as the spacing makes them, "
             "and with 0 there are none",
             job->skin.damp_m, 2 * h));
+    if (job->groundwater.recharge_m_per_yr > 0 && contacts_beds(job) == 0)
+        TRY(say(
+            v, "groundwater",
+            "no stratum has a conductivity_m_per_yr of less than recharge_m_per_yr (%g), which would hold "
+            "water up: nothing seeps out",
+            job->groundwater.recharge_m_per_yr));
     if (job->noise.amplitude > 0 && job->noise.scale_m < 2 * h)
         TRY(say(v, "noise.scale_m",
                 "features of %g m are finer than two spacings (%g m): another spacing is another rock",
@@ -381,6 +388,7 @@ static status look_at_model(struct view *v)
         {"skin", OF_MODEL(ARENITE)},
         {"aspect", OF_MODEL(ARENITE)},
         {"sheeting", OF_MODEL(ARENITE)},
+        {"groundwater", OF_MODEL(ARENITE)},
         {"goblins", OF_MODEL(GOBLINS)},
         {"arches", OF_MODEL(ARCHES)},
     };

@@ -23,7 +23,7 @@ static status rebuild(struct rock *rock, const size_t *list, size_t n, size_t mo
     struct rock out = {0};
     TRY(rock_alloc(&out, n + more, STATE));
     if (rock->exposed_kyr)
-        TRY(rock_keep_exposed(&out));
+        TRY(rock_keep(&out, ROCK_exposed_kyr));
     for (int f = 0; f < ROCK_FIELDS; f++) {
         size_t size = rock_field_size((enum rock_field)f);
         for (size_t i = 0; i < n && out.field[f]; i++)

@@ -143,7 +143,7 @@ static status check_room(size_t n)
 {
     size_t bytes = 0;
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_table[f].keep == STATE && f != ROCK_exposed_kyr)
+        if (rock_field_table[f].keep == STATE && !rock_field_asked(f))
             bytes += rock_field_size((enum rock_field)f);
     if (n > memory_available() / bytes)
         return fail(E_MEMORY,
