@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/build.h"
+#include "base/cores.h"
 #include "base/version.h"
 
 enum { FORMAT = 1, WIDTH = 80 };
@@ -68,7 +69,7 @@ static void add_device(struct text *t, const struct findings *r)
     const struct gpu_limits *l = &r->limits;
     add_item(t, "device: %s, %s", r->device.name, r->device.type);
     add_item(t, "driver: %s", r->device.driver);
-    add_item(t, "memory: %.1f GB, %.1f GB of it free", (double)r->device.memory / 1e9,
+    add_item(t, "memory: %.1f GB in its largest heap; %.1f GB are free", (double)r->device.memory / 1e9,
              (double)r->memory_free / 1e9);
     add_item(t, "limits: a kernel binds %.1f MB and %.3g million texels; one allocation %.1f MB, %u of them",
              (double)l->range / 1e6, (double)l->texels / 1e6, (double)l->allocation / 1e6, l->allocations);
@@ -157,8 +158,8 @@ status findings_markdown(const struct findings *r, struct text *out)
         n_wrong++;
         add_item(out, "NOT OK: %s, %s: %s", row->group, row->name, row->why);
     }
-    text_add(out, "%s%zu checks, %zu not ok, in %.0f s\n", n_wrong ? "\n" : "", r->n_rows, n_wrong,
-             r->seconds);
+    text_add(out, "%s%zu checks, %zu not ok, in %.0f s (%.0f s of CPU time, on %d cores)\n",
+             n_wrong ? "\n" : "", r->n_rows, n_wrong, r->seconds, r->cpu_seconds, cores());
     return text_status(out);
 }
 
@@ -232,6 +233,8 @@ status findings_json(const struct findings *r, struct text *out)
     json_bool(out, "ok", !findings_first_wrong(r));
     json_bool(out, "quick", r->quick);
     json_number(out, "seconds", r->seconds);
+    json_number(out, "cpu_seconds", r->cpu_seconds);
+    json_integer(out, "cores", cores());
     add_device_json(out, r);
     json_array(out, "checks");
     for (size_t i = 0; i < r->n_rows; i++)

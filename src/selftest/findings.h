@@ -49,7 +49,8 @@ struct findings {
     size_t n_rows, capacity;
     struct pace pace[PACES_MOST]; /* coarse to fine */
     size_t n_paces;
-    double seconds;
+    double seconds;     /* that passed */
+    double cpu_seconds; /* of all processors together */
 };
 
 void findings_free(struct findings *r);

@@ -124,8 +124,8 @@ static status largest(struct selftest *t, const void *what, struct row *row)
     bool had;
     TRY(gpu_create(&(struct gpu_options){.device = t->device}, &gpu));
     const struct gpu_limits limits = gpu_limits(gpu);
-    const uint64_t cap = share(t, gpu);
-    const uint64_t limit[] = {limits.range / 2, limits.range, limits.range + 4096, limits.allocation};
+    const uint64_t cap = share(t, gpu) < GPU_ITEMS_MAX * 16 ? share(t, gpu) : GPU_ITEMS_MAX * 16;
+    const uint64_t limit[] = {limits.range / 2, limits.range, limits.range + 4096, limits.allocation, cap};
     for (uint64_t bytes = 1 << 20; bytes <= cap && !refused; bytes *= 2) {
         TRY(selftest_stop(t));
         TRY(one_buffer(gpu, bytes, row, &had));

@@ -111,7 +111,7 @@ status selftest_run(struct selftest *t)
     status st = OK;
     static status (*const parts[])(struct selftest *) = {selftest_primitives, selftest_models,
                                                          selftest_picture, selftest_memory, selftest_speed};
-    const double start = clock_seconds();
+    const double start = clock_seconds(), cpu_start = clock_cpu_seconds();
     t->findings.quick = t->quick;
     TRY(describe_device(t));
     TRY(make_folder(&t->folder));
@@ -123,6 +123,7 @@ status selftest_run(struct selftest *t)
 done:
     remove_folder(&t->folder);
     t->findings.seconds = clock_seconds() - start;
+    t->findings.cpu_seconds = clock_cpu_seconds() - cpu_start;
     return st;
 }
 
