@@ -212,6 +212,10 @@ bench: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BENCH_BIN)
 reference: $(BUILD)/tests/unit/test_job
 	$(Q)cd $$(mktemp -d) && HOODOO_TOP=$(CURDIR) HOODOO_UPDATE=1 $(CURDIR)/$(BUILD)/tests/unit/test_job >/dev/null 2>&1
 
+## gallery: look at all jobs anew, jobs/GALLERY.md (a few minutes)
+gallery: $(BUILD)/hoodoo
+	$(Q)sh jobs/gallery.sh $(CURDIR)/$(BUILD)/hoodoo
+
 ## format: lay out the C by .clang-format
 format:
 	$(Q)clang-format -i $(shell find src farm render tests -name '*.[ch]' -o -name '*_shim.cpp')
@@ -270,7 +274,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-long deps-dev deps-peers demo test test-later test-peers test-long faults bench reference format lint test-asan test-tsan test-sanitized fuzz fuzz-built install clean help
+.PHONY: all deps deps-test deps-long deps-dev deps-peers demo test test-later test-peers test-long faults bench reference gallery format lint test-asan test-tsan test-sanitized fuzz fuzz-built install clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

@@ -1,5 +1,6 @@
 """hoodoo look: a picture in seconds. What a change leaves alone is taken from the states that are kept, and nothing comes out otherwise
 than from the start; --watch looks again at each save; nothing wrong passes silently."""
+import atexit
 import glob
 import http.client
 import json
@@ -158,6 +159,7 @@ ok(code == 0, "a cache that cannot be is done without", made)
 
 watching = subprocess.Popen([HOODOO, "look", "edits.yaml", "--watch", "--json", "--no-slate", "--progress", "none"], stdout=subprocess.PIPE, stderr=open("said", "w"),
                             text=True, env=with_cache("kept"))
+atexit.register(watching.kill)
 ok(json.loads(watching.stdout.readline())["from_frame"] == 1010, "--watch: a first picture")
 write(EDITS.replace("radius_m: 1.2", "radius_m: 1.9"))
 ok(json.loads(watching.stdout.readline())["from_frame"] == 1007, "--watch: again at a save, from before the change")
@@ -196,6 +198,7 @@ def raw(text):
 
 serving = subprocess.Popen([HOODOO, "look", "edits.yaml", "--serve"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=with_cache("kept"))
 address = urllib.parse.urlsplit(serving.stdout.readline().strip())
+atexit.register(serving.kill)
 server, token = (address.hostname, address.port), urllib.parse.parse_qs(address.query)["token"][0]
 ok(address.hostname == "127.0.0.1" and len(token) == 32, "--serve: an address on this machine, with a token", address)
 code, kind, _, body = fetch("/", token=token)
