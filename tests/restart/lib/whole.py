@@ -157,7 +157,8 @@ def lines(path):
 
 
 def job(path):
-    return lines(path) and quiet(HOODOO, "plan", path, "--rehearse", "0", "--json")[0] == 0
+    """What is cut within a comment is YAML, and maybe a job: with defaults from there on. The last key of all has to be there."""
+    return lines(path) and read(path).splitlines()[-1].lstrip().startswith(b"label:") and quiet(HOODOO, "plan", path, "--rehearse", "0", "--json")[0] == 0
 
 
 READERS = {"vdb": vdb, "exr": picture, "png": picture, "jpg": picture, "ply": ply, "obj": obj, "usdc": usdc, "usda": usda, "mp4": mp4,
