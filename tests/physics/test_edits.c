@@ -52,8 +52,10 @@ static bool same(const struct frame *a, const struct frame *b)
 {
     bool equal = a->rock.n == b->rock.n && a->years == b->years;
     for (int f = 0; f < ROCK_FIELDS && equal; f++)
-        equal =
-            memcmp(a->rock.field[f], b->rock.field[f], a->rock.n * rock_field_size((enum rock_field)f)) == 0;
+        if (a->rock.field[f] || b->rock.field[f]) /* some are in some jobs alone */
+            equal = a->rock.field[f] && b->rock.field[f] &&
+                    memcmp(a->rock.field[f], b->rock.field[f],
+                           a->rock.n * rock_field_size((enum rock_field)f)) == 0;
     return equal;
 }
 
