@@ -441,37 +441,12 @@ done:
     return st;
 }
 
-/* What the strip says, and the legend marks. */
 static void describe(const struct preview *p, int frame, const char *seen_from, const struct camera *camera,
                      struct slate *s)
 {
-    char when[96];
-    const struct job *job = p->job;
-    double to_middle[3];
-    for (int k = 0; k < 3; k++)
-        to_middle[k] = 0.5 * job->domain.size_m[k] - camera->eye[k];
-    double depth = dot3(to_middle, camera->ahead);
-    if (!p->no_slate && depth > 0)
-        s->px_per_m = 0.5 * camera->width / sqrt(dot3(camera->right, camera->right)) / depth;
-    s->show = p->show;
-    s->range = p->range;
-    if (!p->no_slate) {
-        slate_when(job, frame, when);
-        snprintf(s->left, sizeof s->left, "%.64s   %s", job->name, when);
-        snprintf(s->right, sizeof s->right, "%s%shoodoo %.40s", seen_from, *seen_from ? "   " : "",
-                 hoodoo_version);
-    }
-    if (p->show != VALUE_stress || job->n_strata == 0)
-        return;
-    s->n_marks = 2;
-    s->mark_name = "interlock";
-    s->mark[0] = INFINITY;
-    s->mark[1] = -INFINITY;
-    for (size_t i = 0; i < job->n_strata; i++) {
-        double at = curve_at(&job->strata[i].interlock_MPa, frame);
-        s->mark[0] = fmin(s->mark[0], at);
-        s->mark[1] = fmax(s->mark[1], at);
-    }
+    char right[160];
+    snprintf(right, sizeof right, "%s%shoodoo %.40s", seen_from, *seen_from ? "   " : "", hoodoo_version);
+    slate_describe(p->job, frame, camera, p->show, p->range, p->no_slate ? NULL : right, s);
 }
 
 /* On the list of those under way; picture_end() takes it off. */

@@ -65,6 +65,18 @@ static bool begin(struct copy *c)
     return c->write && c->info;
 }
 
+/* What was written becomes the caller's, if all went well. */
+static status end(struct copy *c, status st, void **out, size_t *n_out)
+{
+    png_destroy_read_struct(&c->read, &c->info, NULL);
+    png_destroy_write_struct(&c->write, NULL);
+    if (st != OK)
+        text_free(&c->to);
+    *out = c->to.data;
+    *n_out = c->to.size;
+    return st;
+}
+
 /* False: it cannot be read, or there is no memory. Between setjmp() and its return nothing but *c changes. */
 static bool read_picture(struct copy *c)
 {
@@ -103,13 +115,7 @@ status png_with_tag(const void *bytes, size_t n, const char *tag, void **out, si
         st = fail(E_INPUT, "the picture is damaged: %s", c.message);
     else
         st = text_status(&c.to);
-    png_destroy_read_struct(&c.read, &c.info, NULL);
-    png_destroy_write_struct(&c.write, NULL);
-    if (st != OK)
-        text_free(&c.to);
-    *out = c.to.data;
-    *n_out = c.to.size;
-    return st;
+    return end(&c, st, out, n_out);
 }
 
 static bool write_rows(struct copy *c, const unsigned char *rgb, png_uint_32 width, png_uint_32 height)
@@ -137,13 +143,7 @@ status png_encode(const unsigned char *rgb, int width, int height, void **out, s
         st = fail(E_MEMORY, "a picture of %d x %d pixels cannot be made: %s", width, height, c.message);
     else
         st = text_status(&c.to);
-    png_destroy_read_struct(&c.read, &c.info, NULL);
-    png_destroy_write_struct(&c.write, NULL);
-    if (st != OK)
-        text_free(&c.to);
-    *out = c.to.data;
-    *n_out = c.to.size;
-    return st;
+    return end(&c, st, out, n_out);
 }
 
 static bool read_head(struct copy *c, FILE *file)

@@ -10,6 +10,7 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "base/vector.h"
 
 static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf";
 static const double LETTER = 0.602; /* of the font's size */
@@ -251,4 +252,38 @@ void slate_when(const struct job *job, int frame, char out[96])
         snprintf(out, 96, "frame %d   %.0f days", frame, 365.25 * years);
     else
         snprintf(out, 96, "frame %d   %.*f yr", frame, years > 0 && years < 10 ? 1 : 0, years);
+}
+
+static void mark_interlocking(const struct job *job, int frame, struct slate *s)
+{
+    s->n_marks = 2;
+    s->mark_name = "interlock";
+    s->mark[0] = INFINITY;
+    s->mark[1] = -INFINITY;
+    for (size_t i = 0; i < job->n_strata; i++) {
+        double at = curve_at(&job->strata[i].interlock_MPa, frame);
+        s->mark[0] = fmin(s->mark[0], at);
+        s->mark[1] = fmax(s->mark[1], at);
+    }
+}
+
+void slate_describe(const struct job *job, int frame, const struct camera *camera, enum value_id show,
+                    struct show_range range, const char *right, struct slate *s)
+{
+    char when[96];
+    double to_middle[3];
+    s->show = show;
+    s->range = range;
+    if (show == VALUE_stress && job->n_strata)
+        mark_interlocking(job, frame, s);
+    if (!right)
+        return;
+    for (int k = 0; k < 3; k++)
+        to_middle[k] = 0.5 * job->domain.size_m[k] - camera->eye[k];
+    double depth = dot3(to_middle, camera->ahead);
+    if (depth > 0)
+        s->px_per_m = 0.5 * camera->width / sqrt(dot3(camera->right, camera->right)) / depth;
+    slate_when(job, frame, when);
+    snprintf(s->left, sizeof s->left, "%.64s   %s", job->name, when);
+    snprintf(s->right, sizeof s->right, "%s", right);
 }

@@ -3,6 +3,7 @@
 #define HOODOO_SLATE_H
 
 #include "base/status.h"
+#include "field/camera.h"
 #include "render/show.h"
 
 /* Lower pictures have no room for words: they stay as they are. */
@@ -41,6 +42,11 @@ MUST_USE status slate_write_bar(const struct slate *s, const char *path);
  * slate_write_bar() wrote. */
 void slate_command(const struct slate *s, const char *from, const char *bar, const char *to,
                    struct slate_command *out);
+
+/* Fills in all but its size: the legend of what is shown, with the job's thresholds of interlocking where that is stress; and with `right`
+ * (NULL: neither strip nor scale) what the strip says at its ends, and the scale in the middle of the domain. */
+void slate_describe(const struct job *job, int frame, const struct camera *camera, enum value_id show,
+                    struct show_range range, const char *right, struct slate *out);
 
 /* "frame 1061   55.2 kyr"; days where it is less than a year, seconds of a shot in real time, no time of terrain. */
 void slate_when(const struct job *job, int frame, char out[96]);

@@ -133,7 +133,6 @@ static void frame_done(void *user, int frame)
 
 static void print_words(const char *path, const struct look_made *m)
 {
-    char time[32];
     printf("%s: %s, frame %d, at %.4g m", path, m->name, m->frame, m->spacing_m);
     if (m->spacing_m != m->own_spacing_m)
         printf(" (the job's spacing is %.4g)", m->own_spacing_m);
@@ -145,8 +144,9 @@ static void print_words(const char *path, const struct look_made *m)
     printf("; load %.1f s, simulate %.1f s, picture %.1f s\n", m->load_seconds, m->step_seconds,
            m->picture_seconds);
     if (m->spacing_m != m->own_spacing_m)
-        printf("as the job is written: about %zu particles for the %zu here, and %s or so to this frame\n",
-               m->own_particles, m->n_particles, duration_text(m->own_seconds, time));
+        printf(
+            "as the job is written: about %zu particles for the %zu here; hoodoo plan says what it takes\n",
+            m->own_particles, m->n_particles);
     if (m->coarse.size)
         printf("too fine for this spacing:\n%s", m->coarse.data);
     printf("%s", m->gizmos.data ? m->gizmos.data : "");
@@ -170,7 +170,6 @@ static status print_json(const char *path, const struct look_made *m)
     json_number(&t, "load_seconds", m->load_seconds);
     json_number(&t, "simulate_seconds", m->step_seconds);
     json_number(&t, "picture_seconds", m->picture_seconds);
-    json_number(&t, "job_seconds", round(m->own_seconds));
     json_end_object(&t);
     TRY(text_status(&t));
     json_one_line(&t);

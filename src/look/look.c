@@ -8,7 +8,6 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/vector.h"
 #include "gpu/gpu.h"
 #include "look/figure.h"
 #include "look/gizmos.h"
@@ -139,32 +138,14 @@ done:
 
 /* ---- the picture */
 
-static void describe(const struct look_options *o, const struct sketch *s, const struct camera *c,
-                     struct show_range range, struct slate *out)
-{
-    const struct job *job = s->job;
-    double to_middle[3];
-    char when[96];
-    *out = (struct slate){.width = c->width, .height = c->height, .show = o->sketch.show, .range = range};
-    if (o->no_slate)
-        return;
-    for (int k = 0; k < 3; k++)
-        to_middle[k] = 0.5 * job->domain.size_m[k] - c->eye[k];
-    const double depth = dot3(to_middle, c->ahead);
-    if (depth > 0)
-        out->px_per_m = 0.5 * c->width / sqrt(dot3(c->right, c->right)) / depth;
-    slate_when(job, s->frame, when);
-    snprintf(out->left, sizeof out->left, "%.64s   %s", job->name, when);
-    snprintf(out->right, sizeof out->right, "at %.3g m", job->domain.spacing_m);
-}
-
 static status picture(struct look *l, const struct sketch *s, const struct look_options *o, struct model *m,
                       struct look_made *made)
 {
     status st = OK;
     struct frame frame = {0};
     struct shot shot = {0};
-    struct slate slate;
+    struct slate slate = {0};
+    char right[32];
     const struct camera camera = camera_of(s->camera, s->frame);
     struct show_range range = show_job_range(o->sketch.show, s->job);
     if (o->range)
@@ -175,7 +156,10 @@ static status picture(struct look *l, const struct sketch *s, const struct look_
     if (o->figure)
         figure_draw(s->job, s->frame, &shot);
     gizmos_draw(s->job, s->frame, o->gizmos, s->camera, &shot, &made->gizmos);
-    describe(o, s, &camera, range, &slate);
+    slate.width = camera.width;
+    slate.height = camera.height;
+    snprintf(right, sizeof right, "at %.3g m", s->job->domain.spacing_m);
+    slate_describe(s->job, s->frame, &camera, o->sketch.show, range, o->no_slate ? NULL : right, &slate);
     TRY(print_picture(&shot, &slate, o->folder, &made->png, &made->png_size));
     made->range = range;
     frame_free(&l->last);
@@ -230,7 +214,6 @@ status look_make(struct look *l, const struct look_options *o, struct look_made 
     made->load_seconds = loaded - began;
     made->step_seconds = there - loaded;
     made->picture_seconds = clock_seconds() - there;
-    made->own_seconds = sketch_own_seconds(&s, look_on_gpu(l));
 done:
     if (st != OK)
         look_made_free(made);

@@ -47,8 +47,6 @@ struct look_made {
     double years, spacing_m, own_spacing_m, air_m;
     size_t n_particles, own_particles; /* about */
     double load_seconds, step_seconds, picture_seconds;
-    double
-        own_seconds; /* what the job as it is written would take to that frame here, about; 0: it is not known */
     struct text gizmos; /* a line each */
     struct text coarse; /* what is lost at the coarse spacing, a line each */
 };

@@ -134,11 +134,6 @@ static double seconds_of(double work, int frames, bool gpu)
     return FRAME_SECONDS * frames + STEP_SECONDS * work / (gpu ? LOOK_GPU : 1);
 }
 
-double sketch_own_seconds(const struct sketch *s, bool gpu)
-{
-    return seconds_of(s->own_work, s->frame - s->job->frames.first, gpu);
-}
-
 /* Particles times steps at so many times the job's spacing: particles fill space, and what erodes by a voxel takes a step, but a
  * frame takes one at least. */
 static double work_at(const struct model_estimate *e, double frames, double factor)
@@ -175,9 +170,6 @@ static status set_spacing(const struct job *job, const struct sketch_options *o,
         factor = choose_factor(&e, frames, o->seconds, o->gpu);
     out->own_spacing_m = own;
     out->own_particles = e.n_particles;
-    out->own_work = work_at(&e, frames, 1);
-    out->n_particles = (size_t)((double)e.n_particles / pow(factor, 3));
-    out->work = work_at(&e, frames, factor);
     if (factor == 1 && o->spacing_m <= 0)
         goto done;
     text_add(sets_more(s), "domain.spacing_m=%.17g", own * factor);

@@ -43,9 +43,7 @@ struct sketch {
     const struct job_camera *camera; /* of it */
     int frame;
     double own_spacing_m; /* the job's as it is written */
-    double work,
-        own_work; /* particles times steps up to the frame: of the sketch, and of the job as it is written */
-    size_t n_particles, own_particles; /* likewise, about */
+    size_t own_particles; /* of the job as it is written, about */
 };
 
 /* E_USAGE: there is no such camera or frame; the job begins with another run's checkpoint. As job_load() besides. sketch_free(). */
@@ -55,8 +53,5 @@ void sketch_free(struct sketch *s);
 /* What advice (run/advice.h) has to say of the coarse job and not of the job as it is written, a line each: what is too thin for the
  * spacing, mostly. */
 MUST_USE status sketch_loses(const struct sketch *s, struct text *out);
-
-/* Simulating the job as it is written, up to the frame, is guessed to take so many seconds; its wind, where it flows, is not counted. */
-double sketch_own_seconds(const struct sketch *s, bool gpu);
 
 #endif

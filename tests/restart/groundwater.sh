@@ -17,23 +17,8 @@ cameras: {main: {orbit: {target_m: [13, 11, 9], distance_m: 60}, resolution: [64
 output: {aov: {cameras: [main]}}
 checkpoint: {every: 1, keep: 9}
 JOB
-say() {
-    [ "$1" = 0 ] && echo "ok - $2" && return
-    echo "not ok - $2"
-    tail -n 5 log | sed 's/^/# /'
-}
-same() {
-    for folder in points volumes aov; do
-        diff -r "$1/$folder" "$2/$folder" >>log 2>&1
-        say $? "$2: $folder has the same bytes"
-    done
-}
-"$HOODOO" run job.yaml --out whole --progress none >log 2>&1
-say $? "in one go"
-"$HOODOO" run job.yaml --out pieces --frames 1-2 --progress none >>log 2>&1 &&
-    "$HOODOO" run job.yaml --out pieces --progress none >>log 2>&1
-say $? "in two pieces"
-same whole pieces
+. "$HOODOO_TOP/tests/restart/lib/pieces.sh"
+in_pieces
 "$HOODOO" run job.yaml --out all --set domain.particles=all --progress none >>log 2>&1
 say $? "with particles everywhere"
 same whole all

@@ -17,23 +17,8 @@ concretions: [{per_m3: 0.02, radius_m: 1.2, flatten: 2}]
 output: {aov: {cameras: []}}
 checkpoint: {every: 1}
 JOB
-say() {
-    [ "$1" = 0 ] && echo "ok - $2" && return
-    echo "not ok - $2"
-    tail -n 5 log | sed 's/^/# /'
-}
-same() {
-    for folder in points volumes; do
-        diff -r "$1/$folder" "$2/$folder" >>log 2>&1
-        say $? "$2: $folder has the same bytes"
-    done
-}
-"$HOODOO" run job.yaml --out whole --progress none >log 2>&1
-say $? "in one go"
-"$HOODOO" run job.yaml --out pieces --frames 1-2 --progress none >>log 2>&1 &&
-    "$HOODOO" run job.yaml --out pieces --progress none >>log 2>&1
-say $? "in two pieces"
-same whole pieces
+. "$HOODOO_TOP/tests/restart/lib/pieces.sh"
+in_pieces
 bare="--set joints.0.blocks=false --set joints.1.blocks=false"
 # shellcheck disable=SC2086 # a list of options
 "$HOODOO" run job.yaml --out needed $bare --progress none >>log 2>&1 &&

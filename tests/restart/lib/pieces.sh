@@ -1,0 +1,26 @@
+# For tests in sh of runs in pieces, of job.yaml: what is done is logged in `log`.
+say() {
+    [ "$1" = 0 ] && echo "ok - $2" && return
+    echo "not ok - $2"
+    tail -n 5 log | sed 's/^/# /'
+}
+
+# same ONE OTHER: the files of frames of two folders, pictures where the job has a camera for them.
+same() {
+    kinds="points volumes"
+    if grep -q '^cameras:' job.yaml; then kinds="$kinds aov"; fi
+    for folder in $kinds; do
+        diff -r "$1/$folder" "$2/$folder" >>log 2>&1
+        say $? "$2: $folder has the same bytes"
+    done
+}
+
+# The job in one go, in `whole`, and in two.
+in_pieces() {
+    "$HOODOO" run job.yaml --out whole --progress none >log 2>&1
+    say $? "in one go"
+    "$HOODOO" run job.yaml --out pieces --frames 1-2 --progress none >>log 2>&1 &&
+        "$HOODOO" run job.yaml --out pieces --progress none >>log 2>&1
+    say $? "in two pieces"
+    same whole pieces
+}
