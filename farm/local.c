@@ -287,10 +287,10 @@ static status verdict(const struct local *l)
 #define KNOWN(name, value, text) st = l->code == (value) ? name : st;
     STATUS_MAP(KNOWN)
 #undef KNOWN
-    return fail(st,
-                "%zu of %zu tasks failed and %zu were left out that wait for them; the first was %s: see %s, "
-                "then run the same command again",
-                l->state.failed, l->state.total, l->state.left_out, t->name, log.text);
+    return fail(
+        st,
+        "%zu of %zu tasks failed and %zu were left out that wait for them; the first was %s: see %s, then run the same command again",
+        l->state.failed, l->state.total, l->state.left_out, t->name, log.text);
 }
 
 status local_run(const struct farm *f, const struct local_options *options)

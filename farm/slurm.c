@@ -97,8 +97,7 @@ static const char body[] =
     "    [ -z \"$term\" ] || { say \"stopped by Slurm: exit $rc\"; exit \"$rc\"; }\n"
     "    echo \"$rc\" >>\"$log.failed\"\n"
     "    n=$(wc -l <\"$log.failed\")\n"
-    "    [ \"$n\" -le \"$retries\" ] || { say \"failed $n times, the last with exit $rc\"; rm -f "
-    "\"$log.failed\"; exit \"$rc\"; }\n"
+    "    [ \"$n\" -le \"$retries\" ] || { say \"failed $n times, the last with exit $rc\"; rm -f \"$log.failed\"; exit \"$rc\"; }\n"
     "    say \"exit $rc; queued again (try $((n + 1)) of $((retries + 1)))\"\n"
     "    ;;\n"
     "esac\n"
@@ -111,8 +110,7 @@ static status write_script(const struct farm *f, const struct slurm_options *o, 
     struct text t = {0};
     text_add(
         &t,
-        "#!/bin/bash\n# Written by hoodoo %s submit --to slurm. Safe to run again: what is done is not done "
-        "twice.\nretries=%d\n",
+        "#!/bin/bash\n# Written by hoodoo %s submit --to slurm. Safe to run again: what is done is not done twice.\nretries=%d\n",
         hoodoo_version, (int)farm_job(f, b->task)->farm.retries);
     TRY(put_cases(f, o, b, &t));
     text_add(&t, "%s", body);

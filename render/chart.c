@@ -121,15 +121,13 @@ static void add_axes(struct text *t, const struct axis *x, const struct axis *y,
     for (double v = y->step * ceil(y->low / y->step - 1e-9); v <= y->high + 1e-9 * y->step; v += y->step)
         text_add(
             t,
-            "<line class=\"grid\" x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\"/><text class=\"tick\" x=\"%d\" "
-            "y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
+            "<line class=\"grid\" x1=\"%d\" x2=\"%d\" y1=\"%.1f\" y2=\"%.1f\"/><text class=\"tick\" x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
             x->from, x->to, at(y, v), at(y, v), x->from - 8, at(y, v) + 4, html_number(v, number));
     for (double v = x->step * ceil(x->low / x->step - 1e-9); v <= x->high + 1e-9 * x->step; v += x->step)
-        text_add(t,
-                 "<line class=\"axis\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/><text class=\"tick\" "
-                 "x=\"%.1f\" "
-                 "y=\"%d\" text-anchor=\"middle\">%s</text>\n",
-                 at(x, v), at(x, v), y->from, y->from + 5, at(x, v), y->from + 19, html_number(v, number));
+        text_add(
+            t,
+            "<line class=\"axis\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/><text class=\"tick\" x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">%s</text>\n",
+            at(x, v), at(x, v), y->from, y->from + 5, at(x, v), y->from + 19, html_number(v, number));
     text_add(t, "<line class=\"axis\" x1=\"%d\" x2=\"%d\" y1=\"%d\" y2=\"%d\"/>\n", x->from, x->to, y->from,
              y->from);
     text_add(t, "<text class=\"label\" x=\"%d\" y=\"%d\" text-anchor=\"middle\">", (x->from + x->to) / 2,
@@ -255,8 +253,7 @@ void chart_histogram(const struct histogram *h, struct text *t)
         const double from = h->low + width * (double)i, to = from + width;
         text_add(
             t,
-            "<rect class=\"bar\" x=\"%.2f\" width=\"%.2f\" y=\"%.1f\" height=\"%.1f\"><title>%s to %s: %s "
-            "%%</title></rect>\n",
+            "<rect class=\"bar\" x=\"%.2f\" width=\"%.2f\" y=\"%.1f\" height=\"%.1f\"><title>%s to %s: %s %%</title></rect>\n",
             at(&x, from) + 0.5, at(&x, to) - at(&x, from) - 1, at(&y, h->share[i]),
             y.from - at(&y, h->share[i]), html_number(from, low), html_number(to, high),
             html_number(h->share[i], share));
@@ -264,11 +261,10 @@ void chart_histogram(const struct histogram *h, struct text *t)
     for (size_t i = 0; i < h->n_marks; i++) {
         const double m = at(&x, h->mark[i].x);
         const bool left = m > (x.from + x.to) / 2.0;
-        text_add(t,
-                 "<line class=\"mark\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/><text class=\"tick\" "
-                 "x=\"%.1f\" "
-                 "y=\"%zu\" text-anchor=\"%s\">",
-                 m, m, y.from, TOP, m + (left ? -5 : 5), TOP + 8 + 14 * i, left ? "end" : "start");
+        text_add(
+            t,
+            "<line class=\"mark\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/><text class=\"tick\" x=\"%.1f\" y=\"%zu\" text-anchor=\"%s\">",
+            m, m, y.from, TOP, m + (left ? -5 : 5), TOP + 8 + 14 * i, left ? "end" : "start");
         html_text(t, h->mark[i].name);
         text_add(t, "</text>\n");
     }
@@ -286,12 +282,11 @@ void chart_rows(const char *title, const char *x_label, const struct row *row, s
         const double width = full > 0 ? fmax(row[i].value / full, 0) * (WIDTH - NAMES - NOTES) : 0;
         text_add(t, "<text class=\"name\" x=\"%d\" y=\"%d\" text-anchor=\"end\">", NAMES - 10, y + 16);
         html_text(t, row[i].name);
-        text_add(t,
-                 "</text><rect class=\"rail\" x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/><rect x=\"%d\" "
-                 "y=\"%d\" "
-                 "width=\"%.1f\" height=\"%d\" fill=\"%s\"/><text class=\"tick\" x=\"%d\" y=\"%d\">",
-                 NAMES, y + 4, WIDTH - NAMES - NOTES, ROW - 9, NAMES, y + 4, width, ROW - 9, row[i].color,
-                 WIDTH - NOTES + 8, y + 16);
+        text_add(
+            t,
+            "</text><rect class=\"rail\" x=\"%d\" y=\"%d\" width=\"%d\" height=\"%d\"/><rect x=\"%d\" y=\"%d\" width=\"%.1f\" height=\"%d\" fill=\"%s\"/><text class=\"tick\" x=\"%d\" y=\"%d\">",
+            NAMES, y + 4, WIDTH - NAMES - NOTES, ROW - 9, NAMES, y + 4, width, ROW - 9, row[i].color,
+            WIDTH - NOTES + 8, y + 16);
         html_text(t, row[i].note);
         text_add(t, "</text>\n");
     }

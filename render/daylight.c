@@ -74,12 +74,10 @@ static void add_sun(const struct light *light, const struct view *view, bool sof
 /* Radiance of a chromaticity that the functions Sky_Y, Sky_x, Sky_y give: a row of Rec. 709 from XYZ. */
 static void add_sky_channel(const char *name, const double m[3], double brightest, struct text *out)
 {
-    text_add(out,
-             "#declare Sky_%s = function(x, y, z) {\n    min(0.9999, max(0, Sky_Y(x, y, z) * (%.7f * "
-             "Sky_x(x, y, z) + %.7f * "
-             "Sky_y(x, y, z) +\n        %.7f * (1 - Sky_x(x, y, z) - Sky_y(x, y, z))) / Sky_y(x, y, z) / "
-             "%.6f))\n}\n",
-             name, m[0], m[1], m[2], brightest);
+    text_add(
+        out,
+        "#declare Sky_%s = function(x, y, z) {\n    min(0.9999, max(0, Sky_Y(x, y, z) * (%.7f * Sky_x(x, y, z) + %.7f * Sky_y(x, y, z) +\n        %.7f * (1 - Sky_x(x, y, z) - Sky_y(x, y, z))) / Sky_y(x, y, z) / %.6f))\n}\n",
+        name, m[0], m[1], m[2], brightest);
 }
 
 static void add_sky(const struct light *light, struct text *out)
@@ -93,23 +91,21 @@ static void add_sky(const struct light *light, struct text *out)
     const double brightest =
         8 * fmax(fmax(light->sky_rgb[0], light->sky_rgb[1]), fmax(light->sky_rgb[2], 1e-6));
     double theta = PI / 2 - s->lift, level = fmax(hypot(s->sun[0], s->sun[1]), 1e-9);
-    text_add(out,
-             "// the sky's radiance: Perez' function with Preetham's coefficients, as the lights have it\n"
-             "#declare Sky_Up = function(x, y, z) { max(z / sqrt(x * x + y * y + z * z), 0.01) }\n"
-             "#declare Sky_Near = function(x, y, z) {\n    max(-1, min(1, (%.8f * x + %.8f * y + %.8f * z) / "
-             "sqrt(x * x + y * y + z * "
-             "z)))\n}\n",
-             s->sun[0] / level * cos(s->lift), s->sun[1] / level * cos(s->lift), sin(s->lift));
+    text_add(
+        out,
+        "// the sky's radiance: Perez' function with Preetham's coefficients, as the lights have it\n"
+        "#declare Sky_Up = function(x, y, z) { max(z / sqrt(x * x + y * y + z * z), 0.01) }\n"
+        "#declare Sky_Near = function(x, y, z) {\n    max(-1, min(1, (%.8f * x + %.8f * y + %.8f * z) / sqrt(x * x + y * y + z * z)))\n}\n",
+        s->sun[0] / level * cos(s->lift), s->sun[1] / level * cos(s->lift), sin(s->lift));
     for (int i = 0; i < 3; i++) {
         const double *c = s->perez[i];
         double overhead =
             (1 + c[0] * exp(c[1])) * (1 + c[2] * exp(c[3] * theta) + c[4] * cos(theta) * cos(theta));
         double scale = s->zenith[i] / overhead * (i == 0 ? SKY_PER_KCD * s->strength : 1);
-        text_add(out,
-                 "#declare Sky_%s = function(x, y, z) {\n    %.9g * (1 + %.8g * exp(%.8g / Sky_Up(x, y, z))) "
-                 "*\n        (1 + %.8g * "
-                 "exp(%.8g * acos(Sky_Near(x, y, z))) + %.8g * pow(Sky_Near(x, y, z), 2))\n}\n",
-                 name[i], scale, c[0], c[1], c[2], c[3], c[4]);
+        text_add(
+            out,
+            "#declare Sky_%s = function(x, y, z) {\n    %.9g * (1 + %.8g * exp(%.8g / Sky_Up(x, y, z))) *\n        (1 + %.8g * exp(%.8g * acos(Sky_Near(x, y, z))) + %.8g * pow(Sky_Near(x, y, z), 2))\n}\n",
+            name[i], scale, c[0], c[1], c[2], c[3], c[4]);
     }
     for (int i = 0; i < 3; i++)
         add_sky_channel(channel[i], rgb[i], brightest, out);
@@ -124,13 +120,12 @@ static void add_sky(const struct light *light, struct text *out)
     double cloud[3];
     for (int i = 0; i < 3; i++)
         cloud[i] = (0.28 * light->sun_rgb[i] + light->sky_rgb[i]) * DAYLIGHT_SCALE;
-    text_add(out,
-             "        }\n    }\n    pigment {\n        wrinkles\n        turbulence 0.45\n        octaves "
-             "5\n        color_map {\n"
-             "            [0.70 rgbt <%.5f, %.5f, %.5f, 1>]\n            [1.00 rgbt <%.5f, %.5f, %.5f, "
-             "0.55>]\n        }\n"
-             "        scale <0.8, 0.8, 0.11>\n    }\n}\n",
-             cloud[0], cloud[1], cloud[2], cloud[0], cloud[1], cloud[2]);
+    text_add(
+        out,
+        "        }\n    }\n    pigment {\n        wrinkles\n        turbulence 0.45\n        octaves 5\n        color_map {\n"
+        "            [0.70 rgbt <%.5f, %.5f, %.5f, 1>]\n            [1.00 rgbt <%.5f, %.5f, %.5f, 0.55>]\n        }\n"
+        "        scale <0.8, 0.8, 0.11>\n    }\n}\n",
+        cloud[0], cloud[1], cloud[2], cloud[0], cloud[1], cloud[2]);
 }
 
 /* By the kilometre, thinning out with height: the horizon is a veil, not a line. */

@@ -39,13 +39,12 @@ static void add_unconformity(const struct job *job, size_t u, char at[3][32], st
     const struct job_unconformity *old = &job->attitude.unconformities[u];
     const double *pivot = job->attitude.pivot_m, dip = old->dip_deg * M_PI / 180,
                  azimuth = old->dip_azimuth_deg * M_PI / 180;
-    text_add(out,
-             "#declare Laid_%zu = function(x, y, z) {\n    select(Laid_%zu(x, y, z) - %.9g, min(%.9g, %.9g + "
-             "%.9g * "
-             "(Laid_%zu(x, y, z) - %.9g) + %.9g * (%s - %.9g) + %.9g * (%s - %.9g)), Laid_%zu(x, y, z))\n}\n",
-             u, u + 1, old->at_m, old->at_m - 1e-6 * fmax(fabs(old->at_m), 1), old->at_m - old->eroded_m,
-             cos(dip), u + 1, old->at_m, sin(dip) * cos(azimuth), at[0], pivot[0], sin(dip) * sin(azimuth),
-             at[1], pivot[1], u + 1);
+    text_add(
+        out,
+        "#declare Laid_%zu = function(x, y, z) {\n    select(Laid_%zu(x, y, z) - %.9g, min(%.9g, %.9g + %.9g * (Laid_%zu(x, y, z) - %.9g) + %.9g * (%s - %.9g) + %.9g * (%s - %.9g)), Laid_%zu(x, y, z))\n}\n",
+        u, u + 1, old->at_m, old->at_m - 1e-6 * fmax(fabs(old->at_m), 1), old->at_m - old->eroded_m, cos(dip),
+        u + 1, old->at_m, sin(dip) * cos(azimuth), at[0], pivot[0], sin(dip) * sin(azimuth), at[1], pivot[1],
+        u + 1);
 }
 
 /* What beds span in the box: at its corners, and folds' crests and older beds beyond. */
@@ -91,8 +90,7 @@ void pile_write(const struct job *job, struct text *out)
         snprintf(at[i], sizeof at[i], "Before_0_%d(x, y, z)", i);
     text_add(
         out,
-        "#declare Laid_%zu = function(x, y, z) {\n    %.9g + %.9g * (%s - %.9g) + %.9g * (%s - %.9g) + %.9g "
-        "* (%s - %.9g)",
+        "#declare Laid_%zu = function(x, y, z) {\n    %.9g + %.9g * (%s - %.9g) + %.9g * (%s - %.9g) + %.9g * (%s - %.9g)",
         a->n_unconformities, pivot[2], up[0], at[0], pivot[0], up[1], at[1], pivot[1], up[2], at[2],
         pivot[2]);
     for (size_t f = 0; f < a->n_folds; f++) {

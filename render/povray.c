@@ -115,10 +115,10 @@ static void add_heat(struct text *out, const struct scene *s)
 static void add_heat_colors(struct text *out, const struct scene *s)
 {
     enum { STOPS = 64 };
-    text_add(out,
-             "// %s from %g to %g %s\n#declare Heat = texture {\n    pigment {\n        gradient x\n        "
-             "color_map {\n",
-             value_table[s->show].name, s->range.low, s->range.high, value_table[s->show].legend.unit);
+    text_add(
+        out,
+        "// %s from %g to %g %s\n#declare Heat = texture {\n    pigment {\n        gradient x\n        color_map {\n",
+        value_table[s->show].name, s->range.low, s->range.high, value_table[s->show].legend.unit);
     for (int i = 0; i <= STOPS; i++) {
         unsigned char rgb[3];
         show_color(s->show, s->range, (double)i / STOPS, rgb);
@@ -228,10 +228,10 @@ static void add_head(struct text *out, const struct scene *s)
     text_add(out, "// Complete in itself: povray +I%s +W%d +H%d %s -D Declare=View=0%s\n", s->file,
              s->camera->width, s->camera->height, care, s->show == VALUE_NONE ? " +FP16 File_Gamma=1" : "");
     if (s->show == VALUE_NONE)
-        text_add(out,
-                 "// That is scene-linear light, of which 1 is %g here; previews show it through the curve "
-                 "of render/develop.h.\n",
-                 DAYLIGHT_SCALE);
+        text_add(
+            out,
+            "// That is scene-linear light, of which 1 is %g here; previews show it through the curve of render/develop.h.\n",
+            DAYLIGHT_SCALE);
     if (s->n_cameras > 1)
         text_add(out, "// View: 0 to %zu, around the rock.\n", s->n_cameras - 1);
     text_add(out,

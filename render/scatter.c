@@ -77,9 +77,9 @@ static void add_bush(struct text *out)
         const double at[3] = {level * cos(turn), level * sin(turn), 0.06 + 0.86 * z * (0.75 + 0.25 * r)};
         add_leaf(at, 0.30, &dice, out);
     }
-    text_add(out, "texture { pigment { bozo color_map { [0.3 rgb <0.17, 0.175, 0.115>] [0.7 rgb <0.27, "
-                  "0.265, 0.18>] } scale 0.3 } "
-                  "finish { Dry } }\n}\n");
+    text_add(
+        out,
+        "texture { pigment { bozo color_map { [0.3 rgb <0.17, 0.175, 0.115>] [0.7 rgb <0.27, 0.265, 0.18>] } scale 0.3 } finish { Dry } }\n}\n");
 }
 
 /* Blades from a root. */
@@ -94,9 +94,9 @@ static void add_grass(struct text *out)
                  y + 0.018 * cos(turn), x + 0.018 * sin(turn), y - 0.018 * cos(turn), x + lean * cos(turn),
                  y + lean * sin(turn), high * (1 - 0.3 * lean));
     }
-    text_add(out, "texture { pigment { gradient z color_map { [0 rgb <0.20, 0.17, 0.08>] [1 rgb <0.50, 0.42, "
-                  "0.22>] } } "
-                  "finish { Dry } }\n}\n");
+    text_add(
+        out,
+        "texture { pigment { gradient z color_map { [0 rgb <0.20, 0.17, 0.08>] [1 rgb <0.50, 0.42, 0.22>] } } finish { Dry } }\n}\n");
 }
 
 /* A juniper: a few boughs of dense leaves on a short trunk. */
@@ -114,11 +114,11 @@ static void add_tree(struct text *out)
             add_leaf(at, 0.10, &dice, out);
         }
     }
-    text_add(out, "triangle {<-0.05,0,0>,<0.05,0,0>,<0.01,0.01,0.6>}\ntriangle "
-                  "{<0,-0.05,0>,<0,0.05,0>,<0.01,0.01,0.6>}\n"
-                  "texture { pigment { bozo color_map { [0.3 rgb <0.055, 0.075, 0.030>] [0.7 rgb <0.11, "
-                  "0.125, 0.05>] } scale 0.12 } "
-                  "finish { Dry } }\n}\n");
+    text_add(
+        out,
+        "triangle {<-0.05,0,0>,<0.05,0,0>,<0.01,0.01,0.6>}\ntriangle {<0,-0.05,0>,<0,0.05,0>,<0.01,0.01,0.6>}\n"
+        "texture { pigment { bozo color_map { [0.3 rgb <0.055, 0.075, 0.030>] [0.7 rgb <0.11, 0.125, 0.05>] } scale 0.12 } "
+        "finish { Dry } }\n}\n");
 }
 
 status scatter_shapes(struct text *out)
@@ -308,12 +308,12 @@ void scatter_scree(const struct vdb_mesh *m, const float *loose, double pixel, s
             double size = least * pow(largest / least, pow(roll(&f.dice), 3));
             if (size < 2 * pixel)
                 continue;
-            text_add(out,
-                     "object { Stone_%d scale <%.3g,%.3g,%.3g> rotate <%.0f,%.0f,%.0f> translate "
-                     "<%.3f,%.3f,%.3f> texture { Rubble } }\n",
-                     (int)(SCATTER_STONES * roll(&f.dice)), 0.5 * size * (0.8 + 0.4 * roll(&f.dice)),
-                     0.5 * size * (0.8 + 0.4 * roll(&f.dice)), 0.5 * size, 50 * roll(&f.dice) - 25,
-                     50 * roll(&f.dice) - 25, 360 * roll(&f.dice), at[0], at[1], at[2] + 0.05 * size);
+            text_add(
+                out,
+                "object { Stone_%d scale <%.3g,%.3g,%.3g> rotate <%.0f,%.0f,%.0f> translate <%.3f,%.3f,%.3f> texture { Rubble } }\n",
+                (int)(SCATTER_STONES * roll(&f.dice)), 0.5 * size * (0.8 + 0.4 * roll(&f.dice)),
+                0.5 * size * (0.8 + 0.4 * roll(&f.dice)), 0.5 * size, 50 * roll(&f.dice) - 25,
+                50 * roll(&f.dice) - 25, 360 * roll(&f.dice), at[0], at[1], at[2] + 0.05 * size);
         }
     }
 }
@@ -325,13 +325,13 @@ void scatter_rocks(const struct job *job, const struct rock *at, double radius, 
         /* Many small ones, few large: those still touch. */
         double size = radius * (0.45 + 1.15 * pow(roll(&dice), 2.2));
         size_t bed = (size_t)(roll(&dice) * (double)job->n_strata);
-        text_add(out,
-                 "object { Stone_%d scale %.4g rotate <%.0f,%.0f,%.0f> translate <%.4f,%.4f,%.4f> texture { "
-                 "Rubble_Bed[%zu] } }\n",
-                 (int)(SCATTER_STONES * roll(&dice)), size, 360 * roll(&dice), 360 * roll(&dice),
-                 360 * roll(&dice), (double)at->P[4 * i] + 0.4 * radius * (roll(&dice) - 0.5),
-                 (double)at->P[4 * i + 1] + 0.4 * radius * (roll(&dice) - 0.5),
-                 (double)at->P[4 * i + 2] - 0.3 * (radius - size), bed < job->n_strata ? bed : 0);
+        text_add(
+            out,
+            "object { Stone_%d scale %.4g rotate <%.0f,%.0f,%.0f> translate <%.4f,%.4f,%.4f> texture { Rubble_Bed[%zu] } }\n",
+            (int)(SCATTER_STONES * roll(&dice)), size, 360 * roll(&dice), 360 * roll(&dice),
+            360 * roll(&dice), (double)at->P[4 * i] + 0.4 * radius * (roll(&dice) - 0.5),
+            (double)at->P[4 * i + 1] + 0.4 * radius * (roll(&dice) - 0.5),
+            (double)at->P[4 * i + 2] - 0.3 * (radius - size), bed < job->n_strata ? bed : 0);
     }
 }
 

@@ -228,11 +228,10 @@ static void embed(const char *path, struct bytes *spv, FILE *c)
         start[v] = spv->n / sizeof(uint32_t);
         size[v] = compile(path, text.p, variant_name[v], spv);
     }
-    fprintf(c,
-            "const struct kernel_source kernel_%s = {\"%s\", \"%s\", {words + %zu, words + %zu, words + "
-            "%zu}, {%zu, "
-            "%zu, %zu}};\n",
-            name, name, bindings, start[0], start[1], start[2], size[0], size[1], size[2]);
+    fprintf(
+        c,
+        "const struct kernel_source kernel_%s = {\"%s\", \"%s\", {words + %zu, words + %zu, words + %zu}, {%zu, %zu, %zu}};\n",
+        name, name, bindings, start[0], start[1], start[2], size[0], size[1], size[2]);
     free(text.p);
 }
 

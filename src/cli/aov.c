@@ -106,10 +106,10 @@ static status check_unlisted(const struct shot *s, int frame, const char *path)
     status st = manifest_read(s->root.text, s->name, frame, &manifest);
     for (size_t i = 0; st == OK && i < manifest.n_files; i++)
         if (strcmp(manifest.file[i].path, path) == 0)
-            st = fail(E_OUTPUT,
-                      "%s is the run's own picture, which its manifest vouches for; give the camera another "
-                      "name (--set 'cameras.NAME={...}' --camera NAME)",
-                      path);
+            st = fail(
+                E_OUTPUT,
+                "%s is the run's own picture, which its manifest vouches for; give the camera another name (--set 'cameras.NAME={...}' --camera NAME)",
+                path);
     manifest_free(&manifest);
     return st == E_INPUT ? OK : st; /* a frame without a manifest vouches for nothing */
 }

@@ -295,11 +295,9 @@ status cli_look(int argc, char **argv)
     const struct option options[] = {
         {"frame", "N|last", OPTION_TEXT, &l.options.sketch.frame, "which frame (default last)"},
         {"camera", "NAME|AZ,EL", OPTION_TEXT, &l.options.sketch.camera,
-         "of the job, or a direction in degrees to see all of the domain from, such as -55,9 (default: the "
-         "job's first camera)"},
+         "of the job, or a direction in degrees to see all of the domain from, such as -55,9 (default: the job's first camera)"},
         {"quality", CHOICE_TEXT(QUALITY_CHOICE), OPTION_CHOICE, &quality,
-         "sketch: simulated in about 2 seconds; draft: in 20, and a larger picture; full: at the job's own "
-         "spacing (default sketch)"},
+         "sketch: simulated in about 2 seconds; draft: in 20, and a larger picture; full: at the job's own spacing (default sketch)"},
         {"seconds", "S", OPTION_NUMBER, &seconds, "choose a spacing that takes about so long to simulate"},
         {"spacing", "M", OPTION_NUMBER, &spacing, "this spacing, in metres"},
         {"show", show_words(shown), OPTION_CHOICE, &show,
@@ -308,19 +306,13 @@ status cli_look(int argc, char **argv)
          "what the colours span, in the legend's unit (default: the range that previews of the job have)"},
         {"figure", NULL, OPTION_FLAG, &l.options.figure, "a person of 1.75 m stands before the rock"},
         {"gizmos", CHOICE_TEXT(GIZMOS_CHOICE), OPTION_CHOICE, &gizmos,
-         "lines over the picture: domain, wind, water's ways, paint, cameras, and edits and tools of the "
-         "frame (now) or of any "
-         "(default now)"},
+         "lines over the picture: domain, wind, water's ways, paint, cameras, and edits and tools of the frame (now) or of any (default now)"},
         {"no-slate", NULL, OPTION_FLAG, &l.options.no_slate,
          "without the scale bar and the strip that says name, frame and age"},
         {"watch", NULL, OPTION_FLAG, &l.watch,
-         "again whenever the job or a file that it reads is saved, until Ctrl-C; what is wrong with the job "
-         "is "
-         "said, and waited for"},
+         "again whenever the job or a file that it reads is saved, until Ctrl-C; what is wrong with the job is said, and waited for"},
         {"serve", NULL, OPTION_FLAG, &page,
-         "a page for a browser on this machine: turn it, go through the frames, click for places and values. "
-         "Its "
-         "address is printed; who has it can see the page. Until Ctrl-C"},
+         "a page for a browser on this machine: turn it, go through the frames, click for places and values. Its address is printed; who has it can see the page. Until Ctrl-C"},
         {"port", "N", OPTION_INT, &port, "of the page (default: one that is free)"},
         {"out", "PNG", OPTION_TEXT, &l.out, "the picture (default NAME.look.png)"},
         OPTION_WEDGE(&l.options.sketch.wedge),

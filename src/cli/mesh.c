@@ -53,8 +53,7 @@ status cli_mesh(int argc, char **argv)
         {"adaptivity", "VOXELS", OPTION_NUMBER, &meshes.adaptivity,
          "0 to 1: how far the surface may move for fewer triangles (default 0)"},
         {"smooth", "N", OPTION_INT, &meshes.smooth,
-         "passes, 0 to 100, that even out the surface without shrinking it; layers and ledges keep their "
-         "edges (default 0)"},
+         "passes, 0 to 100, that even out the surface without shrinking it; layers and ledges keep their edges (default 0)"},
         {"no-rocks", NULL, OPTION_FLAG, &no_rocks, "without NAME.rocks.FRAME, the rocks of piles"},
         {"missing", NULL, OPTION_FLAG, &missing,
          "only meshes that are not there, are damaged, or were made otherwise or of another frame"},

@@ -138,8 +138,7 @@ status cli_plan(int argc, char **argv)
         OPTION_FROM(&c),
         OPTION_JSON(&c),
         {"rehearse", "SECONDS", OPTION_NUMBER, &asked.patience,
-         "about how long its first frames may be tried on the device, which is what its time "
-         "rests on (default 10; 0: at once, and without a time)"}};
+         "about how long its first frames may be tried on the device, which is what its time rests on (default 10; 0: at once, and without a time)"}};
     TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;

@@ -241,31 +241,21 @@ status cli_preview(int argc, char **argv)
          "a full orbit of the last frame, as pictures and video"},
         {"views", "N", OPTION_INT, &w.views, "pictures in the orbit, which takes 6 seconds (default 72)"},
         {"view", "RANGE", OPTION_RANGE, &w.which,
-         "these of the views alone, such as 0-11 (default: all); with --only views, so that several machines "
-         "can share an orbit"},
+         "these of the views alone, such as 0-11 (default: all); with --only views, so that several machines can share an orbit"},
         {"show", show_words(shown), OPTION_CHOICE, &w.show,
          "a value of the surface as colours, with a legend (default rock: as it looks)"},
         {"range", "job|data|LO:HI", OPTION_TEXT, &w.range,
-         "what the colours span: job (default), the same for all pictures of a job (stress from the weight "
-         "of "
-         "the rock, discharge from its water, erodibility from its strata, shares 0 to 1); data, all but the "
-         "outermost hundredths of "
-         "these "
-         "frames' values; or LO:HI in the legend's unit"},
+         "what the colours span: job (default), the same for all pictures of a job (stress from the weight of the rock, discharge from its water, erodibility from its strata, shares 0 to 1); data, all but the outermost hundredths of these frames' values; or LO:HI in the legend's unit"},
         {"camera", "NAME", OPTION_TEXT, &w.camera, "of the job (default: its first)"},
         {"preset", CHOICE_TEXT(PRESET_CHOICE), OPTION_CHOICE, &w.preset,
          "how much care is taken (default preview)"},
         {"resolution", "WxH", OPTION_TEXT, &w.resolution,
-         "of the pictures (default: stills as the camera's, at most 960x540 unless final; views 640x360, "
-         "1280x720 or 1920x1080)"},
+         "of the pictures (default: stills as the camera's, at most 960x540 unless final; views 640x360, 1280x720 or 1920x1080)"},
         {"only", CHOICE_TEXT(ONLY_CHOICE), OPTION_CHOICE, &w.only,
-         "a part of it: stills without a sheet, the sheet of the stills there are, views of the turntable "
-         "without a video, the video of the views there are, or the sheet across the wedges of a farm's "
-         "folder"},
+         "a part of it: stills without a sheet, the sheet of the stills there are, views of the turntable without a video, the video of the views there are, or the sheet across the wedges of a farm's folder"},
         {"figure", NULL, OPTION_FLAG, &w.figure, "a person of 1.75 m stands before the rock"},
         {"no-slate", NULL, OPTION_FLAG, &w.no_slate,
-         "without the scale bar and the strip that says name, frame and age (pictures lower than 120 pixels "
-         "never have one)"},
+         "without the scale bar and the strip that says name, frame and age (pictures lower than 120 pixels never have one)"},
         OPTION_WEDGE(&w.wedge),
         OPTION_PROGRESS(&w.common),
         {"jobs", "N", OPTION_INT, &w.jobs, "pictures made side by side (default: the cores there are)"},

@@ -74,8 +74,7 @@ status cli_run(int argc, char **argv)
         TRY(take_wedge(operands.word[0], &c, wedge, &job));
     } else if (job_wedges(job)) {
         log_info(
-            "this job has %zu wedges; this run is the job itself (--wedge N is one of them, hoodoo submit "
-            "runs all)",
+            "this job has %zu wedges; this run is the job itself (--wedge N is one of them, hoodoo submit runs all)",
             job_wedges(job));
     }
     if (path_map)

@@ -228,9 +228,7 @@ status cli_submit(int argc, char **argv)
     bool help = false;
     const struct option options[] = {
         {"to", CHOICE_TEXT(TO_CHOICE), OPTION_CHOICE, &w.to,
-         "this machine's devices; sbatch; a job template (jobtemplate-2023-09); or, for any other farm, the "
-         "tasks as "
-         "JSON on stdout: each with its command, what it waits for and what it takes"},
+         "this machine's devices; sbatch; a job template (jobtemplate-2023-09); or, for any other farm, the tasks as JSON on stdout: each with its command, what it waits for and what it takes"},
         OPTION_OUT(&w.common),
         {"dry-run", NULL, OPTION_FLAG, &w.dry_run, "print what would be submitted, and do nothing"},
         {"gpus", "LIST", OPTION_TEXT, &w.gpus, "local: a worker for each of these devices, such as 0,1"},

@@ -30,8 +30,7 @@ status rocks_tile(const struct job *job, struct pile_tile *out)
     if (places > MOST_PLACES || places * ceil(size[2] / out->side) > UINT32_MAX) {
         st = fail(
             E_USAGE,
-            "piles.rock_m: rocks of %g m have %.3g places side by side in this domain; raise it, at most "
-            "%.3g can be told apart",
+            "piles.rock_m: rocks of %g m have %.3g places side by side in this domain; raise it, at most %.3g can be told apart",
             p->rock_m, places, MOST_PLACES);
         pile_tile_destroy(out);
     }

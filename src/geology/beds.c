@@ -159,8 +159,7 @@ done:
 many:
     return fail(
         E_USAGE,
-        "strata_from: more than %d beds of %g m lie between height %g m and the domain: make thickness_m "
-        "larger, or from_m nearer",
+        "strata_from: more than %d beds of %g m lie between height %g m and the domain: make thickness_m larger, or from_m nearer",
         MOST_BEDS, p->job->thickness_m, p->origin);
 }
 

@@ -57,8 +57,7 @@ status structure_create(const struct job *job, struct structure *s)
         if (count > CONCRETIONS_MOST)
             return fail(
                 E_USAGE,
-                "concretions.%zu: %.3g lie in each cube of %.3g m, which the largest fill: %d at most; lower "
-                "per_m3 (%g), radius_m (%g) or spread (%g)",
+                "concretions.%zu: %.3g lie in each cube of %.3g m, which the largest fill: %d at most; lower per_m3 (%g), radius_m (%g) or spread (%g)",
                 i, count, side, (int)CONCRETIONS_MOST, job->concretions[i].per_m3,
                 job->concretions[i].radius_m, job->concretions[i].spread);
     }

@@ -73,8 +73,7 @@ static int slurm_device(const char *ids, const struct gpu_info *info, size_t n, 
     if (!read_ids(ids, &first, &count))
         return -1;
     *why =
-        "GPUs of several types are here, and which of them Slurm counts is not known; name one by uuid: or "
-        "pci:";
+        "GPUs of several types are here, and which of them Slurm counts is not known; name one by uuid: or pci:";
     for (int i = 1; i < n_gpus; i++)
         if (strcmp(info[gpu[i]].type, info[gpu[0]].type) != 0)
             return -1;

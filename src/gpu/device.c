@@ -62,11 +62,10 @@ static status instance_create(VkInstance *out)
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
         return fail(E_MEMORY, "out of memory while starting a Vulkan driver");
     if (result != VK_SUCCESS)
-        return fail(E_DEVICE,
-                    "no Vulkan driver could be started (%s); install mesa-vulkan-drivers for a CPU device, "
-                    "or the GPU's "
-                    "own driver",
-                    vk_result_text(result));
+        return fail(
+            E_DEVICE,
+            "no Vulkan driver could be started (%s); install mesa-vulkan-drivers for a CPU device, or the GPU's own driver",
+            vk_result_text(result));
     return OK;
 }
 

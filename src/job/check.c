@@ -419,8 +419,7 @@ static status check_walls(const struct yaml *root, const struct job *job)
         first++;
     return yaml_fail(
         flow ? place(flow, "solver") : root, NULL,
-        "sph does not know what the air does at a wall, and domain.sides.%s is one (use uniform, "
-        "or open sides)",
+        "sph does not know what the air does at a wall, and domain.sides.%s is one (use uniform, or open sides)",
         sides[first]);
 }
 

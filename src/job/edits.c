@@ -72,10 +72,9 @@ static status check_layout(const struct yaml *at, const struct job *job, const s
     if (is->solver != was->solver || is->spacing_m != was->spacing_m || is->domain != was->domain ||
         is->density_iterations != was->density_iterations ||
         is->divergence_iterations != was->divergence_iterations || is->viscosity != was->viscosity)
-        return yaml_fail(at, NULL,
-                         "an edit cannot change wind.flow but for reach_m, settled, flushes, rock_change and "
-                         "wind_change: the air is "
-                         "laid out at the start");
+        return yaml_fail(
+            at, NULL,
+            "an edit cannot change wind.flow but for reach_m, settled, flushes, rock_change and wind_change: the air is laid out at the start");
     return OK;
 }
 

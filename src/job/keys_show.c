@@ -260,8 +260,7 @@ static void show_overview(struct text *t, int width)
     text_add(t, "\n");
     text_add_wrapped(
         t,
-        "hoodoo keys wind: the keys of a section. hoodoo keys wind.speed_m_s: one key. hoodoo keys "
-        "shear: all that speak of it.",
+        "hoodoo keys wind: the keys of a section. hoodoo keys wind.speed_m_s: one key. hoodoo keys shear: all that speak of it.",
         0, 0, width);
 }
 

@@ -10,10 +10,8 @@ static const char intro[] =
     "\n"
     "This page is made from the tables in `src/job/keys.def` and `src/job/values.def`; do not edit it.\n"
     "\n"
-    "A job file is YAML 1.2 (JSON is YAML too). The unit of a number is the end of its key. Unknown and "
-    "duplicate keys,\n"
-    "anchors, tags, wrong types and numbers out of range are refused, with file, line, column and key path. "
-    "Any key can\n"
+    "A job file is YAML 1.2 (JSON is YAML too). The unit of a number is the end of its key. Unknown and duplicate keys,\n"
+    "anchors, tags, wrong types and numbers out of range are refused, with file, line, column and key path. Any key can\n"
     "be given or replaced on the command line: `--set wind.speed_m_s=12`, `--set strata.0.to_m=20`,\n"
     "`--set 'cameras.main.resolution=[480, 270]'`.\n"
     "\n"
@@ -30,16 +28,10 @@ static const char intro[] =
     "Files are looked for beside the job file, and, where that is a link, else beside the job that it leads "
     "to.\n"
     "\n"
-    "Keys marked \u2020 change nothing in the files of frames: a run goes on when they are edited, and "
-    "`hoodoo "
-    "run` of\n"
-    "frames that are all done takes the edit over for the other verbs. Those marked \u2021 (and, where "
-    "there are\n`output.aov.cameras`, these and the light) change how frames are written: they may be edited "
-    "while no frame is there, and "
-    "are "
-    "refused\n"
-    "after that, for the frames of a folder are written alike. All others are simulated, and part of the "
-    "job's "
+    "Keys marked \u2020 change nothing in the files of frames: a run goes on when they are edited, and `hoodoo run` of\n"
+    "frames that are all done takes the edit over for the other verbs. Those marked \u2021 (and, where there are\n`output.aov.cameras`, these and the light) change how frames are written: they may be edited while no frame is there, and "
+    "are refused\n"
+    "after that, for the frames of a folder are written alike. All others are simulated, and part of the job's "
     "hash.\n"
     "\n"
     "## An example\n"
@@ -160,11 +152,12 @@ static const char *models_text(const struct job_process *process, char out[80])
 static void put_processes(struct text *t)
 {
     char models[80];
-    text_add(t, "\n## What changes the rock\n\n"
-                "`change_m3` in `frames/NAME.FRAME.json` says what each process changed of the rock's volume "
-                "since the frame before, below 0\nwhere it took some. Together they are the change of "
-                "`volume_m3`. The report draws what they take, by these names.\n\n"
-                "| process | models | in the report | what it is |\n|---|---|---|---|\n");
+    text_add(
+        t,
+        "\n## What changes the rock\n\n"
+        "`change_m3` in `frames/NAME.FRAME.json` says what each process changed of the rock's volume "
+        "since the frame before, below 0\nwhere it took some. Together they are the change of `volume_m3`. The report draws what they take, by these names.\n\n"
+        "| process | models | in the report | what it is |\n|---|---|---|---|\n");
     for (int p = 0; p < PROCESSES; p++)
         text_add(t, "| `%s` | %s | %s | %s |\n", job_processes[p].name,
                  models_text(&job_processes[p], models), job_processes[p].legend, job_processes[p].meaning);

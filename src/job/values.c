@@ -104,13 +104,12 @@ void value_reference(struct text *t)
 {
     static const char *const bits[] = {
         [BITS_EXACT] = "no", [BITS_HALF] = "half floats", [BITS_SHARE] = "yes", [BITS_DIRECTION] = "yes"};
-    text_add(t, "\n## What frames show\n\n"
-                "Volumes are grids of `volumes/`, meshes are vertex values of `mesh/*.ply`, channels are of "
-                "`aov/`, and points have\nall that are fields of particles. 16 bits: whether "
-                "`output.vdb.half` and `precision: 16bit` make it smaller; positions are within their voxels "
-                "then.\n\n"
-                "| value | unit | symbol | frames | volumes | meshes | channels | `--show` | USD | 16 bits | "
-                "meaning |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+    text_add(
+        t,
+        "\n## What frames show\n\n"
+        "Volumes are grids of `volumes/`, meshes are vertex values of `mesh/*.ply`, channels are of "
+        "`aov/`, and points have\nall that are fields of particles. 16 bits: whether `output.vdb.half` and `precision: 16bit` make it smaller; positions are within their voxels then.\n\n"
+        "| value | unit | symbol | frames | volumes | meshes | channels | `--show` | USD | 16 bits | meaning |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int v = 1; v < VALUES; v++) {
         const struct value *a = &value_table[v];
         text_add(t, "| `%s` | %s | %s | %s | %s | %s |", a->name, a->unit, a->symbol, has_words(a->has),

@@ -87,20 +87,20 @@ static status set_camera(const struct job *job, const struct sketch_options *o, 
     while (!direction && o->camera && at < job->n_cameras && strcmp(job->cameras[at].name, o->camera) != 0)
         at++;
     if (!direction && o->camera && at == job->n_cameras)
-        return fail(E_USAGE,
-                    "--camera %.60s: the job has no camera of that name; a direction is AZIMUTH,ELEVATION in "
-                    "degrees, such as -55,9",
-                    o->camera);
+        return fail(
+            E_USAGE,
+            "--camera %.60s: the job has no camera of that name; a direction is AZIMUTH,ELEVATION in degrees, such as -55,9",
+            o->camera);
     if (direction || job->n_cameras == 0) {
         const double wide[2] = {960, 540};
         limit(wide, o->width, size);
         const struct camera c = view_around(job, azimuth, elevation, size[0], size[1]);
         snprintf(name, 72, "look");
-        text_add(sets_more(s),
-                 "cameras.look={position_m: [%.17g, %.17g, %.17g], target_m: [%.17g, %.17g, %.17g], "
-                 "focal_mm: %.17g, aperture_mm: 36, resolution: [%d, %d]}",
-                 c.eye[0], c.eye[1], c.eye[2], c.eye[0] + c.ahead[0], c.eye[1] + c.ahead[1],
-                 c.eye[2] + c.ahead[2], 35 * (o->zoom > 0 ? o->zoom : 1), size[0], size[1]);
+        text_add(
+            sets_more(s),
+            "cameras.look={position_m: [%.17g, %.17g, %.17g], target_m: [%.17g, %.17g, %.17g], focal_mm: %.17g, aperture_mm: 36, resolution: [%d, %d]}",
+            c.eye[0], c.eye[1], c.eye[2], c.eye[0] + c.ahead[0], c.eye[1] + c.ahead[1], c.eye[2] + c.ahead[2],
+            35 * (o->zoom > 0 ? o->zoom : 1), size[0], size[1]);
     } else {
         const struct job_camera *c = &job->cameras[at];
         limit(c->resolution, o->width, size);
@@ -222,9 +222,9 @@ status sketch_load(const struct sketch_options *o, struct sketch *out)
     *out = (struct sketch){0};
     TRY(load(o, o->sets, o->n_sets, &job));
     if (*job->from) {
-        st = fail(E_USAGE,
-                  "from: a look begins with the job's first frame, not with another run's checkpoint; "
-                  "--set from= leaves it out");
+        st = fail(
+            E_USAGE,
+            "from: a look begins with the job's first frame, not with another run's checkpoint; --set from= leaves it out");
         goto done;
     }
     TRY(choose_frame(job, o->frame, &out->frame));

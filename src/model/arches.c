@@ -282,12 +282,11 @@ static status restore(struct model *m, const struct checkpoint *c)
     TRY(st);
     terrain_ledger(&t->stacks, t->table, t->n_materials, &m->ledger.rock, &m->ledger.deposit);
     if (memcmp(&told, &m->ledger, sizeof told) != 0)
-        st = fail(E_CHECKPOINT,
-                  "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock and %llu "
-                  "deposited, and "
-                  "the stacks have %llu and %llu",
-                  c->frame, (unsigned long long)told.rock, (unsigned long long)told.deposit,
-                  (unsigned long long)m->ledger.rock, (unsigned long long)m->ledger.deposit);
+        st = fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock and %llu deposited, and the stacks have %llu and %llu",
+            c->frame, (unsigned long long)told.rock, (unsigned long long)told.deposit,
+            (unsigned long long)m->ledger.rock, (unsigned long long)m->ledger.deposit);
 done:
     return st;
 }

@@ -290,9 +290,9 @@ status arenite_settle(struct arenite *a, bool solved)
     if (!a->collapse.shot)
         TRY(solve(a, solved));
     if (a->elastic.iterations >= a->elastic.options.max_iterations)
-        log_warn("frame %d: stress stopped after %d iterations with an error of %.2g (stress.max_iterations, "
-                 "stress.tolerance %.2g)",
-                 a->m.frame, a->elastic.iterations, a->elastic.error, a->elastic.options.tolerance);
+        log_warn(
+            "frame %d: stress stopped after %d iterations with an error of %.2g (stress.max_iterations, stress.tolerance %.2g)",
+            a->m.frame, a->elastic.iterations, a->elastic.error, a->elastic.options.tolerance);
     TRY(find_rates(a));
 done:
     return st;
@@ -453,10 +453,9 @@ static status weather(struct arenite *a)
         for (struct step s = {whole, whole, 0, began + i * whole}; s.left > 0 && a->particles.n > 0;)
             TRY(erode(a, number++, &s));
     if (a->beyond >= pow(a->m.h, 3)) {
-        log_warn("frame %d: %.3g m3 more would have gone of rock that a part of a step may not reach, more "
-                 "than %u spacings "
-                 "inside: lower erosion.max_step (%g), or raise erosion.parts (%d)",
-                 a->m.frame, a->beyond, (unsigned)NEAR_REACH, job->erosion.max_step, (int)job->erosion.parts);
+        log_warn(
+            "frame %d: %.3g m3 more would have gone of rock that a part of a step may not reach, more than %u spacings inside: lower erosion.max_step (%g), or raise erosion.parts (%d)",
+            a->m.frame, a->beyond, (unsigned)NEAR_REACH, job->erosion.max_step, (int)job->erosion.parts);
         a->beyond = 0;
     }
 done:

@@ -280,11 +280,10 @@ static status check_scene(const struct arenite *a, const struct checkpoint *c)
     if (n != FEW_NUMBERS * few.n && !differs)
         differs = "shape";
     if (differs)
-        st =
-            fail(E_CHECKPOINT,
-                 "the checkpoint of frame %d leaves rock to its job's scene that no weather has reached, and "
-                 "this job's differs in its %s: branch from a run with domain.particles: all",
-                 c->frame, differs);
+        st = fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d leaves rock to its job's scene that no weather has reached, and this job's differs in its %s: branch from a run with domain.particles: all",
+            c->frame, differs);
 done:
     rock_free(&few);
     return st;
@@ -298,20 +297,20 @@ static status check_bits(const struct arenite *a, const struct checkpoint *c, co
     uint32_t *id = NULL;
     TRY(memory_alloc(n, sizeof *id, "ids", &id));
     if (!scene_source_ids(a->source, bits, id)) {
-        st = fail(E_CHECKPOINT,
-                  "the checkpoint of frame %d is damaged: section '%s' has voxels that are not full of rock "
-                  "in its scene",
-                  c->frame, deep_bits);
+        st = fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d is damaged: section '%s' has voxels that are not full of rock in its scene",
+            c->frame, deep_bits);
         goto done;
     }
     for (size_t i = 0; i < n; i++) {
         bool added;
         TRY(idset_add(ids, id[i], &added));
         if (!added) {
-            st = fail(E_CHECKPOINT,
-                      "the checkpoint of frame %d is damaged: particle %u is in section 'id', and its voxel "
-                      "in section '%s'",
-                      c->frame, (unsigned)id[i], deep_bits);
+            st = fail(
+                E_CHECKPOINT,
+                "the checkpoint of frame %d is damaged: particle %u is in section 'id', and its voxel in section '%s'",
+                c->frame, (unsigned)id[i], deep_bits);
             goto done;
         }
     }

@@ -153,8 +153,7 @@ static status check_rock(const struct model *m, const struct checkpoint *c, cons
     if (l->rock + l->deposit + falling != rock->n + n_deep || l->fallen < falling)
         return fail(
             E_CHECKPOINT,
-            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock, %llu deposited and "
-            "%llu fallen, and there are %zu particles, %zu of them falling, and %zu voxels of rock beside",
+            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock, %llu deposited and %llu fallen, and there are %zu particles, %zu of them falling, and %zu voxels of rock beside",
             c->frame, (unsigned long long)l->rock, (unsigned long long)l->deposit,
             (unsigned long long)l->fallen, rock->n, falling, n_deep);
     TRY(section_check_ids(c, "id", rock->id, rock->n, l->start, ids));

@@ -43,9 +43,9 @@ status edits_apply(const struct job *job, int frame, struct rock *rock, struct l
         log_info("frame %d: edit %zu added %zu particles and carved %zu out", frame, i, done.added,
                  done.carved);
         if (e->n_add && done.added_m3 <= 0)
-            log_warn("frame %d: edit %zu adds nothing: its shapes are outside the domain, or rock is there "
-                     "already",
-                     frame, i);
+            log_warn(
+                "frame %d: edit %zu adds nothing: its shapes are outside the domain, or rock is there already",
+                frame, i);
     }
 done:
     return st;

@@ -244,8 +244,7 @@ static status restore(struct model *m, const struct checkpoint *c)
     if (m->ledger.rock != n_rock || m->ledger.deposit != 0)
         return fail(
             E_CHECKPOINT,
-            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu voxels of rock and %llu "
-            "deposited, and section 'voxels' has %zu",
+            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu voxels of rock and %llu deposited, and section 'voxels' has %zu",
             c->frame, (unsigned long long)m->ledger.rock, (unsigned long long)m->ledger.deposit, n_rock);
     TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &of(m)->voxels));
 done:

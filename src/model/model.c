@@ -38,12 +38,11 @@ static status keep_to(const struct job *job, struct model_estimate *e)
     e->waiting_bytes = 0;
     if ((double)e->host_bytes <= most)
         return OK;
-    return fail(E_USAGE,
-                "output.memory_GB: %g GB are less than the %.3f GB that one frame of %zu particles takes "
-                "beside the device: "
-                "output.memory_GB: %.2f would do, or a larger domain.spacing_m",
-                job->output.memory_GB, (double)e->host_bytes / 1e9, e->n_particles,
-                ceil((double)e->host_bytes / 1e7) / 100);
+    return fail(
+        E_USAGE,
+        "output.memory_GB: %g GB are less than the %.3f GB that one frame of %zu particles takes beside the device: output.memory_GB: %.2f would do, or a larger domain.spacing_m",
+        job->output.memory_GB, (double)e->host_bytes / 1e9, e->n_particles,
+        ceil((double)e->host_bytes / 1e7) / 100);
 }
 
 status model_estimate(const struct job *job, struct model_estimate *out)
@@ -302,8 +301,7 @@ status model_check_stands(const struct model *m, double lowest, bool whole)
             return scene_floats(lowest);
         return fail(
             E_USAGE,
-            "scene: no voxel of it is half rock, so that nothing stands: lower domain.spacing_m (%.4g m), "
-            "or make the shapes thicker",
+            "scene: no voxel of it is half rock, so that nothing stands: lower domain.spacing_m (%.4g m), or make the shapes thicker",
             m->h);
     }
     if (l->fallen)

@@ -135,13 +135,11 @@ status section_take_ledger(const struct checkpoint *c, struct ledger *out)
     TRY(section_take(c, &rule, &data, NULL));
     memcpy(out, data, sizeof *out);
     if (out->start != out->rock + out->deposit + out->fallen + out->left)
-        st = fail(E_CHECKPOINT,
-                  "the checkpoint of frame %d is damaged: section 'ledger': %llu at the start are not %llu "
-                  "of rock, "
-                  "%llu deposited, %llu fallen and %llu that left",
-                  c->frame, (unsigned long long)out->start, (unsigned long long)out->rock,
-                  (unsigned long long)out->deposit, (unsigned long long)out->fallen,
-                  (unsigned long long)out->left);
+        st = fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d is damaged: section 'ledger': %llu at the start are not %llu of rock, %llu deposited, %llu fallen and %llu that left",
+            c->frame, (unsigned long long)out->start, (unsigned long long)out->rock,
+            (unsigned long long)out->deposit, (unsigned long long)out->fallen, (unsigned long long)out->left);
 done:
     return st;
 }
@@ -186,11 +184,11 @@ status section_check_domain(const struct checkpoint *c, const struct job *job)
     if (there[DOMAIN_MODEL] != here[DOMAIN_MODEL])
         return fail(E_CHECKPOINT, "the checkpoint of frame %d is of another model than the job's", c->frame);
     if (memcmp(there + DOMAIN_VOXELS, here + DOMAIN_VOXELS, 4 * sizeof *here) != 0)
-        return fail(E_CHECKPOINT,
-                    "the checkpoint of frame %d has %.0f x %.0f x %.0f voxels of %g m, and this job's domain "
-                    "%.0f x %.0f x %.0f of %g m: give it the same domain",
-                    c->frame, there[1], there[2], there[3], there[DOMAIN_SPACING], here[1], here[2], here[3],
-                    here[DOMAIN_SPACING]);
+        return fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d has %.0f x %.0f x %.0f voxels of %g m, and this job's domain %.0f x %.0f x %.0f of %g m: give it the same domain",
+            c->frame, there[1], there[2], there[3], there[DOMAIN_SPACING], here[1], here[2], here[3],
+            here[DOMAIN_SPACING]);
     if (there[DOMAIN_STRATA] != here[DOMAIN_STRATA])
         return fail(E_CHECKPOINT,
                     "the checkpoint of frame %d has %.0f strata, and this job %.0f: give it as many",

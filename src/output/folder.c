@@ -92,10 +92,10 @@ status folder_room(const char *root)
     const size_t n = strlen(root);
     return n <= LONGEST
                ? OK
-               : fail(E_OUTPUT,
-                      "%.100s...: the output folder's path is %zu bytes long; at most %d leave room for "
-                      "its files",
-                      root, n, LONGEST);
+               : fail(
+                     E_OUTPUT,
+                     "%.100s...: the output folder's path is %zu bytes long; at most %d leave room for its files",
+                     root, n, LONGEST);
 }
 
 /* `depth`: how many folders further down are swept, too. */

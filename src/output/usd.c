@@ -154,10 +154,10 @@ static void add_meshes(struct text *t, const struct usd_sequence *s, const char 
 {
     begin_clips(t, s, &s->mesh, s->meshes_frame, s->n_meshes,
                 "        prepend apiSchemas = [\"MaterialBindingAPI\"]\n");
-    text_add(t,
-             "        rel material:binding = </%s/looks/sandstone>\n        uniform token orientation = "
-             "\"rightHanded\"\n        uniform token subdivisionScheme = \"none\"\n    }\n",
-             root);
+    text_add(
+        t,
+        "        rel material:binding = </%s/looks/sandstone>\n        uniform token orientation = \"rightHanded\"\n        uniform token subdivisionScheme = \"none\"\n    }\n",
+        root);
 }
 
 /* Rock of its strata's colours. */

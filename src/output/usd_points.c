@@ -98,10 +98,10 @@ static status skin_of(const struct rock *rock, const struct vdb_options *o, stru
     for (size_t i = 0; rock->N && i < rock->n; i++)
         n += on_surface(rock, i);
     if (n > UINT32_MAX / 2)
-        return fail(E_OUTPUT,
-                    "points of frame %d: %zu, more than a USD file can number here; set "
-                    "output.usd.points: none",
-                    o->frame, n);
+        return fail(
+            E_OUTPUT,
+            "points of frame %d: %zu, more than a USD file can number here; set output.usd.points: none",
+            o->frame, n);
     s->n = n;
     s->width = (float)o->spacing;
     TRY(memory_alloc(n, 3 * sizeof(float), what, &s->points));

@@ -85,12 +85,11 @@ static status look_at_domain(struct view *v)
     }
     if (outside * 10 <= all)
         return OK;
-    return say(v, "domain.size_m",
-               "about %.0f %% of the scene lies outside the domain and is cut off: it reaches from (%.4g, "
-               "%.4g) to (%.4g, %.4g, %.4g) m, "
-               "and the domain from 0 to (%.4g, %.4g, %.4g)",
-               100 * (double)outside / (double)all, low[0], low[1], high[0], high[1], high[2],
-               v->job->domain.size_m[0], v->job->domain.size_m[1], v->job->domain.size_m[2]);
+    return say(
+        v, "domain.size_m",
+        "about %.0f %% of the scene lies outside the domain and is cut off: it reaches from (%.4g, %.4g) to (%.4g, %.4g, %.4g) m, and the domain from 0 to (%.4g, %.4g, %.4g)",
+        100 * (double)outside / (double)all, low[0], low[1], high[0], high[1], high[2],
+        v->job->domain.size_m[0], v->job->domain.size_m[1], v->job->domain.size_m[2]);
 }
 
 /* ---- what files hold */
@@ -113,11 +112,10 @@ static status look_at_inputs(struct view *v)
             log_info("%s: %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m", in[i].file,
                      in[i].own_m3, in[i].sampled_m3, h);
         else
-            TRY(say(v, "scene",
-                    "%.300s holds %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m, %.0f "
-                    "%% %s",
-                    in[i].file, in[i].own_m3, in[i].sampled_m3, h, 100 * fabs(off),
-                    off > 0 ? "more" : "less"));
+            TRY(say(
+                v, "scene",
+                "%.300s holds %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m, %.0f %% %s",
+                in[i].file, in[i].own_m3, in[i].sampled_m3, h, 100 * fabs(off), off > 0 ? "more" : "less"));
     }
 done:
     log_hush(true);
@@ -135,11 +133,10 @@ static status look_at_node(struct view *v, const struct job_node *node)
         const struct job_box *b = &node->u.box;
         for (int a = 0; a < 3; a++)
             if ((b->max_m[a] - b->min_m[a]) * b->scale[a] < h)
-                return say(v, "scene",
-                           "a%s box of the scene is %.3g m thick, less than domain.spacing_m (%g): what is "
-                           "left of it depends on the "
-                           "spacing",
-                           b->inert ? "n inert" : "", (b->max_m[a] - b->min_m[a]) * b->scale[a], h);
+                return say(
+                    v, "scene",
+                    "a%s box of the scene is %.3g m thick, less than domain.spacing_m (%g): what is left of it depends on the spacing",
+                    b->inert ? "n inert" : "", (b->max_m[a] - b->min_m[a]) * b->scale[a], h);
     }
     for (size_t i = 0; i < node->n_child; i++)
         TRY(look_at_node(v, node->child[i]));
@@ -169,14 +166,12 @@ static status look_at_sizes(struct view *v)
     if (job->skin.damp > 1 && job->skin.damp_m < 2 * h)
         TRY(say(
             v, "skin.damp_m",
-            "damp reaches %g m, less than two spacings (%g m): holes are as wide as the spacing makes them, "
-            "and with 0 there are none",
+            "damp reaches %g m, less than two spacings (%g m): holes are as wide as the spacing makes them, and with 0 there are none",
             job->skin.damp_m, 2 * h));
     if (job->groundwater.recharge_m_per_yr > 0 && contacts_beds(job) == 0)
         TRY(say(
             v, "groundwater",
-            "no stratum has a conductivity_m_per_yr of less than recharge_m_per_yr (%g), which would hold "
-            "water up: nothing seeps out",
+            "no stratum has a conductivity_m_per_yr of less than recharge_m_per_yr (%g), which would hold water up: nothing seeps out",
             job->groundwater.recharge_m_per_yr));
     if (job->noise.amplitude > 0 && job->noise.scale_m < 2 * h)
         TRY(say(v, "noise.scale_m",
@@ -200,8 +195,7 @@ static status look_at_structure(struct view *v)
         if (!b->n_column && b->thickness_m < h)
             TRY(say(
                 v, key,
-                "beds are %.3g m thick in the mean, less than domain.spacing_m (%g): they act together, and "
-                "no single one shows",
+                "beds are %.3g m thick in the mean, less than domain.spacing_m (%g): they act together, and no single one shows",
                 b->thickness_m, h));
         snprintf(key, sizeof key, "strata_from.%zu.cross.lamina_m", i);
         if (b->cross.set_m > 0 && b->cross.lamina_m < h)
@@ -214,20 +208,18 @@ static status look_at_structure(struct view *v)
         snprintf(key, sizeof key, "concretions.%zu.radius_m", i);
         const struct job_concretion *c = &job->concretions[i];
         if (c->radius_m * fmin(1, 1 / c->flatten) < h)
-            TRY(say(v, key,
-                    "concretions are %.3g m in radius, %.3g m across the beds, less than domain.spacing_m "
-                    "(%g): they "
-                    "hardly show",
-                    c->radius_m, c->radius_m / c->flatten, h));
+            TRY(say(
+                v, key,
+                "concretions are %.3g m in radius, %.3g m across the beds, less than domain.spacing_m (%g): they hardly show",
+                c->radius_m, c->radius_m / c->flatten, h));
     }
     for (size_t i = 0; i < job->n_joints; i++) {
         snprintf(key, sizeof key, "joints.%zu.spacing_m", i);
         if (job->joints[i].spacing_m < 2 * h)
-            TRY(say(v, key,
-                    "joints are %.3g m apart, closer than two spacings (%g m): what stands between them is "
-                    "too thin "
-                    "to show",
-                    job->joints[i].spacing_m, 2 * h));
+            TRY(say(
+                v, key,
+                "joints are %.3g m apart, closer than two spacings (%g m): what stands between them is too thin to show",
+                job->joints[i].spacing_m, 2 * h));
     }
 done:
     return st;
@@ -285,17 +277,15 @@ static status look_at_interlocking(struct view *v)
     if (!typed)
         return OK;
     if (isfinite(nearest) && nearest > FAR)
-        return say(v, key,
-                   "interlocking holds from %.3g m of rock upwards, and no layer has nearly as much above "
-                   "its foot (this one %.3g m, which "
-                   "weighs %.3g MPa): no grains ever interlock, and stress changes nothing",
-                   nearest * height, height, weight_of_metre * height);
+        return say(
+            v, key,
+            "interlocking holds from %.3g m of rock upwards, and no layer has nearly as much above its foot (this one %.3g m, which weighs %.3g MPa): no grains ever interlock, and stress changes nothing",
+            nearest * height, height, weight_of_metre * height);
     if (most > 0 && most < 1e-3)
-        return say(v, key,
-                   "all layers interlock from %.2g of what rock weighs upwards: everything does from the "
-                   "start, and weathers at "
-                   "strong_m_per_kyr",
-                   most);
+        return say(
+            v, key,
+            "all layers interlock from %.2g of what rock weighs upwards: everything does from the start, and weathers at strong_m_per_kyr",
+            most);
     return OK;
 }
 
@@ -315,16 +305,15 @@ static status look_at_time(struct view *v)
     }
     snprintf(key, sizeof key, "strata.%zu.weak_m_per_kyr", which);
     if (most * v->kyr > 20 * across)
-        return say(v, key,
-                   "this layer retreats %.3g m in the job's %.4g kyr, and the rock is %.3g m across: little "
-                   "will be left long before the end",
-                   most * v->kyr, v->kyr, across);
+        return say(
+            v, key,
+            "this layer retreats %.3g m in the job's %.4g kyr, and the rock is %.3g m across: little will be left long before the end",
+            most * v->kyr, v->kyr, across);
     if (most * v->kyr < 0.1 * h && v->kyr > 0)
-        return say(v, key,
-                   "the softest layer retreats %.2g m in the job's %.4g kyr, a small part of "
-                   "domain.spacing_m (%g): hardly anything will "
-                   "change",
-                   most * v->kyr, v->kyr, h);
+        return say(
+            v, key,
+            "the softest layer retreats %.2g m in the job's %.4g kyr, a small part of domain.spacing_m (%g): hardly anything will change",
+            most * v->kyr, v->kyr, h);
     return OK;
 }
 

@@ -136,8 +136,7 @@ status branch_prepare(struct job *job, const char *root)
         const struct job_edit *e = &job->edits[i];
         if (e->frame == c.frame && (e->carve || e->n_add || e->n_paint))
             log_info(
-                "edit %zu is of frame %d, which is this branch's start as it is; to have it applied, give it "
-                "frame %d",
+                "edit %zu is of frame %d, which is this branch's start as it is; to have it applied, give it frame %d",
                 i, c.frame, c.frame + 1);
     }
 done:

@@ -116,14 +116,13 @@ static status refuse(const struct maker *maker, const struct maker *here, const 
     if (same_build(maker, here))
         return fail(
             E_CHECKPOINT,
-            "%s was made on %s (%s), and this is %s (%s); add --resume %s to go on anyway, not bit for "
-            "bit",
+            "%s was made on %s (%s), and this is %s (%s); add --resume %s to go on anyway, not bit for bit",
             what, maker->device, maker->driver, here->device, here->driver, word);
-    return fail(E_CHECKPOINT,
-                "%s was made by hoodoo %s (%s, build %s), and this is %s (%s, build %s), whose numbers may "
-                "differ; continue with that one, or add --resume %s to go on anyway, not bit for bit",
-                what, maker->version, maker->commit, *maker->build ? maker->build : "unknown", here->version,
-                here->commit, here->build, word);
+    return fail(
+        E_CHECKPOINT,
+        "%s was made by hoodoo %s (%s, build %s), and this is %s (%s, build %s), whose numbers may differ; continue with that one, or add --resume %s to go on anyway, not bit for bit",
+        what, maker->version, maker->commit, *maker->build ? maker->build : "unknown", here->version,
+        here->commit, here->build, word);
 }
 
 /* A run that was stopped before its first checkpoint goes on from the same state again: one entry will do. */
@@ -145,8 +144,7 @@ static status check(const struct provenance *p, const struct maker *maker, const
         return refuse(maker, here, what);
     if (!same(maker, here))
         log_warn(
-            "%s was made by hoodoo %s (%s, build %s) on %s, %s; continuing with %s (%s, build %s) on %s, %s: "
-            "not bit for bit",
+            "%s was made by hoodoo %s (%s, build %s) on %s, %s; continuing with %s (%s, build %s) on %s, %s: not bit for bit",
             what, maker->version, maker->commit, *maker->build ? maker->build : "unknown", maker->device,
             maker->driver, here->version, here->commit, here->build, here->device, here->driver);
     return OK;

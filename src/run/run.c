@@ -152,16 +152,14 @@ status run_other_job(const char *root, const char *path, const struct job *their
         return fail(E_CHECKPOINT, "%s holds another job, %s; use another --out", root, theirs->name);
     TRY(job_differ(theirs, ours, false, key));
     if (strcmp(key, "frames") == 0)
-        st =
-            fail(E_CHECKPOINT,
-                 "%s holds this job's frames from %d on, and now they begin at %d: the rock of a frame would "
-                 "have two ages; use another --out, or start over with hoodoo run --resume never",
-                 root, theirs->frames.first, ours->frames.first);
+        st = fail(
+            E_CHECKPOINT,
+            "%s holds this job's frames from %d on, and now they begin at %d: the rock of a frame would have two ages; use another --out, or start over with hoodoo run --resume never",
+            root, theirs->frames.first, ours->frames.first);
     else
         st = fail(
             E_CHECKPOINT,
-            "%s holds another job: %s differs in %s, which is simulated; use another --out, or start over "
-            "with hoodoo run --resume never",
+            "%s holds another job: %s differs in %s, which is simulated; use another --out, or start over with hoodoo run --resume never",
             root, path, key);
 done:
     return st;
@@ -170,11 +168,10 @@ done:
 static status unlike(const char *root, struct frame_range frames, const char *key)
 {
     char range[48];
-    return fail(E_CHECKPOINT,
-                "%s: frames %s were written with another %s than the job has now, and frames of a folder are "
-                "written alike; take the old value back, use another --out, or start over with hoodoo run "
-                "--resume never (hoodoo aov makes pictures of other cameras from frames that are done)",
-                root, range_text(frames, range), key);
+    return fail(
+        E_CHECKPOINT,
+        "%s: frames %s were written with another %s than the job has now, and frames of a folder are written alike; take the old value back, use another --out, or start over with hoodoo run --resume never (hoodoo aov makes pictures of other cameras from frames that are done)",
+        root, range_text(frames, range), key);
 }
 
 status run_other_files(const char *root, const struct job *theirs, const struct job *ours)
@@ -236,10 +233,10 @@ static status check_owner(struct run *r)
         r->papers = true;
         st = OK;
     } else if (st != OK) {
-        st = fail(E_CHECKPOINT,
-                  "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or "
-                  "--resume never to start over",
-                  path.text, status_message());
+        st = fail(
+            E_CHECKPOINT,
+            "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or --resume never to start over",
+            path.text, status_message());
     } else if (strcmp(theirs->name, r->job->name) == 0 && hash != r->job_hash && frames_are_ours(r)) {
         log_warn("%s is not the job that made the frames; it is written anew", path.text);
         r->papers = true;
@@ -404,10 +401,10 @@ static status begin(struct run *r)
         goto done;
     }
     if (!found && r->frames.first != r->job->frames.first && !r->options->repair) {
-        st = fail(E_CHECKPOINT,
-                  "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the "
-                  "block before it first",
-                  r->options->root, r->first_missing);
+        st = fail(
+            E_CHECKPOINT,
+            "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the block before it first",
+            r->options->root, r->first_missing);
         goto done;
     }
     if (!found && *r->job->from) {

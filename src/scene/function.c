@@ -60,8 +60,7 @@ static status measure(struct function *f, double step)
     if (f->job->steepest > 0 && steepest > f->job->steepest * (1 + 1e-6))
         return fail(
             E_USAGE,
-            "scene: function: the value of \"%.300s\" rises by %.4g a metre somewhere in its box, and "
-            "steepest is %.4g: raise it, or leave it out",
+            "scene: function: the value of \"%.300s\" rises by %.4g a metre somewhere in its box, and steepest is %.4g: raise it, or leave it out",
             f->job->expression, steepest, f->job->steepest);
     f->steepest = f->job->steepest > 0 ? f->job->steepest : fmax(2 * steepest, 1e-6);
     return OK;

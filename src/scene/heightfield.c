@@ -132,25 +132,22 @@ static status take_extent(struct heightfield *f, const struct job_heightfield *j
         return fail(E_USAGE, "%s: it lies askew on its map: give max_m, or turn it: gdalwarp %s straight.tif",
                     job->file, job->file);
     if (image->map == IMAGE_MAP_DEGREES)
-        return fail(E_USAGE,
-                    "%s: its pixels are degrees of longitude and latitude, which have no size in metres: "
-                    "give max_m, or "
-                    "project it: gdalwarp -t_srs EPSG:326NN -r bilinear %s metres.tif, NN the UTM zone "
-                    "(327NN in the south)",
-                    job->file, job->file);
+        return fail(
+            E_USAGE,
+            "%s: its pixels are degrees of longitude and latitude, which have no size in metres: give max_m, or project it: gdalwarp -t_srs EPSG:326NN -r bilinear %s metres.tif, NN the UTM zone (327NN in the south)",
+            job->file, job->file);
     for (int a = 0; a < 2; a++) {
         const size_t n = a ? f->height : f->width;
         if (job->origin_m[0] != 0 || job->origin_m[1] != 0)
             f->min[a] += image->corner[a] - job->origin_m[a];
         f->max[a] = f->min[a] + image->pixel[a] * (double)n;
     }
-    snprintf(what, sizeof what,
-             "%zu x %zu pixels of %.6g x %.6g m by its own word%s: x %.10g to %.10g, y %.10g to %.10g m; its "
-             "left bottom corner is at "
-             "(%.10g, %.10g) on its map",
-             f->width, f->height, image->pixel[0], image->pixel[1],
-             image->map_named ? "" : ", which does not say that it means metres", f->min[0], f->max[0],
-             f->min[1], f->max[1], image->corner[0], image->corner[1]);
+    snprintf(
+        what, sizeof what,
+        "%zu x %zu pixels of %.6g x %.6g m by its own word%s: x %.10g to %.10g, y %.10g to %.10g m; its left bottom corner is at (%.10g, %.10g) on its map",
+        f->width, f->height, image->pixel[0], image->pixel[1],
+        image->map_named ? "" : ", which does not say that it means metres", f->min[0], f->max[0], f->min[1],
+        f->max[1], image->corner[0], image->corner[1]);
     image_say(false, job->file, what);
     return OK;
 }

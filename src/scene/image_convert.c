@@ -64,8 +64,7 @@ static status run(const char *file, size_t form, int out, int err)
     if (WIFEXITED(how) && WEXITSTATUS(how) == CHILD_NO_PROGRAM)
         return fail(
             E_INPUT,
-            "%s: %s is read through gdal_translate, which is not installed (Debian: gdal-bin); or make it a "
-            "TIFF elsewhere: gdal_translate -if %s %s heights.tif",
+            "%s: %s is read through gdal_translate, which is not installed (Debian: gdal-bin); or make it a TIFF elsewhere: gdal_translate -if %s %s heights.tif",
             file, forms[form].what, forms[form].driver, file);
     if (!WIFEXITED(how) || WEXITSTATUS(how) != 0)
         return fail(E_INPUT, "%s: not %s that gdal_translate can read: %s", file, forms[form].what, said);

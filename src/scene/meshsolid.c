@@ -54,8 +54,7 @@ static status place_vertices(struct mesh *mesh, const char *path, bool y_up, boo
             if (!(fabs(v[a]) <= 1e6))
                 return fail(
                     E_INPUT,
-                    "%s: vertex %zu stands at (%.10g, %.10g, %.10g) m, farther than 1e6 m: scale the mesh "
-                    "down, or give origin: auto where it has the coordinates of a map",
+                    "%s: vertex %zu stands at (%.10g, %.10g, %.10g) m, farther than 1e6 m: scale the mesh down, or give origin: auto where it has the coordinates of a map",
                     path, i + 1, v[0], v[1], v[2]);
             min[a] = fmin(min[a], v[a]);
             max[a] = fmax(max[a], v[a]);
@@ -81,9 +80,9 @@ static double choose_voxel(const struct work *w, double detail, double reach)
         area += mesh_triangle_area(&w->mesh, i);
     double fits = fmax(cbrt(2 * area * reach / MAX_GRID_VALUES), longest_side(w) / 1e6);
     if (fits > detail)
-        log_warn("%s: the mesh is sampled every %.3g m instead of %.3g m, to fit in memory: cut off what "
-                 "lies outside the domain",
-                 w->path, fits, detail);
+        log_warn(
+            "%s: the mesh is sampled every %.3g m instead of %.3g m, to fit in memory: cut off what lies outside the domain",
+            w->path, fits, detail);
     return fmax(fits, detail);
 }
 
@@ -126,11 +125,10 @@ static status check_sheets(const struct work *w)
 {
     const double share = share_of_sheets(w), *at = open_at(w);
     if (share > MAX_SHEETS)
-        return fail(E_INPUT,
-                    "%s: the surface is open: %zu edges end it, one at (%.6g, %.6g, %.6g) m in the scene, "
-                    "and %.0f %% of "
-                    "it are sheets with nothing behind them: " HOW_TO_FILL,
-                    w->path, w->open.n, at[0], at[1], at[2], 100 * share);
+        return fail(
+            E_INPUT,
+            "%s: the surface is open: %zu edges end it, one at (%.6g, %.6g, %.6g) m in the scene, and %.0f %% of it are sheets with nothing behind them: " HOW_TO_FILL,
+            w->path, w->open.n, at[0], at[1], at[2], 100 * share);
     return OK;
 }
 
@@ -181,9 +179,8 @@ static status refuse(const struct work *w, struct sdf_gap gap)
 {
     return fail(
         E_INPUT,
-        "%s: the surface is open: %zu edges end it, one at (%.6g, %.6g, %.6g) m in the scene, and the "
-        "widest gap is about %.2g m, near (%.4g, %.4g, %.4g): " HOW_TO_FILL ", or let gaps be closed "
-        "straight across with mesh.fill_holes_m",
+        "%s: the surface is open: %zu edges end it, one at (%.6g, %.6g, %.6g) m in the scene, and the widest gap is about %.2g m, near (%.4g, %.4g, %.4g): " HOW_TO_FILL
+        ", or let gaps be closed straight across with mesh.fill_holes_m",
         w->path, w->open.n, open_at(w)[0], open_at(w)[1], open_at(w)[2], gap.width, gap.at[0], gap.at[1],
         gap.at[2]);
 }
@@ -217,10 +214,9 @@ static status sample_open(struct work *w, double fill, struct vdb_sdf **out)
     TRY(sample(w, voxel, band, fmax(4 * voxel, fmin(widest, band)), out));
     struct sdf_gap gap = vdb_sdf_gap(*out);
     if (gap.width == 0) {
-        log_warn("%s: the surface is open along %zu edges, one at (%.6g, %.6g, %.6g) m in the scene, but "
-                 "there is no "
-                 "gap as wide as %.2g m: taken as closed",
-                 w->path, w->open.n, open_at(w)[0], open_at(w)[1], open_at(w)[2], 2 * voxel);
+        log_warn(
+            "%s: the surface is open along %zu edges, one at (%.6g, %.6g, %.6g) m in the scene, but there is no gap as wide as %.2g m: taken as closed",
+            w->path, w->open.n, open_at(w)[0], open_at(w)[1], open_at(w)[2], 2 * voxel);
         return OK;
     }
     TRY(measure_gap(w, &gap));
@@ -234,9 +230,9 @@ static status sample_open(struct work *w, double fill, struct vdb_sdf **out)
         w->voxel = choose_voxel(w, voxel, w->band);
         TRY(sample(w, w->voxel, w->band, gap.width, out));
     }
-    log_warn("%s: the surface is open along %zu edges, with gaps of up to %.2g m: closed (up to %.2g m are; "
-             "mesh.fill_holes_m)",
-             w->path, w->open.n, gap.width, widest);
+    log_warn(
+        "%s: the surface is open along %zu edges, with gaps of up to %.2g m: closed (up to %.2g m are; mesh.fill_holes_m)",
+        w->path, w->open.n, gap.width, widest);
     w->voxel = voxel;
     w->band = band;
     TRY(close_gaps(w, out));
@@ -283,8 +279,7 @@ status mesh_solid(const struct job_mesh *job, const struct placement *place, dou
     TRY(mesh_read(job->file, &w.mesh));
     if (w.mesh.y_up && job->up != MESH_UP_Y)
         log_warn(
-            "%s: in glTF files y is up, but this mesh is read with z up, as mesh.up says or leaves it: give "
-            "up: y unless it lies on its side",
+            "%s: in glTF files y is up, but this mesh is read with z up, as mesh.up says or leaves it: give up: y unless it lies on its side",
             job->file);
     TRY(place_vertices(&w.mesh, job->file, job->up == MESH_UP_Y, job->origin == MESH_ORIGIN_AUTO, place,
                        w.min, w.max));

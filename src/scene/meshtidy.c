@@ -79,9 +79,9 @@ status mesh_tidy(struct mesh *mesh, const char *path, double tolerance, struct m
     if (open->n > 0)
         TRY(mesh_weld_open(mesh, open, tolerance, &welded));
     if (welded.n > 0) {
-        log_info("%s: the surface is open along %zu edges, of which %zu corners are joined to others at most "
-                 "%.2g m away (up to %.2g m are)",
-                 path, open->n, welded.n, welded.farthest, tolerance);
+        log_info(
+            "%s: the surface is open along %zu edges, of which %zu corners are joined to others at most %.2g m away (up to %.2g m are)",
+            path, open->n, welded.n, welded.farthest, tolerance);
         TRY(find_open(w));
     }
     TRY(drop_twins(w));
@@ -91,10 +91,10 @@ status mesh_tidy(struct mesh *mesh, const char *path, double tolerance, struct m
     }
     TRY(mesh_turn_outwards(mesh, open, &turned));
     if (open->n == 0 && is_flat(mesh)) {
-        st = fail(E_INPUT,
-                  "%s: its faces cancel each other: there is one for either side of each: remove the doubles "
-                  "(in Blender: Mesh > Clean Up > Merge by Distance, or export without both sides)",
-                  path);
+        st = fail(
+            E_INPUT,
+            "%s: its faces cancel each other: there is one for either side of each: remove the doubles (in Blender: Mesh > Clean Up > Merge by Distance, or export without both sides)",
+            path);
         goto done;
     }
     if (turned > 0)

@@ -20,11 +20,10 @@ status scene_voxels(const struct job *job, int n[3])
         total *= count[a];
     }
     if (!(total <= MAX_VOXELS))
-        return fail(E_USAGE,
-                    "domain: %.0f x %.0f x %.0f voxels are more than 2^31: raise domain.spacing_m above %.3g "
-                    "m, or make "
-                    "domain.size_m smaller",
-                    count[0], count[1], count[2], h * cbrt(total / MAX_VOXELS));
+        return fail(
+            E_USAGE,
+            "domain: %.0f x %.0f x %.0f voxels are more than 2^31: raise domain.spacing_m above %.3g m, or make domain.size_m smaller",
+            count[0], count[1], count[2], h * cbrt(total / MAX_VOXELS));
     for (int a = 0; a < 3; a++)
         n[a] = (int)count[a];
     return OK;
@@ -74,10 +73,10 @@ void sampler_see(const struct sampler *s, const struct rock *rock)
 
 status scene_floats(double lowest)
 {
-    return fail(E_USAGE,
-                "scene: the rock floats in the air: lowest rock is at z = %.4g m, and the ground is z = 0: "
-                "lower it, or add what it stands on",
-                lowest);
+    return fail(
+        E_USAGE,
+        "scene: the rock floats in the air: lowest rock is at z = %.4g m, and the ground is z = 0: lower it, or add what it stands on",
+        lowest);
 }
 
 static bool slab_has_rock(const struct sampler *s, int k)
@@ -96,10 +95,7 @@ static status no_rock(const struct sampler *s)
     solid_bounds(s->solid, min, max);
     return fail(
         E_USAGE,
-        "scene: no rock in the domain: the scene spans x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g m, the "
-        "domain "
-        "x 0 to %.4g, y 0 to %.4g, z 0 to %.4g m: move the shapes into it, or check what a difference or "
-        "intersection leaves",
+        "scene: no rock in the domain: the scene spans x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g m, the domain x 0 to %.4g, y 0 to %.4g, z 0 to %.4g m: move the shapes into it, or check what a difference or intersection leaves",
         min[0], max[0], min[1], max[1], min[2], max[2], size[0], size[1], size[2]);
 }
 

@@ -67,9 +67,9 @@ status solid_create(const struct job_node *node, double detail, double reach, st
 {
     struct placement world = placement_identity();
     if (!node)
-        return fail(E_USAGE,
-                    "scene: no shape: give a box, sphere, cylinder, plane, mesh, volume, heightfield, "
-                    "function or jointmap");
+        return fail(
+            E_USAGE,
+            "scene: no shape: give a box, sphere, cylinder, plane, mesh, volume, heightfield, function or jointmap");
     return create(node, &world, detail, reach, out);
 }
 

@@ -146,10 +146,10 @@ static status check_room(size_t n)
         if (rock_field_table[f].keep == STATE && !rock_field_asked(f))
             bytes += rock_field_size((enum rock_field)f);
     if (n > memory_available() / bytes)
-        return fail(E_MEMORY,
-                    "the scene has %zu particles, which need %.3g GB, and %.3g GB are free: raise "
-                    "domain.spacing_m",
-                    n, 1e-9 * (double)(n * bytes), 1e-9 * (double)memory_available());
+        return fail(
+            E_MEMORY,
+            "the scene has %zu particles, which need %.3g GB, and %.3g GB are free: raise domain.spacing_m",
+            n, 1e-9 * (double)(n * bytes), 1e-9 * (double)memory_available());
     return OK;
 }
 

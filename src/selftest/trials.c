@@ -67,8 +67,7 @@ static const char *const arches[] = {
     "  sweeps: 4\n"
     "  operations:\n"
     "    - {tool: noise, frames: 1001, strength: 0.8, scale_m: 4}\n"
-    "    - {tool: sweep, frames: 1001-1004, points_m: [[-1, 6, 4, 2], [8, 5, 4, 2.5], [17, 7, 4, 2]], "
-    "roughness: 0.2}\n"
+    "    - {tool: sweep, frames: 1001-1004, points_m: [[-1, 6, 4, 2], [8, 5, 4, 2.5], [17, 7, 4, 2]], roughness: 0.2}\n"
     "    - {tool: erode, frames: 1002-1006, points_m: [[4, 6, 6, 2], [11, 6, 6, 2]], rocks: 0.7}\n"
     "    - {tool: fill, frames: 1005, points_m: [[8, 6, 4, 1]], level_m: 2.5}\n",
     NULL};

@@ -41,10 +41,10 @@ static status find_material(const struct work *w, const char *name, uint32_t pre
             *out = (uint32_t)m;
             return OK;
         }
-    return fail(E_USAGE,
-                "%s.material: no material '%.64s'; there are bedrock, sand, rock, water and those of "
-                "arches.materials",
-                w->name, name);
+    return fail(
+        E_USAGE,
+        "%s.material: no material '%.64s'; there are bedrock, sand, rock, water and those of arches.materials",
+        w->name, name);
 }
 
 /* ---- fields: bedrock becomes what a changed field says */

@@ -25,10 +25,10 @@ status bubble_create(const struct job_bubble *job, double h, struct bubble *b)
     for (int a = 0; a < 3; a++)
         far = fmax(far, (job->stretch[a] + fabs(job->offset[a])) * radius);
     if (far >= BUBBLE_REACH_MAX + 1)
-        return fail(E_USAGE,
-                    "bubble: it reaches %.1f voxels, and at most %d are possible: raise domain.spacing_m "
-                    "above %.3g m, or make the bubble smaller",
-                    far, BUBBLE_REACH_MAX, h * far / (BUBBLE_REACH_MAX + 1));
+        return fail(
+            E_USAGE,
+            "bubble: it reaches %.1f voxels, and at most %d are possible: raise domain.spacing_m above %.3g m, or make the bubble smaller",
+            far, BUBBLE_REACH_MAX, h * far / (BUBBLE_REACH_MAX + 1));
     const int m = (int)far;
     *b = (struct bubble){0};
     for (int dz = -m; dz <= m; dz++)
@@ -47,10 +47,10 @@ status bubble_create(const struct job_bubble *job, double h, struct bubble *b)
             b->reach = abs(dz) > b->reach ? abs(dz) : b->reach;
         }
     if (b->n < 2)
-        return fail(E_USAGE,
-                    "bubble: a radius of %g m holds no neighbour of its voxel at %g m: lower "
-                    "domain.spacing_m, or make the bubble larger",
-                    job->radius_m, h);
+        return fail(
+            E_USAGE,
+            "bubble: a radius of %g m holds no neighbour of its voxel at %g m: lower domain.spacing_m, or make the bubble larger",
+            job->radius_m, h);
     return OK;
 }
 

@@ -266,8 +266,7 @@ status voxels_create(struct gpu *gpu, struct gpu_work *work, const struct job *j
     size_t words = v->grid.words;
     if (words > UINT32_MAX / 32)
         return fail(E_USAGE,
-                    "domain: %d x %d x %d voxels are more than goblins can number: raise "
-                    "domain.spacing_m",
+                    "domain: %d x %d x %d voxels are more than goblins can number: raise domain.spacing_m",
                     n[0], n[1], n[2]);
     TRY(upload_tables(gpu, v, job));
     TRY(gpu_buffer_create(gpu, "voxel bits", 2 * words, 4, &v->bits));

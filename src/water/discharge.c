@@ -75,9 +75,9 @@ static status tell_entries(struct gpu *gpu, struct water *w)
     TRY(gpu_download(gpu, w->entry, 0, entry, 2 * w->n_sources));
     for (size_t i = 0; i < w->n_sources; i++)
         if (entry[2 * i + 1] > 4)
-            log_warn("sources[%zu].path_m: begins inside rock; its water enters at the nearest place that is "
-                     "not, %.3g spacings away: begin it in the open, or give it a bed_m",
-                     i, sqrt(entry[2 * i + 1]));
+            log_warn(
+                "sources[%zu].path_m: begins inside rock; its water enters at the nearest place that is not, %.3g spacings away: begin it in the open, or give it a bed_m",
+                i, sqrt(entry[2 * i + 1]));
 done:
     free(entry);
     return st;

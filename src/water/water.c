@@ -91,18 +91,16 @@ static status source_voxel(const struct job *job, size_t i, const int voxels[3],
     if (s->n_path_m == 0)
         return fail(E_USAGE, "sources[%zu].path_m: needs at least one point, where the water enters", i);
     if (s->bed_m > 0 && s->bed_m < BED * h)
-        log_warn("sources[%zu].bed_m: a bed of %g m radius may be cut into pieces at a spacing of %g m: make "
-                 "it %g m, or the "
-                 "spacing finer",
-                 i, s->bed_m, h, BED * h);
+        log_warn(
+            "sources[%zu].bed_m: a bed of %g m radius may be cut into pieces at a spacing of %g m: make it %g m, or the spacing finer",
+            i, s->bed_m, h, BED * h);
     const double *x = s->path_m[0];
     for (int a = 0; a < 3; a++) {
         double v = floor(x[a] / h);
         if (!(x[a] >= 0 && x[a] <= voxels[a] * h))
             return fail(
                 E_USAGE,
-                "sources[%zu].path_m: the water enters at %g, %g, %g m, outside the domain of %g x %g x "
-                "%g m",
+                "sources[%zu].path_m: the water enters at %g, %g, %g m, outside the domain of %g x %g x %g m",
                 i, x[0], x[1], x[2], voxels[0] * h, voxels[1] * h, voxels[2] * h);
         out[a] = (uint32_t)fmin(v, voxels[a] - 1);
     }

@@ -28,10 +28,10 @@ status flow_layout(const struct job *job, const int voxels[3], struct flow *f)
     }
     double slots = spare * count + box[0] * box[1] + 1024;
     if (!(slots <= SLOTS_MAX))
-        return fail(E_USAGE,
-                    "wind.flow: %.0f particles of air in a box of %.0f x %.0f x %.0f spacings of %g m, of %d "
-                    "at most: raise wind.flow.spacing_m or lower wind.flow.domain",
-                    slots, box[0], box[1], box[2], f->spacing, SLOTS_MAX);
+        return fail(
+            E_USAGE,
+            "wind.flow: %.0f particles of air in a box of %.0f x %.0f x %.0f spacings of %g m, of %d at most: raise wind.flow.spacing_m or lower wind.flow.domain",
+            slots, box[0], box[1], box[2], f->spacing, SLOTS_MAX);
     for (int a = 0; a < 3; a++) {
         f->box[a] = (int)box[a];
         f->cells[a] = (f->box[a] + (a == 2) + 1) / 2;

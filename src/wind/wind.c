@@ -109,9 +109,7 @@ status wind_update(struct gpu *gpu, struct wind *w, const struct job *job, int f
     TRY(flow_run(gpu, &w->flow, p, direction, most, o->settled));
     const struct flow_report *r = &w->flow.report;
     log_note(
-        "frame %d: wind: %d steps with %u particles of air around %u of rock (%.1f %% of them new), average "
-        "settled to %.2g, mean density error %.2g (compression %.2g), divergence %.2g, fastest %.2f wind "
-        "speeds",
+        "frame %d: wind: %d steps with %u particles of air around %u of rock (%.1f %% of them new), average settled to %.2g, mean density error %.2g (compression %.2g), divergence %.2g, fastest %.2f wind speeds",
         frame, r->steps, (unsigned)r->n_air, (unsigned)r->n_rock, 100 * change, r->unsettled, r->error,
         r->compression, r->divergence, r->fastest);
 done:
