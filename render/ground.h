@@ -12,9 +12,9 @@
 #define HOODOO_GROUND_H
 
 #include "base/text.h"
-#include "output/vdb.h"
 #include "render/view.h"
 #include "render/waves.h"
+#include "vdb/vdb.h"
 
 struct ground {
     struct view view;

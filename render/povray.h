@@ -5,10 +5,10 @@
 #include "base/choice.h"
 #include "base/text.h"
 #include "field/camera.h"
-#include "output/vdb.h"
 #include "piles/piles.h"
 #include "render/show.h"
 #include "render/view.h"
+#include "vdb/vdb.h"
 
 #define PRESET_CHOICE (PRESET_DRAFT, "draft")(PRESET_PREVIEW, "preview")(PRESET_FINAL, "final")
 enum preset { CHOICE_CONSTANTS(PRESET_CHOICE) };

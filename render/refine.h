@@ -5,7 +5,7 @@
 #define HOODOO_REFINE_H
 
 #include "job/job.h"
-#include "output/vdb.h"
+#include "vdb/vdb.h"
 
 struct refine {
     const struct job *job; /* its beds */

@@ -10,8 +10,8 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
-#include "output/vdb.h"
 #include "render/report.h"
+#include "vdb/vdb.h"
 
 enum { LARGEST_LOG = 64 << 20, LOG_LINES = 24, MAX_SESSIONS = 10000 };
 

@@ -3,10 +3,10 @@
 #ifndef HOODOO_SCATTER_H
 #define HOODOO_SCATTER_H
 
-#include "output/vdb.h"
 #include "particles/rock.h"
 #include "piles/piles.h"
 #include "render/ground.h"
+#include "vdb/vdb.h"
 
 /* Adds the shapes that others refer to: Stone_0 and so on, Plant_0 and so on. */
 enum { SCATTER_STONES = 9, SCATTER_PLANTS = 3 };

@@ -1,8 +1,8 @@
 /* hoodoo-read: one OpenVDB or OpenEXR file for hoodoo (reader/reader.h). */
 #include "base/begin.h"
-#include "output/exr_serve.h"
-#include "output/vdb_serve.h"
+#include "exr/serve.h"
 #include "reader/serve.h"
+#include "vdb/serve.h"
 
 enum { MEMORY = 1 << 30 };
 

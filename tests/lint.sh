@@ -58,7 +58,8 @@ rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*
 rank() {
     case $1 in
     base) echo 0 ;; gpu | job | mesh | reader) echo 1 ;; particles | stacks | geology) echo 2 ;;
-    frame | checkpoint) echo 4 ;; model) echo 5 ;; run) echo 6 ;; farm) echo 7 ;; render) echo 8 ;; look | selftest) echo 9 ;; cli) echo 10 ;; *) echo 3 ;;
+    usd | checkpoint) echo 4 ;; frame) echo 5 ;; model) echo 6 ;; run) echo 7 ;; farm) echo 8 ;; render) echo 9 ;;
+    look | selftest) echo 10 ;; cli) echo 11 ;; *) echo 3 ;;
     esac
 }
 includes() {

@@ -12,13 +12,13 @@
 #include "base/progress.h"
 #include "base/signals.h"
 #include "cli/cli.h"
+#include "exr/exr.h"
 #include "field/field.h"
 #include "model/air.h"
-#include "output/exr.h"
 #include "output/product.h"
-#include "output/vdb.h"
 #include "run/branch.h"
 #include "scene/scene.h"
+#include "vdb/vdb.h"
 
 /* The command that makes a picture; it points into itself. */
 struct shot_recipe {

@@ -11,8 +11,8 @@
 #include "checkpoint/checkpoint.h"
 #include "cli/cli.h"
 #include "cli/words.h"
-#include "output/exr.h"
-#include "output/vdb.h"
+#include "exr/exr.h"
+#include "vdb/vdb.h"
 
 enum { JSON_FILE_MAX = 64 << 20, HEAD_SIZE = 16 };
 

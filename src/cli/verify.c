@@ -11,9 +11,9 @@
 #include "cli/cli.h"
 #include "cli/verify.h"
 #include "cli/words.h"
-#include "output/exr.h"
-#include "output/vdb.h"
+#include "exr/exr.h"
 #include "run/branch.h"
+#include "vdb/vdb.h"
 
 static void print_line(const char *line)
 {

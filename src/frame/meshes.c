@@ -14,9 +14,9 @@
 #include "mesh/trimesh.h"
 #include "output/mesh_file.h"
 #include "output/product.h"
-#include "output/vdb.h"
 #include "particles/layers.h"
 #include "stacks/material.h"
+#include "vdb/vdb.h"
 
 /* What vertices carry. A job without water, plants or deposits has no such grids: 0. Where rock moves, the three components of
  * its velocity come after the n. */

@@ -13,7 +13,7 @@
 
 #include "job/job.h"
 #include "output/product.h"
-#include "output/usd.h"
+#include "usd/usd.h"
 
 struct meshes {
     struct recipe recipe; /* of no frame yet */

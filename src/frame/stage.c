@@ -16,7 +16,7 @@
 #include "job/palette.h"
 #include "output/axes.h"
 #include "output/product.h"
-#include "output/usd.h"
+#include "usd/usd.h"
 
 enum { MAX_FIELDS = VALUES };
 

@@ -1,5 +1,5 @@
 /* Meshes as their readers answer them: hoodoo-read-mesh (glTF: scene/mesh_import_shim.cpp) and hoodoo-read (the surfaces of
- * OpenVDB grids: output/vdb_shape_shim.cpp).
+ * OpenVDB grids: vdb/shape_shim.cpp).
  *
  * mesh FORMAT          struct mesh_part, its corners double[n_vertices][3], its triangles uint32[n_triangles][3]
  * vdb.shape GRID ISO   the same; GRID may be "", for the only or first one that has floats

@@ -3,7 +3,7 @@
  * Asked     hoodoo-read KIND PATH WORD...  Descriptor 3 is an empty file in memory for the answer, descriptor 4 (of some
  *           kinds) one with input. Both programs come from one build, so that structs are the same for both.
  * Answered  a head, then the parts it counts, one behind the other. What parts a kind has stands where it is read
- *           (vdb_parts.h, image.c).
+ *           (vdb/serve.h, scene/image.c).
  * Trust     None: whoever asks checks every size and number. What decodes has read hostile bytes.
  */
 #ifndef HOODOO_READER_PROTOCOL_H

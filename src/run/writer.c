@@ -9,12 +9,12 @@
 #include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "exr/exr.h"
 #include "frame/stage.h"
 #include "job/palette.h"
-#include "output/exr.h"
 #include "output/folder.h"
-#include "output/usd.h"
-#include "output/vdb.h"
+#include "usd/usd.h"
+#include "vdb/vdb.h"
 
 /* ---- one frame's files */
 

@@ -11,7 +11,7 @@
 #undef fail /* ours is another */
 
 #include "base/atomic_file.h"
-#include "output/exr.h"
+#include "exr/exr.h"
 #include "unit/sample_frame.h"
 
 static const float COLORS[2][3] = {{0.8F, 0.4F, 0.2F}, {0.5F, 0.3F, 0.1F}};

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "output/vdb.h"
+#include "vdb/vdb.h"
 
 /* Not centred and with three different sides, so that swapped axes show. */
 static const double BALL_CENTRE[3] = {7.25, 5.5, 6.0};

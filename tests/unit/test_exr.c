@@ -17,7 +17,7 @@
 #include "base/atomic_file.h"
 #include "base/json.h"
 #include "base/memory.h"
-#include "output/exr.h"
+#include "exr/exr.h"
 #include "unit/damage.h"
 
 enum { WIDTH = 61, HEIGHT = 37, PIXELS = WIDTH * HEIGHT };

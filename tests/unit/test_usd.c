@@ -10,8 +10,8 @@
 #include <cmocka.h>
 #undef fail /* ours is another */
 
-#include "output/usd.h"
 #include "sample_frame.h"
+#include "usd/usd.h"
 
 static const double HERE[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.5, 2, -0.0, 1},
                     THERE[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 9, 2, 3, 1};

@@ -9,10 +9,10 @@
 #include "base/choice.h"
 #include "base/memory.h"
 #include "field/field.h"
-#include "output/usd.h"
-#include "output/vdb.h"
 #include "render/show.h"
 #include "stacks/material.h"
+#include "usd/usd.h"
+#include "vdb/vdb.h"
 
 #define COLOR_CHOICE (COLOR_RED, "red")(COLOR_16, "16bit")(COLOR_NONE, "not-any")
 enum { CHOICE_CONSTANTS(COLOR_CHOICE) COLORS };

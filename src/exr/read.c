@@ -9,9 +9,9 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
-#include "output/describe.h"
-#include "output/exr_hash.h"
-#include "output/exr_serve.h"
+#include "exr/hash.h"
+#include "exr/serve.h"
+#include "reader/describe.h"
 
 struct source {
     const char *path;

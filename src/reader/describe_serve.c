@@ -1,6 +1,6 @@
 #include <stdlib.h>
 
-#include "output/describe.h"
+#include "reader/describe.h"
 
 void describe_begin(const struct serve_question *question, struct text *out)
 {

@@ -1,4 +1,4 @@
-#include "output/usd.h"
+#include "usd/usd.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +7,7 @@
 
 #include "base/path.h"
 #include "base/version.h"
-#include "output/usd_text.h"
+#include "usd/text.h"
 
 /* ---- words of the language */
 

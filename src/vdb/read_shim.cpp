@@ -1,6 +1,6 @@
 /* What an OpenVDB file holds, and whether it is all there. Runs in hoodoo-read, single-threaded: these bytes may come
  * from anyone. */
-#include "output/vdb_shim.hpp"
+#include "vdb/shim.hpp"
 
 #include <openvdb/io/File.h>
 #include <openvdb/io/Stream.h>
@@ -12,8 +12,8 @@
 
 extern "C" {
 #include "base/atomic_file.h"
-#include "output/describe.h"
-#include "output/vdb_serve.h"
+#include "reader/describe.h"
+#include "vdb/serve.h"
 }
 
 namespace

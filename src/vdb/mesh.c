@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 #include "mesh/trimesh.h"
-#include "output/vdb.h"
 #include "reader/reader.h"
+#include "vdb/vdb.h"
 
 /* No simplified edge is longer, in voxels: values vary along it. */
 static const double LONGEST = 12;

@@ -1,4 +1,4 @@
-#include "output/usd_crate.h"
+#include "usd/crate.h"
 
 #include <assert.h>
 #include <string.h>

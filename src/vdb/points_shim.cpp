@@ -5,7 +5,7 @@
  * values.def) is the nearest of as many from 0 to 1, with 0 and 1 exact and nothing else made 0; v and Cd are
  * halves. Normals are unit vectors in two bytes where each particle has one, else halves, for OpenVDB's unit
  * vectors cannot be zero. Stresses, rates and numbers stay as they are. */
-#include "output/vdb_shim.hpp"
+#include "vdb/shim.hpp"
 
 #include <openvdb/points/AttributeArray.h>
 #include <tbb/blocked_range.h>

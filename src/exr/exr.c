@@ -1,4 +1,4 @@
-#include "output/exr.h"
+#include "exr/exr.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -11,7 +11,7 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/version.h"
-#include "output/exr_hash.h"
+#include "exr/hash.h"
 
 /* A file growing in memory, and the library's last complaint about it. */
 struct sink {

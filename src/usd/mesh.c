@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "output/axes.h"
-#include "output/usd.h"
+#include "usd/usd.h"
 
 /* What every mesh has; values of values.def follow. */
 enum { EXTENT, COUNTS, INDICES, NORMALS, POINTS, COLOR, LAYER, VELOCITIES, OWN };

@@ -1,7 +1,7 @@
 /* OpenVDB archives in memory. File::write() does not notice a full disk and stamps each archive with random
  * bytes; here the archive goes to a growing buffer, and its UUID says whose file it is and what its content
  * hashes to. */
-#include "output/vdb_shim.hpp"
+#include "vdb/shim.hpp"
 
 #include <openvdb/io/Archive.h>
 #include <openvdb/io/GridDescriptor.h>

@@ -1,9 +1,9 @@
 /* The surface of any file's level set or fog as triangles. Runs in hoodoo-read. */
-#include "output/vdb_shim.hpp"
+#include "vdb/shim.hpp"
 
 extern "C" {
-#include "output/vdb_serve.h"
 #include "reader/mesh_part.h"
+#include "vdb/serve.h"
 }
 
 #include <openvdb/tools/Interpolation.h>

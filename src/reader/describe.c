@@ -1,9 +1,7 @@
-#include "output/describe.h"
+#include "reader/describe.h"
 
 #include <stdio.h>
 
-#include "output/exr.h"
-#include "output/vdb.h"
 #include "reader/reader.h"
 
 status describe_ask(const char *kind, const char *path, struct text *out)
@@ -23,29 +21,4 @@ status describe_ask(const char *kind, const char *path, struct text *out)
 done:
     reader_end(&answer);
     return st;
-}
-
-status vdb_check(const char *path)
-{
-    return describe_ask("vdb.check", path, NULL);
-}
-
-status vdb_describe(const char *path, struct text *out)
-{
-    return describe_ask("vdb.describe", path, out);
-}
-
-status vdb_describe_lattices(const char *path, struct text *out)
-{
-    return describe_ask("vdb.lattices", path, out);
-}
-
-status exr_check(const char *path)
-{
-    return describe_ask("exr.check", path, NULL);
-}
-
-status exr_describe(const char *path, struct text *out)
-{
-    return describe_ask("exr.describe", path, out);
 }

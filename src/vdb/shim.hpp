@@ -17,7 +17,7 @@ extern "C" {
 #include "base/memory.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "output/vdb_encode.h"
+#include "vdb/encode.h"
 }
 
 /* OpenVDB's library holds these classes whole, for it registers their grids. Without being told so, each file that names one

@@ -1,4 +1,4 @@
-#include "output/exr_hash.h"
+#include "exr/hash.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #ifndef HOODOO_VDB_ENCODE_H
 #define HOODOO_VDB_ENCODE_H
 
-#include "output/vdb.h"
+#include "vdb/vdb.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 #include "output/axes.h"
-#include "output/usd.h"
-#include "output/usd_crate.h"
+#include "usd/crate.h"
+#include "usd/usd.h"
 
 /* What every point has; values of values.def follow. */
 enum { EXTENT, IDS, NORMALS, POINTS, COLOR, VELOCITIES, WIDTHS, OWN };

@@ -1,5 +1,5 @@
 /* A frame's grids to OpenVDB grids, leaf by leaf. */
-#include "output/vdb_shim.hpp"
+#include "vdb/shim.hpp"
 
 #include <openvdb/tools/Prune.h>
 #include <tbb/blocked_range.h>

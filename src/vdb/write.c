@@ -1,7 +1,7 @@
 #include "base/library.h"
-#include "output/vdb.h"
-#include "output/vdb_encode.h"
 #include "particles/pieces.h"
+#include "vdb/encode.h"
+#include "vdb/vdb.h"
 
 status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options, struct vdb_bytes *out)
 {

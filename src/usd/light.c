@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/vector.h"
-#include "output/usd.h"
-#include "output/usd_text.h"
+#include "usd/text.h"
+#include "usd/usd.h"
 
 /* What an attribute is in a frame. */
 typedef void value_at(struct text *t, const struct usd_light *light);

@@ -4,8 +4,8 @@
 
 #include "base/memory.h"
 #include "output/axes.h"
-#include "output/usd.h"
-#include "output/usd_crate.h"
+#include "usd/crate.h"
+#include "usd/usd.h"
 
 enum { EXTENT, IDS, ORIENTATIONS, POSITIONS, PROTOS, ATTRIBUTES };
 

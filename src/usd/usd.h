@@ -21,9 +21,9 @@
 
 #include "base/text.h"
 #include "output/mesh_file.h"
-#include "output/usd_crate.h"
-#include "output/vdb.h"
 #include "particles/rock.h"
+#include "usd/crate.h"
+#include "vdb/vdb.h"
 
 /* A camera at one frame. Axes of the files. */
 struct usd_key {

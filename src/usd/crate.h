@@ -8,7 +8,7 @@
 #ifndef HOODOO_USD_CRATE_H
 #define HOODOO_USD_CRATE_H
 
-#include "output/vdb.h"
+#include "vdb/vdb.h"
 
 /* Of the crate's value types. */
 enum usd_type {
@@ -44,8 +44,8 @@ void usd_prim_add(struct usd_prim *prim, int which[USD_ATTRIBUTES_MAX], struct u
 /* A value as a primvar of vertices or points. */
 struct usd_attribute usd_primvar(enum value_id value);
 
-const struct usd_prim *usd_points_prim(bool moves); /* usd_points.c */
-extern const struct usd_prim usd_rocks_prim;        /* usd_rocks.c */
+const struct usd_prim *usd_points_prim(bool moves); /* points.c */
+extern const struct usd_prim usd_rocks_prim;        /* rocks.c */
 
 /* An attribute's array. */
 struct usd_items {

@@ -1,5 +1,5 @@
 /* Frames back from their files: volumes as bricks of samples, points as particles. Runs in hoodoo-read. */
-#include "output/vdb_shim.hpp"
+#include "vdb/shim.hpp"
 
 #include <openvdb/points/AttributeArray.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 extern "C" {
-#include "output/vdb_serve.h"
+#include "vdb/serve.h"
 }
 
 namespace

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "output/vdb.h"
-#include "output/vdb_serve.h"
 #include "reader/reader.h"
+#include "vdb/serve.h"
+#include "vdb/vdb.h"
 
 /* How many samples; false if no lattice has as many, or more bricks than can be numbered. */
 static bool count(const int32_t n[3], size_t *out)

@@ -1,9 +1,9 @@
 /* A frame's level set as samples, and what it and the frame's other grids hold at given places. Runs in hoodoo-read. */
-#include "output/vdb_shim.hpp"
+#include "vdb/shim.hpp"
 
 extern "C" {
 #include "mesh/trimesh.h"
-#include "output/vdb_serve.h"
+#include "vdb/serve.h"
 }
 
 #include <openvdb/tools/Interpolation.h>
