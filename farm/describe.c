@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "farm/command.h"
-#include "run/room.h"
+#include "run/memory.h"
 
 enum { ROWS = 100 };
 
@@ -57,7 +57,7 @@ static status put_command(const struct farm *f, const struct farm_task *t, const
     json_bool(out, "gpu", gpu);
     if (t->kind == FARM_SIM)
         json_integer(out, "memory_bytes",
-                     (int64_t)(e->host_bytes + room_process(NULL, e) + (gpu ? 0 : e->device_bytes)));
+                     (int64_t)(e->host_bytes + run_memory_process(NULL, e) + (gpu ? 0 : e->device_bytes)));
     TRY(farm_log_path(f, t, &log));
     json_text(out, "log", log.text);
 done:

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "farm/command.h"
-#include "run/room.h"
+#include "run/memory.h"
 
 /* Seconds between the notice and the end of a task: of a simulation, a frame and its checkpoint. OpenJD allows 600. */
 enum { NOTIFY_SIM_S = 300, NOTIFY_S = 30, NOTIFY_MOST_S = 600, MIB = 1 << 20 };
@@ -181,7 +181,7 @@ static void put_host(const struct step *s, struct text *t)
     if (farm_kinds[s->kind].device) {
         /* Without a GPU its memory is the machine's. */
         const bool gpu = farm_wants_gpu(s->kind, s->device);
-        const uint64_t host = e->host_bytes + room_process(NULL, e) + (gpu ? 0 : e->device_bytes);
+        const uint64_t host = e->host_bytes + run_memory_process(NULL, e) + (gpu ? 0 : e->device_bytes);
         json_array(t, "amounts");
         if (gpu) {
             put_amount(t, "amount.worker.gpu", 1);

@@ -36,12 +36,12 @@ static void print_one(struct found *f, const struct job *job, const struct advic
 static status check_one(struct found *f, const struct job *job)
 {
     status st = OK;
-    struct advices a = {0};
-    TRY(advices_of(job, true, &a));
+    struct advice_list a = {0};
+    TRY(advice_collect(job, true, &a));
     for (size_t i = 0; i < a.n; i++)
-        print_one(f, job, &a.one[i]);
+        print_one(f, job, &a.item[i]);
 done:
-    advices_free(&a);
+    advice_free(&a);
     return st;
 }
 

@@ -9,7 +9,7 @@
 #include "cli/plan_time.h"
 #include "cli/words.h"
 #include "farm/describe.h"
-#include "run/room.h"
+#include "run/memory.h"
 
 /* Seconds of a frame: as the folder's frames came, or by a rehearsal (without a device nobody knows: 0). Other wedges than the first
  * are taken to grow with their particles. */
@@ -41,7 +41,7 @@ done:
 /* Memory as it is before anything is rehearsed. */
 struct memory {
     uint64_t process;
-    struct room there; /* where there is a device */
+    struct run_memory there; /* where there is a device */
     uint64_t host_free;
     bool fits;
 };
@@ -70,10 +70,10 @@ static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *a
     struct plan_time time = {0};
     char frames[48];
     size_t n_frames = range_count(job->frames);
-    struct memory memory = {.process = room_process(gpu, &e), .host_free = memory_available()};
+    struct memory memory = {.process = run_memory_process(gpu, &e), .host_free = memory_available()};
     if (gpu) {
-        memory.there = room_free(gpu);
-        memory.fits = room_enough(memory.there, room_needed(gpu, &e));
+        memory.there = run_memory_available(gpu);
+        memory.fits = run_memory_fits(memory.there, run_memory_needed(gpu, &e));
     }
     TRY(time_frames(f, gpu, asked, &time));
     TRY(farm_graph(f));

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "base/log.h"
-#include "run/room.h"
+#include "run/memory.h"
 
 /* Particles that any device steps in next to no time: of the first rehearsal, which says how far the next one may go. */
 static const double FEW = 30000;
@@ -40,7 +40,7 @@ done:
 
 static bool fits(const struct gpu *gpu, const struct farm *f)
 {
-    return room_enough(room_free(gpu), room_needed(gpu, &f->wedge[0].estimate));
+    return run_memory_fits(run_memory_available(gpu), run_memory_needed(gpu, &f->wedge[0].estimate));
 }
 
 static status rehearse_wedge(struct gpu *gpu, const struct farm *f, double patience, struct rehearsal *out)
@@ -96,7 +96,7 @@ status plan_rehearse(const struct plan_asked *asked, struct gpu *gpu, const stru
     }
     if (may >= n && fits(gpu, f)) {
         TRY(rehearse_wedge(gpu, f, few.n_particles > 0 ? patience / 2 : patience, &whole));
-        rehearsal_follow(&whole, &few);
+        rehearsal_correct_steps(&whole, &few);
         whole.start.cpu += few.start.cpu;
         whole.start.wall += few.start.wall;
         snprintf(out->from, sizeof out->from, "frames %s, rehearsed", range_text(whole.frames, range));
@@ -104,7 +104,7 @@ status plan_rehearse(const struct plan_asked *asked, struct gpu *gpu, const stru
         if (may > 2 * few.n_particles)
             TRY(rehearse_coarse(asked, gpu, f, fmin(may, n / 1.5), 0, &more));
         const struct rehearsal *last = more.n_particles > 0 ? &more : &few;
-        rehearsal_follow(&more, &few);
+        rehearsal_correct_steps(&more, &few);
         rehearsal_scale(&few, last, n, &whole);
         snprintf(out->from, sizeof out->from,
                  "frames %s, rehearsed with %.2g particles and drawn out from there: within a factor of two",

@@ -251,7 +251,7 @@ status cli_submit(int argc, char **argv)
     TRY(farm_load(operands.word[0], w.common.sets.word, w.common.sets.n, w.common.from, w.wedge, w.common.out,
                   &farm));
     for (size_t i = 0; i < farm.n_wedges && i < WARNED; i++)
-        TRY(advices_log(farm.wedge[i].job));
+        TRY(advice_log(farm.wedge[i].job));
     for (size_t i = 0; i < farm.n_wedges; i++) {
         TRY(farm_root(&farm, (int)farm.wedge[i].job->wedge.index, &root));
         farm.wedge[i].frame_seconds = farm_frame_seconds(root.text, farm.wedge[i].job->name);

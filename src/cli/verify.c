@@ -198,7 +198,7 @@ static status verify_checkpoints(struct search *s)
         TRY(folder_path(&path, s->root, s->name, FILE_CHECKPOINT, frames[i], NULL));
         TRY(verify_checkpoint(s, path.text, &frames[i]));
     }
-    TRY(branch_copy(&path, s->root, s->name));
+    TRY(branch_copy_path(&path, s->root, s->name));
     if (access(path.text, F_OK) == 0)
         TRY(verify_checkpoint(s, path.text, NULL));
 done:

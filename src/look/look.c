@@ -15,7 +15,7 @@
 #include "look/shot.h"
 #include "look/states.h"
 #include "model/model.h"
-#include "run/room.h"
+#include "run/memory.h"
 
 /* Of a run, as many states are kept about, evenly, besides that of the frame looked at. */
 enum { KEPT_STATES = 16 };
@@ -73,7 +73,7 @@ static status start(struct look *l, const struct sketch *s, const uint64_t *hash
     const size_t n = (size_t)(s->frame - s->job->frames.first) + 1;
     struct model_estimate e;
     struct checkpoint c = {0};
-    TRY(room_check(l->gpu, s->job, &e));
+    TRY(run_memory_check(l->gpu, s->job, &e));
     made->n_particles = e.n_particles;
     for (size_t at = n; !*out;) {
         at = states_find(&l->states, hash, at, &c);

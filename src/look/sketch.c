@@ -247,31 +247,31 @@ done:
     return st;
 }
 
-static bool has(const struct advices *all, const struct advice *a)
+static bool has(const struct advice_list *all, const struct advice *a)
 {
     bool found = false;
     for (size_t i = 0; i < all->n; i++)
-        found |= strcmp(all->one[i].key, a->key) == 0;
+        found |= strcmp(all->item[i].key, a->key) == 0;
     return found;
 }
 
 status sketch_loses(const struct sketch *s, struct text *out)
 {
     status st = OK;
-    struct advices coarse = {0}, own = {0};
+    struct advice_list coarse = {0}, own = {0};
     const bool hushed = log_hush(true);
     if (s->job->domain.spacing_m > s->own_spacing_m) {
-        TRY(advices_of(s->job, true, &coarse));
-        TRY(advices_of(s->own, true, &own));
+        TRY(advice_collect(s->job, true, &coarse));
+        TRY(advice_collect(s->own, true, &own));
     }
     for (size_t i = 0; i < coarse.n; i++)
-        if (!has(&own, &coarse.one[i]))
-            text_add(out, "%s: %s\n", coarse.one[i].key, coarse.one[i].text);
+        if (!has(&own, &coarse.item[i]))
+            text_add(out, "%s: %s\n", coarse.item[i].key, coarse.item[i].text);
     TRY(text_status(out));
 done:
     log_hush(hushed);
-    advices_free(&coarse);
-    advices_free(&own);
+    advice_free(&coarse);
+    advice_free(&own);
     return st;
 }
 

@@ -14,24 +14,24 @@
 #include "scene/scene.h"
 #include "shared/params.h"
 
-/* What all looks share. */
-struct view {
+/* What the checks work on. */
+struct context {
     const struct job *job;
-    struct advices *out;
+    struct advice_list *out;
     struct scene_size size;
     struct solid *solid;
-    double low[3], high[3]; /* m: of the rock in the domain */
-    double kyr;             /* from the first frame to the last */
+    double low[3], high[3]; /* m: bounds of the rock in the domain */
+    double kyr;             /* from the first frame to the last; 0 in a shot */
 };
 
-static status say(struct view *v, const char *key, const char *format, ...) PRINTF_LIKE(3, 4);
-static status say(struct view *v, const char *key, const char *format, ...)
+static status add_advice(struct context *v, const char *key, const char *format, ...) PRINTF_LIKE(3, 4);
+static status add_advice(struct context *v, const char *key, const char *format, ...)
 {
-    struct advices *a = v->out;
-    const status st = memory_grow(&a->one, &a->capacity, a->n + 1, sizeof *a->one, "advice");
+    struct advice_list *a = v->out;
+    const status st = memory_grow(&a->item, &a->capacity, a->n + 1, sizeof *a->item, "advice");
     if (st != OK)
         return st;
-    struct advice *one = &a->one[a->n++];
+    struct advice *one = &a->item[a->n++];
     va_list arguments;
     va_start(arguments, format);
     snprintf(one->key, sizeof one->key, "%s", key);
@@ -48,7 +48,7 @@ static bool is_wall(const struct job *job, int axis, int high)
     return axis < 2 && (job_walls(job) & side[axis][high]) != 0;
 }
 
-/* Out through a side or the top, where no wall says that the rock goes on. What is below the ground is meant. */
+/* Whether x is outside of the domain beyond the top or a side without a wall. Rock below the ground is cut off on purpose. */
 static bool cut_off(const struct job *job, const double x[3])
 {
     for (int a = 0; a < 3; a++)
@@ -58,8 +58,8 @@ static bool cut_off(const struct job *job, const double x[3])
     return false;
 }
 
-/* Counted at the middles of a lattice over the scene's box. */
-static status look_at_domain(struct view *v)
+/* Estimates the share of the scene that is cut off, from the points of a lattice over its bounding box. */
+static status check_domain(struct context *v)
 {
     enum { ACROSS = 32 };
     double low[3], high[3], x[3];
@@ -85,18 +85,18 @@ static status look_at_domain(struct view *v)
     }
     if (outside * 10 <= all)
         return OK;
-    return say(
+    return add_advice(
         v, "domain.size_m",
-        "about %.0f %% of the scene lies outside the domain and is cut off: it reaches from (%.4g, %.4g) to (%.4g, %.4g, %.4g) m, and the domain from 0 to (%.4g, %.4g, %.4g)",
+        "about %.0f %% of the scene is outside the domain and is cut off: the scene reaches from (%.4g, %.4g) to (%.4g, %.4g, %.4g) m, the domain from 0 to (%.4g, %.4g, %.4g)",
         100 * (double)outside / (double)all, low[0], low[1], high[0], high[1], high[2],
         v->job->domain.size_m[0], v->job->domain.size_m[1], v->job->domain.size_m[2]);
 }
 
-/* ---- what files hold */
+/* ---- input files */
 
-/* The log says of each file how much rock it is, by its own measure and as it is sampled; where the two differ it is another rock
- * than whoever made the file has seen. */
-static status look_at_inputs(struct view *v)
+/* Logs the volume of each input file, of its own geometry and as it is sampled. If the two differ, the simulated rock is not what the
+ * author of the file saw. */
+static status check_inputs(struct context *v)
 {
     status st = OK;
     struct scene_input *in = NULL;
@@ -112,7 +112,7 @@ static status look_at_inputs(struct view *v)
             log_info("%s: %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m", in[i].file,
                      in[i].own_m3, in[i].sampled_m3, h);
         else
-            TRY(say(
+            TRY(add_advice(
                 v, "scene",
                 "%.300s holds %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m, %.0f %% %s",
                 in[i].file, in[i].own_m3, in[i].sampled_m3, h, 100 * fabs(off), off > 0 ? "more" : "less"));
@@ -123,9 +123,9 @@ done:
     return st;
 }
 
-/* ---- what is thinner than a particle */
+/* ---- features smaller than the spacing */
 
-static status look_at_node(struct view *v, const struct job_node *node)
+static status check_node(struct context *v, const struct job_node *node)
 {
     status st = OK;
     const double h = v->job->domain.spacing_m;
@@ -133,18 +133,18 @@ static status look_at_node(struct view *v, const struct job_node *node)
         const struct job_box *b = &node->u.box;
         for (int a = 0; a < 3; a++)
             if ((b->max_m[a] - b->min_m[a]) * b->scale[a] < h)
-                return say(
+                return add_advice(
                     v, "scene",
-                    "a%s box of the scene is %.3g m thick, less than domain.spacing_m (%g): what is left of it depends on the spacing",
+                    "a%s box of the scene is %.3g m thick, less than domain.spacing_m (%g): how much of it is sampled depends on the spacing",
                     b->inert ? "n inert" : "", (b->max_m[a] - b->min_m[a]) * b->scale[a], h);
     }
     for (size_t i = 0; i < node->n_child; i++)
-        TRY(look_at_node(v, node->child[i]));
+        TRY(check_node(v, node->child[i]));
 done:
     return st;
 }
 
-static status look_at_sizes(struct view *v)
+static status check_sizes(struct context *v)
 {
     status st = OK;
     const struct job *job = v->job;
@@ -152,38 +152,37 @@ static status look_at_sizes(struct view *v)
     char key[64];
     double below = -INFINITY;
     if (job->scene)
-        TRY(look_at_node(v, job->scene));
+        TRY(check_node(v, job->scene));
     for (size_t i = 0; i < job->n_strata; i++) {
         const double top = job->strata[i].to_m, thick = top - below;
         snprintf(key, sizeof key, "strata.%zu.to_m", i);
         if (thick < h && top > v->low[2] && below < v->high[2])
-            TRY(say(
+            TRY(add_advice(
                 v, key,
-                "the layer is %.3g m thick, less than domain.spacing_m (%g): it is there or not by chance",
+                "the layer is %.3g m thick, less than domain.spacing_m (%g): whether it gets any particles is a matter of chance",
                 thick, h));
         below = top;
     }
     if (job->skin.damp > 1 && job->skin.damp_m < 2 * h)
-        TRY(say(
+        TRY(add_advice(
             v, "skin.damp_m",
-            "damp reaches %g m, less than two spacings (%g m): holes are as wide as the spacing makes them, and with 0 there are none",
+            "damp reaches %g m, less than two spacings (%g m): the width of holes depends on the spacing, and with 0 there are none",
             job->skin.damp_m, 2 * h));
     if (job->groundwater.recharge_m_per_yr > 0 && contacts_beds(job) == 0)
-        TRY(say(
+        TRY(add_advice(
             v, "groundwater",
-            "no stratum has a conductivity_m_per_yr of less than recharge_m_per_yr (%g), which would hold water up: nothing seeps out",
+            "no stratum has a conductivity_m_per_yr below recharge_m_per_yr (%g), so no bed holds water back and nothing seeps out",
             job->groundwater.recharge_m_per_yr));
     if (job->noise.amplitude > 0 && job->noise.scale_m < 2 * h)
-        TRY(say(v, "noise.scale_m",
-                "features of %g m are finer than two spacings (%g m): another spacing is another rock",
-                job->noise.scale_m, 2 * h));
+        TRY(add_advice(
+            v, "noise.scale_m",
+            "features of %g m are finer than two spacings (%g m): the rock changes with the spacing",
+            job->noise.scale_m, 2 * h));
 done:
     return st;
 }
 
-/* ---- what the structure of the rock has that is finer than particles */
-
-static status look_at_structure(struct view *v)
+static status check_structure(struct context *v)
 {
     status st = OK;
     const struct job *job = v->job;
@@ -193,13 +192,13 @@ static status look_at_structure(struct view *v)
         const struct job_bedding *b = &job->strata_from[i];
         snprintf(key, sizeof key, "strata_from.%zu.thickness_m", i);
         if (!b->n_column && b->thickness_m < h)
-            TRY(say(
+            TRY(add_advice(
                 v, key,
-                "beds are %.3g m thick in the mean, less than domain.spacing_m (%g): they act together, and no single one shows",
+                "beds are %.3g m thick on average, less than domain.spacing_m (%g): they act together, and single beds do not show",
                 b->thickness_m, h));
         snprintf(key, sizeof key, "strata_from.%zu.cross.lamina_m", i);
         if (b->cross.set_m > 0 && b->cross.lamina_m < h)
-            TRY(say(
+            TRY(add_advice(
                 v, key,
                 "laminae are %.3g m thick, less than domain.spacing_m (%g): hardly anything of them shows",
                 b->cross.lamina_m, h));
@@ -208,7 +207,7 @@ static status look_at_structure(struct view *v)
         snprintf(key, sizeof key, "concretions.%zu.radius_m", i);
         const struct job_concretion *c = &job->concretions[i];
         if (c->radius_m * fmin(1, 1 / c->flatten) < h)
-            TRY(say(
+            TRY(add_advice(
                 v, key,
                 "concretions are %.3g m in radius, %.3g m across the beds, less than domain.spacing_m (%g): they hardly show",
                 c->radius_m, c->radius_m / c->flatten, h));
@@ -216,9 +215,9 @@ static status look_at_structure(struct view *v)
     for (size_t i = 0; i < job->n_joints; i++) {
         snprintf(key, sizeof key, "joints.%zu.spacing_m", i);
         if (job->joints[i].spacing_m < 2 * h)
-            TRY(say(
+            TRY(add_advice(
                 v, key,
-                "joints are %.3g m apart, closer than two spacings (%g m): what stands between them is too thin to show",
+                "joints are %.3g m apart, closer than two spacings (%g m): the rock between them is too thin to show",
                 job->joints[i].spacing_m, 2 * h));
     }
 done:
@@ -227,7 +226,7 @@ done:
 
 /* ---- stress and rates */
 
-static double curve_least(const struct curve *c)
+static double least_of(const struct curve *c)
 {
     double least = INFINITY;
     for (size_t i = 0; i < c->n; i++)
@@ -235,7 +234,7 @@ static double curve_least(const struct curve *c)
     return least;
 }
 
-static double curve_most(const struct curve *c)
+static double most_of(const struct curve *c)
 {
     double most = -INFINITY;
     for (size_t i = 0; i < c->n; i++)
@@ -243,10 +242,10 @@ static double curve_most(const struct curve *c)
     return most;
 }
 
-/* A column's foot carries density * gravity * height; within a factor of a few of that grains interlock somewhere and not
- * everywhere, which is what makes arches and pillars (Arenite 8). Near the top no layer does, so the one that is nearest to it
- * speaks for all. */
-static status look_at_interlocking(struct view *v)
+/* The foot of a column carries density * gravity * height. Arches and pillars form if the interlocking stress is within a factor of
+ * a few of that, so that grains interlock in some places and not in others (Arenite 8). Advice is given only if no layer comes that
+ * close; it names the closest one. */
+static status check_interlocking(struct context *v)
 {
     enum { FAR = 5 };
     const struct job *job = v->job;
@@ -254,7 +253,7 @@ static status look_at_interlocking(struct view *v)
     double below = -INFINITY, nearest = INFINITY, most = 0, height = 0;
     const double preset = table_find(SECTION_layer, "interlock_MPa")->number;
     size_t which = 0;
-    bool typed = false; /* nobody is told of a number that nobody gave */
+    bool typed = false; /* the job sets interlock_MPa; there is no advice about a default */
     char key[64];
     if (!job_model(job)->interlocks || !(weight_of_metre > 0))
         return OK;
@@ -265,8 +264,8 @@ static status look_at_interlocking(struct view *v)
         if (bottom >= fmin(l->to_m, v->high[2]) || above <= 0)
             continue;
         typed |= l->interlock_MPa.n > 1 || l->interlock_MPa.value[0] != preset;
-        const double least = curve_least(&l->interlock_MPa) / (weight_of_metre * above);
-        most = fmax(most, curve_most(&l->interlock_MPa) / (weight_of_metre * above));
+        const double least = least_of(&l->interlock_MPa) / (weight_of_metre * above);
+        most = fmax(most, most_of(&l->interlock_MPa) / (weight_of_metre * above));
         if (least < nearest) {
             nearest = least;
             which = i;
@@ -277,19 +276,19 @@ static status look_at_interlocking(struct view *v)
     if (!typed)
         return OK;
     if (isfinite(nearest) && nearest > FAR)
-        return say(
+        return add_advice(
             v, key,
-            "interlocking holds from %.3g m of rock upwards, and no layer has nearly as much above its foot (this one %.3g m, which weighs %.3g MPa): no grains ever interlock, and stress changes nothing",
+            "interlocking needs the weight of at least %.3g m of rock, and no layer has nearly as much above its foot (this one %.3g m, which weighs %.3g MPa): no grains ever interlock, and stress has no effect",
             nearest * height, height, weight_of_metre * height);
     if (most > 0 && most < 1e-3)
-        return say(
+        return add_advice(
             v, key,
-            "all layers interlock from %.2g of what rock weighs upwards: everything does from the start, and weathers at strong_m_per_kyr",
+            "all layers interlock at %.2g of the weight of the rock or less: all rock is interlocked from the start and weathers at strong_m_per_kyr",
             most);
     return OK;
 }
 
-static status look_at_time(struct view *v)
+static status check_time(struct context *v)
 {
     const struct job *job = v->job;
     const double across = fmin(v->high[0] - v->low[0], v->high[1] - v->low[1]), h = job->domain.spacing_m;
@@ -299,18 +298,18 @@ static status look_at_time(struct view *v)
     if (v->kyr <= 0 || job_model(job)->terrain || !job->n_strata)
         return OK;
     for (size_t i = 0; i < job->n_strata; i++) {
-        const double rate = curve_most(&job->strata[i].weak_m_per_kyr);
+        const double rate = most_of(&job->strata[i].weak_m_per_kyr);
         which = rate > most ? i : which;
         most = fmax(most, rate);
     }
     snprintf(key, sizeof key, "strata.%zu.weak_m_per_kyr", which);
     if (most * v->kyr > 20 * across)
-        return say(
+        return add_advice(
             v, key,
             "this layer retreats %.3g m in the job's %.4g kyr, and the rock is %.3g m across: little will be left long before the end",
             most * v->kyr, v->kyr, across);
     if (most * v->kyr < 0.1 * h && v->kyr > 0)
-        return say(
+        return add_advice(
             v, key,
             "the softest layer retreats %.2g m in the job's %.4g kyr, a small part of domain.spacing_m (%g): hardly anything will change",
             most * v->kyr, v->kyr, h);
@@ -330,7 +329,7 @@ static bool sees(const struct camera *c, const struct scene_size *size)
     return false;
 }
 
-static status look_at_cameras(struct view *v)
+static status check_cameras(struct context *v)
 {
     status st = OK;
     const struct job *job = v->job;
@@ -347,8 +346,8 @@ static status look_at_cameras(struct view *v)
                                                                           : NULL;
             if (!wrong)
                 continue;
-            TRY(say(v, key, "in frame %d it %s, from (%.4g, %.4g, %.4g) m", frame[k], wrong, c.eye[0],
-                    c.eye[1], c.eye[2]));
+            TRY(add_advice(v, key, "in frame %d it %s, from (%.4g, %.4g, %.4g) m", frame[k], wrong, c.eye[0],
+                           c.eye[1], c.eye[2]));
             break;
         }
     }
@@ -356,9 +355,9 @@ done:
     return st;
 }
 
-/* ---- what is not used */
+/* ---- keys without effect */
 
-static status look_at_model(struct view *v)
+static status check_model(struct context *v)
 {
     static const struct {
         const char *section;
@@ -388,19 +387,19 @@ static status look_at_model(struct view *v)
             continue;
         TRY(job_is_default(v->job, used[i].section, &preset));
         if (!preset)
-            TRY(say(v, used[i].section, "model: %s has no %s: these keys change nothing",
-                    job_model(v->job)->name, used[i].section));
+            TRY(add_advice(v, used[i].section, "model: %s has no %s: these keys have no effect",
+                           job_model(v->job)->name, used[i].section));
     }
 done:
     return st;
 }
 
-static bool meets(struct frame_range a, struct frame_range b)
+static bool overlap(struct frame_range a, struct frame_range b)
 {
     return a.first <= b.last && a.last >= b.first;
 }
 
-static status look_at_frames(struct view *v)
+static status check_frames(struct context *v)
 {
     status st = OK;
     const struct job *job = v->job;
@@ -408,26 +407,28 @@ static status look_at_frames(struct view *v)
     for (size_t i = 0; i < job->n_edits; i++)
         if (job->edits[i].frame > job->frames.last || job->edits[i].frame <= job->frames.first) {
             snprintf(key, sizeof key, "edits.%zu.frame", i);
-            TRY(say(v, key, "frame %d is not among the frames after the first (%s): this edit is never made",
-                    (int)job->edits[i].frame, range_text(job->frames, range)));
+            TRY(add_advice(v, key,
+                           "frame %d is not among the frames after the first (%s): this edit is never made",
+                           (int)job->edits[i].frame, range_text(job->frames, range)));
         }
     for (size_t i = 0; i < job->wind.n_gusts; i++)
-        if (!meets(job->wind.gusts[i].frames, job->frames)) {
+        if (!overlap(job->wind.gusts[i].frames, job->frames)) {
             snprintf(key, sizeof key, "wind.gusts.%zu.frames", i);
-            TRY(say(v, key, "none of the job's frames (%s) are among these", range_text(job->frames, range)));
+            TRY(add_advice(v, key, "none of the job's frames (%s) are in this range",
+                           range_text(job->frames, range)));
         }
     for (size_t i = 0; i < job->arches.n_operations; i++)
-        if (!meets(job->arches.operations[i].frames, job->frames)) {
+        if (!overlap(job->arches.operations[i].frames, job->frames)) {
             snprintf(key, sizeof key, "arches.operations.%zu.frames", i);
-            TRY(say(v, key, "none of the job's frames (%s) are among these: the tool is never used",
-                    range_text(job->frames, range)));
+            TRY(add_advice(v, key, "none of the job's frames (%s) are in this range: the tool is never used",
+                           range_text(job->frames, range)));
         }
 done:
     return st;
 }
 
-/* Does a line of points come near the domain? */
-static status look_at_paths(struct view *v)
+/* Tools and sources whose path is outside of the domain. */
+static status check_paths(struct context *v)
 {
     status st = OK;
     const struct job *job = v->job;
@@ -443,7 +444,7 @@ static status look_at_paths(struct view *v)
         }
         snprintf(key, sizeof key, "arches.operations.%zu.points_m", i);
         if (!near && o->n_points_m < 2)
-            TRY(say(v, key, "the tool is outside the domain: it changes nothing"));
+            TRY(add_advice(v, key, "the tool is outside the domain: it has no effect"));
     }
     for (size_t i = 0; i < job->n_sources; i++) {
         const struct job_source *s = &job->sources[i];
@@ -453,7 +454,7 @@ static status look_at_paths(struct view *v)
                       s->path_m[p][1] >= 0 && s->path_m[p][1] <= job->domain.size_m[1];
         snprintf(key, sizeof key, "sources.%zu.path_m", i);
         if (!inside)
-            TRY(say(v, key, "no point of it is in the domain"));
+            TRY(add_advice(v, key, "no point of this path is in the domain"));
     }
 done:
     return st;
@@ -461,8 +462,8 @@ done:
 
 /* ---- all */
 
-/* The box of the looked-at voxels. */
-static void bound(struct view *v)
+/* Bounds of the sampled points of the rock. */
+static void bound_rock(struct context *v)
 {
     for (int a = 0; a < 3; a++) {
         v->low[a] = INFINITY;
@@ -474,15 +475,15 @@ static void bound(struct view *v)
     }
 }
 
-status advices_of(const struct job *job, bool heard, struct advices *out)
+status advice_collect(const struct job *job, bool log_inputs, struct advice_list *out)
 {
-    static status (*const looks[])(struct view * v) = {
-        look_at_domain, look_at_inputs, look_at_sizes,   look_at_structure, look_at_interlocking,
-        look_at_time,   look_at_model,  look_at_cameras, look_at_frames,    look_at_paths};
+    static status (*const checks[])(struct context * v) = {
+        check_domain, check_inputs, check_sizes,   check_structure, check_interlocking,
+        check_time,   check_model,  check_cameras, check_frames,    check_paths};
     status st = OK;
-    struct view v = {.job = job, .out = out};
-    /* Files are read several times here, and say the same each time. */
-    const bool before = log_hush(!heard);
+    struct context v = {.job = job, .out = out};
+    /* The scene's files are read several times here, and would log the same each time. */
+    const bool before = log_hush(!log_inputs);
     v.kyr = job->clock.seconds_per_frame > 0 ? 0 : 1e-3 * job_years(job, job->frames.first, job->frames.last);
     if (job->scene)
         TRY(solid_create(job->scene, 0.5 * job->domain.spacing_m, job->domain.spacing_m, &v.solid));
@@ -490,10 +491,10 @@ status advices_of(const struct job *job, bool heard, struct advices *out)
     TRY(scene_estimate(job, &v.size));
     if (!job_model(job)->terrain)
         TRY(scene_stands(job, job->goblins.floats, &v.size));
-    bound(&v);
-    for (size_t i = 0; i < sizeof looks / sizeof *looks; i++)
-        if (v.size.n_points > 0 || looks[i] == look_at_domain)
-            TRY(looks[i](&v));
+    bound_rock(&v);
+    for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
+        if (v.size.n_points > 0 || checks[i] == check_domain)
+            TRY(checks[i](&v));
 done:
     log_hush(before);
     solid_destroy(&v.solid);
@@ -501,17 +502,17 @@ done:
     return st;
 }
 
-void advices_free(struct advices *a)
+void advice_free(struct advice_list *a)
 {
-    free(a->one);
-    *a = (struct advices){0};
+    free(a->item);
+    *a = (struct advice_list){0};
 }
 
-status advices_log(const struct job *job)
+status advice_log(const struct job *job)
 {
     enum { QUICK = 4 << 20, MOST = 12 };
     status st = OK;
-    struct advices a = {0};
+    struct advice_list a = {0};
     struct job_input *input = NULL;
     size_t n = 0;
     uint64_t bytes = 0;
@@ -520,12 +521,12 @@ status advices_log(const struct job *job)
         bytes += input[i].size;
     if (bytes > QUICK)
         goto done;
-    TRY(advices_of(job, false, &a));
+    TRY(advice_collect(job, false, &a));
     for (size_t i = 0; i < a.n && i < MOST; i++)
-        log_warn("%s%s%s: %s", job->wedge.index ? job->name : "", job->wedge.index ? ": " : "", a.one[i].key,
-                 a.one[i].text);
+        log_warn("%s%s%s: %s", job->wedge.index ? job->name : "", job->wedge.index ? ": " : "", a.item[i].key,
+                 a.item[i].text);
 done:
     free(input);
-    advices_free(&a);
+    advice_free(&a);
     return st == E_MEMORY ? st : OK;
 }

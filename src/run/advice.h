@@ -1,5 +1,6 @@
-/* What of a job would surprise whoever wrote it, though it can be run: rock outside the domain, cameras that see none, keys that its
- * model ignores, numbers far from those in which forms come about. A table of looks at the job and its scene; no device.
+/* Warnings about a job that can be run but probably does not do what its author expects: rock outside the domain, cameras that do
+ * not see it, keys that the model ignores, rates at which nothing happens or everything goes. A table of checks that look at the job
+ * and its scene; no device is needed.
  */
 #ifndef HOODOO_ADVICE_H
 #define HOODOO_ADVICE_H
@@ -7,22 +8,23 @@
 #include "job/job.h"
 
 struct advice {
-    char key[160];  /* the key's path, "strata.2.interlock_MPa" */
-    char text[600]; /* a sentence with numbers */
+    char key[160];  /* path of the key, such as "strata.2.interlock_MPa" */
+    char text[600]; /* one sentence with numbers */
 };
 
-struct advices {
+struct advice_list {
     size_t n, capacity;
-    struct advice *one; /* owned; advices_free() */
+    struct advice *item; /* owned; advice_free() */
 };
 
-/* Of one job: a wedge, or the only one. `heard`: what reading its files says is not said elsewhere. E_USAGE: it cannot be run at all, for nothing of its scene stands. Otherwise as
- * scene_estimate(). */
-MUST_USE status advices_of(const struct job *job, bool heard, struct advices *out);
-void advices_free(struct advices *a);
+/* Collects the advice for one job (one wedge of a sweep). `log_inputs`: also logs what reading the job's files reports, which
+ * the caller has not logged yet. E_USAGE: the job cannot be run at all, because no rock of its scene is held up. Other errors
+ * as scene_estimate(). */
+MUST_USE status advice_collect(const struct job *job, bool log_inputs, struct advice_list *out);
+void advice_free(struct advice_list *a);
 
-/* As warnings in the log, for who is about to run it. Nothing of jobs whose files take long to read: hoodoo check says it. What is
- * wrong is found again by who runs it, and said there. E_MEMORY. */
-MUST_USE status advices_log(const struct job *job);
+/* Logs the advice as warnings before a run. Jobs whose input files take long to read are skipped; `hoodoo check` handles them.
+ * Errors in the job are left for the run itself to find and report. E_MEMORY. */
+MUST_USE status advice_log(const struct job *job);
 
 #endif

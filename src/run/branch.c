@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "output/folder.h"
 
-status branch_copy(struct path *out, const char *root, const char *name)
+status branch_copy_path(struct path *out, const char *root, const char *name)
 {
     return path_format(out, "%s/checkpoint/%s.from.ckpt", root, name);
 }
@@ -29,8 +29,8 @@ static status set_from(struct job *job, const char *path)
 
 /* ---- --from */
 
-/* "out/arch@1040": the last @ parts them. */
-static status cut(const char *text, struct path *out, int *frame)
+/* Splits "out/arch@1040" at the last @. */
+static status parse_from(const char *text, struct path *out, int *frame)
 {
     const char *at = strrchr(text, '@');
     char *end = NULL;
@@ -45,7 +45,7 @@ static status cut(const char *text, struct path *out, int *frame)
     return OK;
 }
 
-static status no_checkpoint(const char *out, const char *name, int frame)
+static status fail_no_checkpoint(const char *out, const char *name, int frame)
 {
     status st = OK;
     int *frames = NULL;
@@ -56,18 +56,18 @@ static status no_checkpoint(const char *out, const char *name, int frame)
         used += (size_t)snprintf(list + used, sizeof list - used, "%s%d", used ? ", " : "", frames[i]);
     st = fail(
         E_CHECKPOINT,
-        "%s holds no checkpoint of frame %d (%s%s); to have it, run its job again with checkpoint.mark: [%d]",
-        out, frame, n ? "there are those of " : "there is none at all", list, frame);
+        "%s has no checkpoint of frame %d (%s%s); to get one, run its job again with checkpoint.mark: [%d]",
+        out, frame, n ? "its checkpoints are of frames " : "it has no checkpoints", list, frame);
 done:
     free(frames);
     return st;
 }
 
-/* The copy in the branch's own folder, if it is of this frame. */
+/* Whether the branch's own folder has a copy of that frame's checkpoint. */
 static bool own_copy(const struct job *job, const char *root, int frame, struct path *path)
 {
     struct checkpoint c;
-    return branch_copy(path, root, job->name) == OK && access(path->text, F_OK) == 0 &&
+    return branch_copy_path(path, root, job->name) == OK && access(path->text, F_OK) == 0 &&
            checkpoint_read_index(path->text, &c) == OK && c.frame == frame;
 }
 
@@ -77,12 +77,12 @@ status branch_from(struct job *job, const char *text, const char *root)
     struct path out, path;
     char name[256], *whole = NULL;
     int frame = 0;
-    TRY(cut(text, &out, &frame));
+    TRY(parse_from(text, &out, &frame));
     st = folder_open(out.text, name);
     if (st == OK)
         st = folder_path(&path, out.text, name, FILE_CHECKPOINT, frame, NULL);
     if (st == OK && access(path.text, F_OK) != 0)
-        st = no_checkpoint(out.text, name, frame);
+        st = fail_no_checkpoint(out.text, name, frame);
     if (st == E_MEMORY)
         return st;
     if (st != OK) {
@@ -90,7 +90,7 @@ status branch_from(struct job *job, const char *text, const char *root)
         snprintf(message, sizeof message, "%s", status_message());
         if (!own_copy(job, root, frame, &path))
             return fail(st, "--from %.200s: %s", text, message);
-        log_info("%s; this folder has its own copy of that checkpoint", message);
+        log_info("%s; using this folder's own copy of that checkpoint", message);
         st = OK;
     }
     whole = realpath(path.text, NULL);
@@ -104,7 +104,7 @@ done:
 
 /* ---- the key */
 
-static void begin_with(struct job *job, int frame)
+static void set_first_frame(struct job *job, int frame)
 {
     job->frames.first = frame;
     for (size_t i = 0; i < job->n_edits; i++)
@@ -121,22 +121,24 @@ status branch_prepare(struct job *job, const char *root)
     if (!*job->from)
         return OK;
     if (access(job->from, F_OK) != 0) {
-        TRY(branch_copy(&path, root, job->name));
+        TRY(branch_copy_path(&path, root, job->name));
         if (access(path.text, F_OK) == 0)
             TRY(set_from(job, path.text));
     }
     TRY(checkpoint_read_index(job->from, &c));
     if (!range_holds(job->frames, c.frame)) {
-        st = fail(E_USAGE, "%s is of frame %d, and the job's frames are %s: give it frames from %d on",
-                  job->from, c.frame, range_text(job->frames, frames), c.frame);
+        st = fail(
+            E_USAGE,
+            "%s is the checkpoint of frame %d, but the job's frames are %s; set frames to begin at %d or before",
+            job->from, c.frame, range_text(job->frames, frames), c.frame);
         goto done;
     }
-    begin_with(job, c.frame);
+    set_first_frame(job, c.frame);
     for (size_t i = 0; i < job->n_edits; i++) {
         const struct job_edit *e = &job->edits[i];
         if (e->frame == c.frame && (e->carve || e->n_add || e->n_paint))
             log_info(
-                "edit %zu is of frame %d, which is this branch's start as it is; to have it applied, give it frame %d",
+                "edit %zu of frame %d is not applied, because the branch starts from that frame's checkpoint; to apply it, move it to frame %d",
                 i, c.frame, c.frame + 1);
     }
 done:
@@ -149,7 +151,7 @@ status branch_prepare_own(struct job *job, const char *root)
     struct path path;
     if (!*job->from)
         return OK;
-    TRY(branch_copy(&path, root, job->name));
+    TRY(branch_copy_path(&path, root, job->name));
     if (access(path.text, F_OK) == 0)
         TRY(set_from(job, path.text));
 done:
@@ -163,7 +165,7 @@ status branch_read(const struct job *job, const char *root, struct checkpoint *o
     char *bytes = NULL;
     size_t n;
     TRY(checkpoint_read(job->from, out));
-    TRY(branch_copy(&path, root, job->name));
+    TRY(branch_copy_path(&path, root, job->name));
     if (strcmp(path.text, job->from) == 0)
         goto done;
     if ((st = file_read(job->from, (size_t)1 << 40, &bytes, &n)) != OK ||

@@ -26,7 +26,7 @@ static bool same_device(const struct maker *a, const struct maker *b)
     return strcmp(a->device, b->device) == 0 && strcmp(a->driver, b->driver) == 0;
 }
 
-/* ---- run.json as it is found */
+/* ---- reading run.json */
 
 static bool copy(const struct json *object, const char *key, char *out, size_t size)
 {
@@ -37,7 +37,7 @@ static bool copy(const struct json *object, const char *key, char *out, size_t s
     return true;
 }
 
-/* False if the object names no maker. Version 0.1.0 had no build. */
+/* False if the object does not name a maker. Version 0.1.0 wrote no build. */
 static bool read_maker(const struct json *object, struct maker *out)
 {
     *out = (struct maker){0};
@@ -78,7 +78,7 @@ static status read_run(const char *root, struct provenance *p)
 done:
     json_free(&json);
     free(bytes);
-    return st == E_INPUT ? OK : st; /* a folder's first run has none */
+    return st == E_INPUT ? OK : st; /* there is no run.json before a folder's first run */
 }
 
 status provenance_begin(const struct gpu *gpu, const char *root, enum run_resume resume,
@@ -101,7 +101,7 @@ void provenance_free(struct provenance *p)
     *p = (struct provenance){0};
 }
 
-/* ---- may it go on? */
+/* ---- may this process continue? */
 
 static bool same(const struct maker *a, const struct maker *b)
 {
@@ -116,17 +116,17 @@ static status refuse(const struct maker *maker, const struct maker *here, const 
     if (same_build(maker, here))
         return fail(
             E_CHECKPOINT,
-            "%s was made on %s (%s), and this is %s (%s); add --resume %s to go on anyway, not bit for bit",
+            "%s was made on %s (%s), and this device is %s (%s); add --resume %s to continue anyway, though not bit for bit",
             what, maker->device, maker->driver, here->device, here->driver, word);
     return fail(
         E_CHECKPOINT,
-        "%s was made by hoodoo %s (%s, build %s), and this is %s (%s, build %s), whose numbers may differ; continue with that one, or add --resume %s to go on anyway, not bit for bit",
+        "%s was made by hoodoo %s (%s, build %s), and this is hoodoo %s (%s, build %s), whose results may differ; continue with the former, or add --resume %s to continue anyway, though not bit for bit",
         what, maker->version, maker->commit, *maker->build ? maker->build : "unknown", here->version,
         here->commit, here->build, word);
 }
 
-/* A run that was stopped before its first checkpoint goes on from the same state again: one entry will do. */
-static status enter(struct provenance *p, const struct maker *maker, int frame)
+/* Appends to the list unless it has that entry: a run that was stopped before its first checkpoint continues the same state again. */
+static status add_once(struct provenance *p, const struct maker *maker, int frame)
 {
     for (size_t i = 0; i < p->n; i++)
         if (p->continued[i].frame == frame && same(&p->continued[i].maker, maker))
@@ -134,7 +134,7 @@ static status enter(struct provenance *p, const struct maker *maker, int frame)
     return add(p, frame, maker);
 }
 
-/* May the process go on with what `maker` made, the same or another? */
+/* E_CHECKPOINT unless this process may continue what `maker` made. */
 static status check(const struct provenance *p, const struct maker *maker, const char *what)
 {
     const struct maker *here = &p->here;
@@ -155,7 +155,7 @@ status provenance_continue(struct provenance *p, const struct maker *maker, int 
     status st = OK;
     TRY(check(p, maker, what));
     if (!same(maker, &p->here))
-        TRY(enter(p, maker, frame));
+        TRY(add_once(p, maker, frame));
 done:
     return st;
 }
@@ -172,9 +172,9 @@ done:
     return st;
 }
 
-/* ---- run.json as it is left */
+/* ---- writing job.yaml and run.json */
 
-static void put_maker(struct text *t, const struct maker *maker)
+static void add_maker(struct text *t, const struct maker *maker)
 {
     json_text(t, "version", maker->version);
     json_text(t, "commit", maker->commit);
@@ -183,7 +183,7 @@ static void put_maker(struct text *t, const struct maker *maker)
     json_text(t, "driver", maker->driver);
 }
 
-static void put_continued(struct text *t, const struct provenance *p)
+static void add_continued(struct text *t, const struct provenance *p)
 {
     if (p->n == 0)
         return;
@@ -191,13 +191,13 @@ static void put_continued(struct text *t, const struct provenance *p)
     for (size_t i = 0; i < p->n; i++) {
         json_object(t, NULL);
         json_integer(t, "frame", p->continued[i].frame);
-        put_maker(t, &p->continued[i].maker);
+        add_maker(t, &p->continued[i].maker);
         json_end_object(t);
     }
     json_end_array(t);
 }
 
-static void put_job(struct text *t, const struct job *job, uint64_t job_hash)
+static void add_job(struct text *t, const struct job *job, uint64_t job_hash)
 {
     char hash[17];
     json_integer(t, "seed", job->seed);
@@ -214,7 +214,7 @@ static void put_job(struct text *t, const struct job *job, uint64_t job_hash)
     }
 }
 
-static status put_inputs(struct text *t, const struct job *job)
+static status add_inputs(struct text *t, const struct job *job)
 {
     status st = OK;
     struct job_input *input = NULL;
@@ -235,7 +235,7 @@ done:
     return st;
 }
 
-static status put(const char *root, const char *path, const struct text *t)
+static status write_product(const char *root, const char *path, const struct text *t)
 {
     static const char *const command[] = {"run"};
     const struct recipe recipe = {.root = root, .word = command, .n_words = 1, .frame = ALL_FRAMES};
@@ -247,7 +247,7 @@ static status write_job(const struct job *job, const char *root)
     status st = OK;
     struct text t = {0};
     TRY(job_resolved(job, &t));
-    TRY(put(root, "job.yaml", &t));
+    TRY(write_product(root, "job.yaml", &t));
 done:
     text_free(&t);
     return st;
@@ -261,17 +261,17 @@ static status write_run(const struct provenance *p, const struct gpu *gpu, const
     json_object(&t, NULL);
     json_text(&t, "name", job->name);
     if (*p->here.version)
-        put_maker(&t, &p->here);
+        add_maker(&t, &p->here);
     if (gpu) {
         json_text(&t, "device_uuid", gpu_info(gpu)->uuid);
         json_text(&t, "device_pci", gpu_info(gpu)->pci);
     }
-    put_continued(&t, p);
-    put_job(&t, job, job_hash);
-    TRY(put_inputs(&t, job));
+    add_continued(&t, p);
+    add_job(&t, job, job_hash);
+    TRY(add_inputs(&t, job));
     json_end_object(&t);
     TRY(text_status(&t));
-    TRY(put(root, "run.json", &t));
+    TRY(write_product(root, "run.json", &t));
 done:
     text_free(&t);
     return st;
@@ -284,7 +284,7 @@ status provenance_write(const struct provenance *p, const struct gpu *gpu, const
     return st == OK ? write_run(p, gpu, job, job_hash, root) : st;
 }
 
-/* Who made the newest sound checkpoint; none: *out stays. */
+/* The maker of the newest sound checkpoint; without one, *out is not changed. */
 static status maker_of_newest(const char *root, const char *name, struct maker *out)
 {
     status st = OK;
@@ -309,27 +309,27 @@ done:
     return st;
 }
 
-/* Is it there as its record says? *recorded: it has a sound record. */
-static status look(const char *root, const char *path, bool *recorded, bool *whole)
+/* *recorded: the file has a sound record. *intact: it also matches that record. */
+static status check_file(const char *root, const char *path, bool *recorded, bool *intact)
 {
     struct product p = {0};
     status st = product_read(root, path, &p);
     *recorded = st == OK;
     if (st == OK)
         st = listed_check(root, &p.file, true);
-    *whole = st == OK;
+    *intact = st == OK;
     product_free(&p);
     return st == E_INPUT ? OK : st;
 }
 
-status provenance_whole(const char *root, bool *whole)
+status provenance_intact(const char *root, bool *intact)
 {
     bool recorded;
-    const status st = look(root, "job.yaml", &recorded, whole);
-    return st == OK && *whole ? look(root, "run.json", &recorded, whole) : st;
+    const status st = check_file(root, "job.yaml", &recorded, intact);
+    return st == OK && *intact ? check_file(root, "run.json", &recorded, intact) : st;
 }
 
-/* The file as it is, with a record. */
+/* Writes the existing file again, to give it a record. */
 static status record_again(const char *root, const char *path)
 {
     status st = OK;
@@ -337,7 +337,7 @@ static status record_again(const char *root, const char *path)
     struct text t = {0};
     TRY(path_join(&full, root, path));
     TRY(file_read(full.text, RUN_JSON_MAX, &t.data, &t.size));
-    TRY(put(root, path, &t));
+    TRY(write_product(root, path, &t));
 done:
     text_free(&t);
     return st;
@@ -348,13 +348,13 @@ status provenance_restore(const struct job *job, uint64_t job_hash, const char *
     status st = OK;
     struct provenance p = {0};
     uint64_t hash;
-    bool recorded, whole;
+    bool recorded, intact;
     TRY(write_job(job, root));
-    TRY(look(root, "run.json", &recorded, &whole));
-    if ((whole || !recorded) && folder_job_hash(root, &hash) == OK && hash == job_hash)
-        return whole ? OK : record_again(root, "run.json");
-    log_warn("%s/run.json is lost, damaged or another job's; it is written anew", root);
-    if (!recorded || whole)
+    TRY(check_file(root, "run.json", &recorded, &intact));
+    if ((intact || !recorded) && folder_job_hash(root, &hash) == OK && hash == job_hash)
+        return intact ? OK : record_again(root, "run.json");
+    log_warn("%s/run.json is missing, damaged or belongs to another job; it is rewritten", root);
+    if (!recorded || intact)
         TRY(read_run(root, &p));
     if (p.known)
         p.here = p.maker;

@@ -1,8 +1,10 @@
-/* Which hoodoo on which device made what is in an output folder: run.json, and whether this one may go on with it.
+/* Provenance: which build of hoodoo on which device made the content of an output folder, as run.json records it, and whether this
+ * process may continue it.
  *
- * Two makers are the same where build (base/build.h), device and driver are: then a continued run writes the bytes of
- * an uninterrupted one. Another build or device is refused unless the caller allows it; each time that one goes on, the
- * maker before it is added to the list `continued` of run.json, with the frame from which it was.
+ * Two makers are the same if their build (base/build.h), device and driver are the same; then a continued run writes the same
+ * bytes as an uninterrupted one. Another build or device is refused unless the caller allows it with --resume. Each time that
+ * another maker continues a run, the previous maker is appended to the list `continued` of run.json, with the frame whose state
+ * was continued.
  */
 #ifndef HOODOO_PROVENANCE_H
 #define HOODOO_PROVENANCE_H
@@ -12,45 +14,46 @@
 #include "job/job.h"
 #include "run/run.h"
 
-/* A maker, and the frame whose state another one went on from. */
+/* A previous maker, and the frame whose state the next maker continued. */
 struct continued {
     int frame;
     struct maker maker;
 };
 
 struct provenance {
-    struct maker here;
+    struct maker here; /* this process */
     enum run_resume allowed;
-    bool known;         /* the folder has a run.json, and that names ... */
-    struct maker maker; /* ... who wrote it last, after those of the list */
+    bool known;         /* the folder has a run.json, which names ... */
+    struct maker maker; /* ... the last maker; those before are in the list */
     size_t n, capacity;
     struct continued *continued; /* oldest first; owned */
 };
 
-/* The maker that this process is, and, unless a run starts over, what root/run.json says; where that is not there or
- * cannot be read, nothing is known. E_MEMORY. provenance_free() */
+/* Fills in this process's maker and, unless the run starts over, what root/run.json records. If that file is missing or cannot be
+ * read, out->known is false. E_MEMORY. Free with provenance_free(). */
 MUST_USE status provenance_begin(const struct gpu *gpu, const char *root, enum run_resume resume,
                                  struct provenance *out);
 void provenance_free(struct provenance *p);
 
-/* May this process go on from the state after `frame`, which `maker` made? `what` names it in the sentence.
- * E_CHECKPOINT if not; a warning, and an entry in the list, if it is another maker that may. */
+/* Checks that this process may continue the state after `frame`, made by `maker`. `what` names that state in messages.
+ * E_CHECKPOINT if it may not. If it is another, allowed maker: logs a warning and appends it to the list. */
 MUST_USE status provenance_continue(struct provenance *p, const struct maker *maker, int frame,
                                     const char *what);
 
-/* The same for frames that are in the folder where there is no checkpoint of theirs: those before them will be made
- * anew, from `first` on. */
+/* The same where the folder has frames but no usable checkpoint: the run starts over from frame `first`, and the frames in the
+ * folder must be ones that this process would reproduce. */
 MUST_USE status provenance_restart(struct provenance *p, int first, const char *root);
 
-/* Writes root/job.yaml, the job with every default, and root/run.json. `gpu` may be NULL: which one it was is not known. */
+/* Writes root/job.yaml (the job with all defaults filled in) and root/run.json. `gpu` may be NULL if the device is not known. */
 MUST_USE status provenance_write(const struct provenance *p, const struct gpu *gpu, const struct job *job,
                                  uint64_t job_hash, const char *root);
 
-/* Are both there, as their records say? E_MEMORY. */
-MUST_USE status provenance_whole(const char *root, bool *whole);
+/* Whether both files exist and match their records. E_MEMORY. */
+MUST_USE status provenance_intact(const char *root, bool *intact);
 
-/* The same for a folder whose frames are done and which has lost or damaged one of the two: job.yaml is the job; run.json stays
- * unless its record says that it is damaged, or it is another job's, and then says what the newest checkpoint says of who made it. E_OUTPUT, E_MEMORY. */
+/* Rewrites the two files in a folder whose frames are done and that has lost or damaged one of them. job.yaml is written from the
+ * job. run.json is kept unless its record shows that it is damaged or it belongs to another job; then it is rewritten with the
+ * maker that the newest checkpoint names. E_OUTPUT, E_MEMORY. */
 MUST_USE status provenance_restore(const struct job *job, uint64_t job_hash, const char *root);
 
 #endif

@@ -42,8 +42,8 @@ static unsigned files_of(const struct job *job, int frame)
     return set;
 }
 
-/* The job as if this frame had these files and no others. */
-static void ask_for(struct job *job, const struct job *as_it_is, int frame, unsigned set)
+/* Sets the output keys so that `frame` has exactly this set of files. */
+static void select_files(struct job *job, const struct job *as_it_is, int frame, unsigned set)
 {
     const int64_t never = INT64_MAX;
     job->frames = (struct frame_range){frame - 1, frame + 1, 1};
@@ -54,15 +54,16 @@ static void ask_for(struct job *job, const struct job *as_it_is, int frame, unsi
     job->output.aov.every = set & 1 << JOB_PICTURES ? 1 : never;
 }
 
-/* Makes a frame's files. `job` is the model's; it is as it was after this. */
-static status show(struct gpu *gpu, struct model *model, struct job *job, unsigned set, struct cost *made,
-                   struct cost *written)
+/* Makes the current frame with this set of files and writes it into memory. `job`, which the model refers to, is changed and
+ * restored. */
+static status time_output(struct gpu *gpu, struct model *model, struct job *job, unsigned set,
+                          struct cost *made, struct cost *written)
 {
     status st = OK;
     struct frame frame = {0};
     const struct job as_it_is = *job;
     struct cost start = now();
-    ask_for(job, &as_it_is, model_frame(model), set);
+    select_files(job, &as_it_is, model_frame(model), set);
     TRY(model_output(model, &frame));
     TRY(gpu_wait(gpu));
     *made = since(start);
@@ -75,22 +76,22 @@ done:
     return st;
 }
 
-/* The same of every set of files that the job's frames have, of its first or last frame here. */
-static status show_each(struct gpu *gpu, struct model *model, struct job *job, bool last,
-                        struct rehearsal *out)
+/* The same for every set of files that frames of the job have; `last` tells the last rehearsed frame from the first. */
+static status time_outputs(struct gpu *gpu, struct model *model, struct job *job, bool last,
+                           struct rehearsal *out)
 {
     status st = OK;
-    unsigned arise = 0;
+    unsigned sets = 0;
     for (int f = job->frames.first; f <= job->frames.last; f++)
-        arise |= 1U << files_of(job, f);
+        sets |= 1U << files_of(job, f);
     for (unsigned set = 0; set < REHEARSAL_SETS; set++)
-        if (arise & 1U << set)
-            TRY(show(gpu, model, job, set, &out->made[last][set], &out->written[last][set]));
+        if (sets & 1U << set)
+            TRY(time_output(gpu, model, job, set, &out->made[last][set], &out->written[last][set]));
 done:
     return st;
 }
 
-static status keep(struct model *model, struct cost *took)
+static status time_checkpoint(struct model *model, struct cost *took)
 {
     status st = OK;
     struct checkpoint c;
@@ -109,7 +110,7 @@ done:
 
 /* ---- frames */
 
-/* The mean of the steps from the one at `first` on, `n` of them. */
+/* The mean of steps first .. first + n - 1. */
 static struct cost mean(const struct rehearsal *r, size_t first, size_t n)
 {
     struct cost sum = {0};
@@ -118,10 +119,10 @@ static struct cost mean(const struct rehearsal *r, size_t first, size_t n)
     return sum;
 }
 
-/* Steps until patience ends, two if there are two. Those after the rehearsal take what these did, but for the first: that one has
- * its kernels made. */
-static status step_on(struct gpu *gpu, struct model *model, const struct job *job, double patience,
-                      struct rehearsal *out)
+/* Steps until `patience` is spent, but at least twice if the job has two steps. The first step is left out of the expected step,
+ * because it compiles kernels. */
+static status time_steps(struct gpu *gpu, struct model *model, const struct job *job, double patience,
+                         struct rehearsal *out)
 {
     status st = OK;
     double spent = 0;
@@ -154,13 +155,13 @@ status rehearse(struct gpu *gpu, const struct job *job, double patience, struct 
     if (*job->from)
         TRY(checkpoint_read(job->from, &from));
     TRY(model_create(gpu, &shown, *job->from ? &from : NULL, &model));
-    TRY(show(gpu, model, &shown, set, &made, &written));
+    TRY(time_output(gpu, model, &shown, set, &made, &written));
     out->start = since(start);
-    TRY(show_each(gpu, model, &shown, false, out));
-    TRY(step_on(gpu, model, job, patience, out));
-    TRY(show_each(gpu, model, &shown, true, out));
-    TRY(keep(model, &out->checkpoint));
-    /* The first frame's files are counted with the other frames'. */
+    TRY(time_outputs(gpu, model, &shown, false, out));
+    TRY(time_steps(gpu, model, job, patience, out));
+    TRY(time_outputs(gpu, model, &shown, true, out));
+    TRY(time_checkpoint(model, &out->checkpoint));
+    /* rehearsal_total() counts the first frame's files with those of the other frames. */
     add(&out->start, out->made[0][set], -1);
     add(&out->start, out->written[0][set], -1);
 done:
@@ -176,9 +177,9 @@ void rehearsal_free(struct rehearsal *r)
     *r = (struct rehearsal){0};
 }
 
-/* ---- all of a job */
+/* ---- the whole job */
 
-void rehearsal_follow(struct rehearsal *r, const struct rehearsal *longer)
+void rehearsal_correct_steps(struct rehearsal *r, const struct rehearsal *longer)
 {
     if (r->n_each < 2 || longer->n_each <= r->n_each)
         return;
@@ -188,8 +189,8 @@ void rehearsal_follow(struct rehearsal *r, const struct rehearsal *longer)
     r->step.wall *= here.wall > 0 ? after.wall / here.wall : 1;
 }
 
-/* A frame is written while the next is made; where both are the processors' work, they share these. */
-static double passing(double made, double written, double cpu)
+/* Elapsed time of a frame: the previous frame is written meanwhile, and both compete for the cores. */
+static double elapsed(double made, double written, double cpu)
 {
     return fmax(fmax(made, written), cpu / cores());
 }
@@ -212,15 +213,15 @@ struct cost rehearsal_total(const struct rehearsal *r, const struct job *job)
         add(&written, r->written[0][set], 1 - late);
         add(&written, r->written[1][set], late);
         sum.cpu += made.cpu + written.cpu;
-        sum.wall += passing(r->step.wall + made.wall, written.wall, r->step.cpu + made.cpu + written.cpu) -
+        sum.wall += elapsed(r->step.wall + made.wall, written.wall, r->step.cpu + made.cpu + written.cpu) -
                     r->step.wall;
     }
     return sum;
 }
 
-/* A part that took `a` and `b` at na and nb particles, at n: as a power of them, between a surface's growth and a bit more than
- * a volume's. */
-static double grown(double a, double b, double na, double nb, double n)
+/* Extrapolates a cost of `a` at na and `b` at nb particles to n, by a power law whose exponent is held between 2/3, the growth of a
+ * surface, and 4/3, a little more than that of a volume. */
+static double extrapolate(double a, double b, double na, double nb, double n)
 {
     const double power = a > 0 && b > 0 && nb != na ? log(b / a) / log(nb / na) : 1;
     return b * pow(n / nb, fmin(fmax(power, 2.0 / 3), 4.0 / 3));
@@ -231,8 +232,8 @@ void rehearsal_scale(const struct rehearsal *a, const struct rehearsal *b, doubl
     const double linear = n / b->n_particles;
     *out = (struct rehearsal){.frames = {b->frames.first, b->frames.first, 1}, .n_particles = n};
 #define GROW(part)                                                                                           \
-    out->part.cpu = grown(a->part.cpu, b->part.cpu, a->n_particles, b->n_particles, n);                      \
-    out->part.wall = grown(a->part.wall, b->part.wall, a->n_particles, b->n_particles, n)
+    out->part.cpu = extrapolate(a->part.cpu, b->part.cpu, a->n_particles, b->n_particles, n);                \
+    out->part.wall = extrapolate(a->part.wall, b->part.wall, a->n_particles, b->n_particles, n)
     GROW(step);
     GROW(checkpoint);
     for (int set = 0; set < REHEARSAL_SETS; set++) {
@@ -240,7 +241,7 @@ void rehearsal_scale(const struct rehearsal *a, const struct rehearsal *b, doubl
         GROW(written[1][set]);
     }
 #undef GROW
-    /* Kernels are made once, and are most of the first rehearsal's start. */
+    /* Compiling kernels is most of the first rehearsal's start, and the second finds them compiled. */
     add(&out->start, b->start, linear);
     if (a != b)
         add(&out->start, a->start, 1);

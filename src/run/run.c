@@ -15,8 +15,8 @@
 #include "output/product.h"
 #include "run/advice.h"
 #include "run/branch.h"
+#include "run/memory.h"
 #include "run/provenance.h"
-#include "run/room.h"
 #include "run/timing.h"
 #include "run/writer.h"
 
@@ -31,23 +31,24 @@ struct run {
     struct lock *lock;
     struct provenance provenance;
     struct path lock_path;
-    bool lacks_checkpoint; /* the last frame's, or a later one */
+    bool lacks_checkpoint; /* there is no checkpoint of the last frame or a later one */
     bool *done;            /* [last - first + 1], by frame number */
-    bool *compared;        /* the same: its files were read, and are as they were written */
-    bool papers;           /* run.json or job.yaml is lost or is not this job: to be written anew */
+    bool *compared;        /* likewise: the files were read and have the content that was written */
+    bool write_provenance; /* run.json or job.yaml is missing or does not describe this job */
     uint64_t files_hash;
-    struct frame_range other; /* frames whose files other settings gave; step 0: none */
-    int first_missing;        /* last + 1: none */
+    struct frame_range other; /* frames whose files were written with other settings; step 0: none */
+    int first_missing;        /* last + 1: none is missing */
     int last_missing;
     size_t n_done;
-    bool any_there; /* frames, asked for or not */
-    int began;      /* the frame the model was made or restored at */
-    bool alone;     /* there is no room to make a frame while another is written */
+    bool any_frames; /* the folder has frames, requested or not */
+    int start_frame; /* the frame at which the model was created or restored */
+    bool blocking;   /* memory does not hold a frame being made and one being written */
 };
 
-/* ---- what is there */
+/* ---- what the folder has */
 
-/* A frame is done when `verify` finds nothing wrong with it: its files' content is compared, once. */
+/* A frame is done when `verify` would find nothing wrong with it. The content of its files is compared once per run; later calls
+ * compare only their sizes. */
 static status frame_done(struct run *r, int frame, bool *done, bool *compared)
 {
     struct manifest manifest = {0};
@@ -60,15 +61,15 @@ static status frame_done(struct run *r, int frame, bool *done, bool *compared)
     if (st == OK && *bad)
         log_info("frame %d will be made again: %s", frame, status_message());
     else if (st == OK && !*done)
-        log_info("frame %d will be made again: it is of another job", frame);
+        log_info("frame %d will be made again: it belongs to another job", frame);
     else if (*done && manifest.files_hash != r->files_hash)
         r->other = (struct frame_range){r->other.step ? r->other.first : frame, frame, 1};
     manifest_free(&manifest);
-    return st == E_MEMORY ? st : OK; /* missing or damaged is no error here */
+    return st == E_MEMORY ? st : OK; /* a missing or damaged manifest is not an error here */
 }
 
-/* Marked frames' checkpoints: those there are to be kept, those missing are work. */
-static status survey_marks(struct run *r, const int *there, size_t n)
+/* Checkpoints of marked frames: existing ones are marked to be kept, missing ones extend the range of missing frames. */
+static status survey_marks(struct run *r, const int *existing, size_t n)
 {
     status st = OK;
     for (int f = r->frames.first; f <= r->frames.last && r->job->checkpoint.n_mark; f++) {
@@ -76,7 +77,7 @@ static status survey_marks(struct run *r, const int *there, size_t n)
         if (!job_marks(r->job, f))
             continue;
         for (size_t i = 0; i < n; i++)
-            found |= there[i] == f;
+            found |= existing[i] == f;
         if (found) {
             TRY(checkpoint_mark(r->options->root, r->job->name, f));
             continue;
@@ -94,26 +95,26 @@ static status survey(struct run *r)
 {
     status st = OK;
     size_t n = (size_t)(r->frames.last - r->frames.first) + 1;
-    int *there = NULL, *checkpoints = NULL;
-    size_t n_there, n_checkpoints;
+    int *existing = NULL, *checkpoints = NULL;
+    size_t n_existing, n_checkpoints;
     free(r->done);
     r->done = NULL;
     r->n_done = 0;
     TRY(memory_alloc(n, sizeof *r->done, "the frames", &r->done));
     if (!r->compared)
         TRY(memory_alloc(n, sizeof *r->compared, "the frames", &r->compared));
-    TRY(folder_frames(r->options->root, r->job->name, &there, &n_there));
-    r->any_there = n_there > 0;
-    for (size_t i = 0; i < n_there; i++) {
-        if (!range_holds(r->frames, there[i]))
+    TRY(folder_frames(r->options->root, r->job->name, &existing, &n_existing));
+    r->any_frames = n_existing > 0;
+    for (size_t i = 0; i < n_existing; i++) {
+        if (!range_holds(r->frames, existing[i]))
             continue;
         if (r->options->stop && r->options->stop()) {
             st = fail(STOPPED,
-                      "stopped while the frames there are were read; run the same command again to go on");
+                      "stopped while checking the existing frames; run the same command again to continue");
             goto done;
         }
-        const int at = there[i] - r->frames.first;
-        TRY(frame_done(r, there[i], &r->done[at], &r->compared[at]));
+        const int at = existing[i] - r->frames.first;
+        TRY(frame_done(r, existing[i], &r->done[at], &r->compared[at]));
     }
     r->first_missing = r->frames.last + 1;
     for (int f = r->frames.last; f >= r->frames.first; f--)
@@ -125,26 +126,27 @@ static status survey(struct run *r)
                 r->last_missing = f;
             r->first_missing = f;
         }
-    /* Without the last frame's checkpoint there is more to do than the frames. */
+    /* The next block of frames starts from the last frame's checkpoint, so a run without it is not complete. */
     TRY(checkpoint_list(r->options->root, r->job->name, &checkpoints, &n_checkpoints));
     r->lacks_checkpoint = n_checkpoints == 0 || checkpoints[0] < r->frames.last;
     if (r->lacks_checkpoint)
         r->last_missing = r->frames.last;
     TRY(survey_marks(r, checkpoints, n_checkpoints));
 done:
-    free(there);
+    free(existing);
     free(checkpoints);
     return st;
 }
 
-/* Does run.json say that the folder's frames are this job's? */
+/* Whether run.json says that the folder's frames belong to this job. */
 static bool frames_are_ours(const struct run *r)
 {
     uint64_t hash;
     return folder_job_hash(r->options->root, &hash) == OK && hash == r->job_hash;
 }
 
-status run_other_job(const char *root, const char *path, const struct job *theirs, const struct job *ours)
+status run_refuse_other_job(const char *root, const char *path, const struct job *theirs,
+                            const struct job *ours)
 {
     status st = OK;
     char key[256];
@@ -154,27 +156,27 @@ status run_other_job(const char *root, const char *path, const struct job *their
     if (strcmp(key, "frames") == 0)
         st = fail(
             E_CHECKPOINT,
-            "%s holds this job's frames from %d on, and now they begin at %d: the rock of a frame would have two ages; use another --out, or start over with hoodoo run --resume never",
+            "%s holds this job's frames from frame %d on, but the job now begins at frame %d, which changes the age of the rock in every frame; use another --out, or start over with hoodoo run --resume never",
             root, theirs->frames.first, ours->frames.first);
     else
         st = fail(
             E_CHECKPOINT,
-            "%s holds another job: %s differs in %s, which is simulated; use another --out, or start over with hoodoo run --resume never",
+            "%s holds another job: %s differs in %s, which changes the simulation; use another --out, or start over with hoodoo run --resume never",
             root, path, key);
 done:
     return st;
 }
 
-static status unlike(const char *root, struct frame_range frames, const char *key)
+static status refuse_mixed_files(const char *root, struct frame_range frames, const char *key)
 {
     char range[48];
     return fail(
         E_CHECKPOINT,
-        "%s: frames %s were written with another %s than the job has now, and frames of a folder are written alike; take the old value back, use another --out, or start over with hoodoo run --resume never (hoodoo aov makes pictures of other cameras from frames that are done)",
+        "%s: frames %s were written with another %s than the job has now, and all frames of a folder must be written alike; restore the old value, use another --out, or start over with hoodoo run --resume never (hoodoo aov makes pictures with other cameras from existing frames)",
         root, range_text(frames, range), key);
 }
 
-status run_other_files(const char *root, const struct job *theirs, const struct job *ours)
+status run_check_files(const char *root, const struct job *theirs, const struct job *ours)
 {
     status st = OK;
     uint64_t hash, other;
@@ -187,15 +189,15 @@ status run_other_files(const char *root, const struct job *theirs, const struct 
     if (n == 0 || hash == other)
         goto done;
     TRY(job_differ(theirs, ours, true, key));
-    st = unlike(root, (struct frame_range){frames[0], frames[n - 1], 1}, key);
+    st = refuse_mixed_files(root, (struct frame_range){frames[0], frames[n - 1], 1}, key);
 done:
     free(frames);
     return st;
 }
 
-/* Keys that are in no frame were edited: job.yaml, from which the other verbs know cameras and looks, is to say so. Fewer frames
- * than the folder has are no edit. */
-static status compare_words(struct run *r, struct job *theirs)
+/* Decides whether job.yaml must be rewritten because keys were edited that no frame depends on, such as those of previews: the other
+ * verbs read them from there. Running fewer frames than the folder has is not an edit. */
+static status compare_job_file(struct run *r, struct job *theirs)
 {
     status st = OK;
     struct text old = {0}, new = {0};
@@ -203,14 +205,14 @@ static status compare_words(struct run *r, struct job *theirs)
         theirs->frames = r->job->frames;
     TRY(job_resolved(theirs, &old));
     TRY(job_resolved(r->job, &new));
-    r->papers = old.size != new.size || memcmp(old.data, new.data, new.size) != 0;
+    r->write_provenance = old.size != new.size || memcmp(old.data, new.data, new.size) != 0;
 done:
     text_free(&old);
     text_free(&new);
     return st;
 }
 
-/* Is this folder's job this job? Its job.yaml is the job as it was run. */
+/* Checks that the folder's job.yaml, which is the job as it was run, is this job. */
 static status check_owner(struct run *r)
 {
     status st = OK;
@@ -218,8 +220,8 @@ static status check_owner(struct run *r)
     struct job *theirs = NULL;
     uint64_t hash;
     TRY(path_join(&path, r->options->root, "job.yaml"));
-    r->papers = access(path.text, F_OK) != 0;
-    if (r->papers)
+    r->write_provenance = access(path.text, F_OK) != 0;
+    if (r->write_provenance)
         return OK;
     st = job_load(path.text, NULL, 0, &theirs);
     if (st == OK)
@@ -229,30 +231,30 @@ static status check_owner(struct run *r)
     if (st == E_MEMORY)
         goto done;
     if (st != OK && frames_are_ours(r)) {
-        log_warn("%s; it is written anew, for the frames are this job's", status_message());
-        r->papers = true;
+        log_warn("%s; it is rewritten, because the frames are this job's", status_message());
+        r->write_provenance = true;
         st = OK;
     } else if (st != OK) {
         st = fail(
             E_CHECKPOINT,
-            "%s cannot be read, so it is not known what this folder holds (%s); use another --out, or --resume never to start over",
+            "%s cannot be read, so it is not known which job this folder belongs to (%s); use another --out, or --resume never to start over",
             path.text, status_message());
     } else if (strcmp(theirs->name, r->job->name) == 0 && hash != r->job_hash && frames_are_ours(r)) {
-        log_warn("%s is not the job that made the frames; it is written anew", path.text);
-        r->papers = true;
+        log_warn("%s is not the job that made the frames; it is rewritten", path.text);
+        r->write_provenance = true;
     } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
-        st = run_other_job(r->options->root, path.text, theirs, r->job);
+        st = run_refuse_other_job(r->options->root, path.text, theirs, r->job);
     } else {
-        TRY(run_other_files(r->options->root, theirs, r->job));
-        TRY(compare_words(r, theirs));
+        TRY(run_check_files(r->options->root, theirs, r->job));
+        TRY(compare_job_file(r, theirs));
     }
 done:
     job_destroy(&theirs);
     return st;
 }
 
-/* --resume never: what could be taken for this job's goes away. */
-static status forget(const struct run *r)
+/* --resume never: deletes the job's checkpoints, records and manifests, so that nothing counts as done. */
+static status discard_frames(const struct run *r)
 {
     status st = OK;
     int *frames = NULL;
@@ -276,8 +278,8 @@ done:
     return st;
 }
 
-/* --repair: a checkpoint that is damaged is none; what it stood for is made again. */
-static status drop_damaged(const struct run *r)
+/* --repair deletes damaged checkpoints; the frames they cover are simulated again. */
+static status remove_damaged_checkpoints(const struct run *r)
 {
     status st = OK;
     int *frames = NULL;
@@ -289,7 +291,7 @@ static status drop_damaged(const struct run *r)
         TRY(folder_path(&path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
         st = checkpoint_read_index(path.text, &c);
         if (st == E_CHECKPOINT) {
-            log_warn("%s; it is removed", status_message());
+            log_warn("%s; the checkpoint is removed", status_message());
             unlink(path.text);
             st = OK;
         }
@@ -300,17 +302,17 @@ done:
     return st;
 }
 
-/* From here on this process alone simulates into the folder; what was surveyed before may have changed. */
-static status own_folder(struct run *r)
+/* Takes the folder's lock. Another process may have written frames before that, so the folder is surveyed again. */
+static status lock_folder(struct run *r)
 {
     status st = OK;
     char what[128], frames[48];
     snprintf(what, sizeof what, "simulates frames %s here", range_text(r->frames, frames));
     TRY(lock_take(r->lock_path.text, what, (struct lock_patience){0}, r->options->stop, &r->lock));
     if (r->options->resume == RUN_NEVER)
-        TRY(forget(r));
+        TRY(discard_frames(r));
     if (r->options->repair)
-        TRY(drop_damaged(r));
+        TRY(remove_damaged_checkpoints(r));
     TRY(survey(r));
 done:
     return st;
@@ -318,17 +320,17 @@ done:
 
 /* ---- checkpoints */
 
-/* Can this checkpoint be continued here, bit for bit, or is that not asked for? */
+/* Checks that this process may continue the checkpoint: bit for bit, unless --resume allows otherwise. */
 static status check_provenance(struct run *r, const struct checkpoint *c, const char *path)
 {
     if (c->job_hash != r->job_hash && strcmp(path, r->job->from) != 0)
-        return fail(E_CHECKPOINT, "%s is of another job; use another --out, or --resume never to start over",
-                    path);
+        return fail(E_CHECKPOINT,
+                    "%s belongs to another job; use another --out, or --resume never to start over", path);
     return provenance_continue(&r->provenance, &c->maker, c->frame, path);
 }
 
-/* The newest sound checkpoint up to the first missing frame, or *found = false. Damaged ones are reported and
- * passed over. */
+/* Reads the newest sound checkpoint at or before the first missing frame; *found is false if there is none. Damaged ones are
+ * reported and skipped. */
 static status find_checkpoint(struct run *r, struct checkpoint *c, bool *found)
 {
     status st = OK;
@@ -374,14 +376,15 @@ static status check_memory(struct run *r)
 {
     const struct gpu_info *info = gpu_info(r->gpu);
     struct model_estimate e;
-    status st = room_check(r->gpu, r->job, &e);
+    status st = run_memory_check(r->gpu, r->job, &e);
     if (st != OK)
         return st;
     log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
              info->name, info->driver);
-    r->alone = e.turns || !room_enough(room_free(r->gpu), room_at_once(r->gpu, &e));
-    if (r->alone)
-        log_info("memory holds one frame: each is written before the next is made");
+    r->blocking =
+        e.turns || !run_memory_fits(run_memory_available(r->gpu), run_memory_needed_overlapped(r->gpu, &e));
+    if (r->blocking)
+        log_info("memory holds one frame at a time: each is written before the next is made");
     return OK;
 }
 
@@ -392,18 +395,18 @@ static status begin(struct run *r)
     bool found;
     TRY(provenance_begin(r->gpu, r->options->root, r->options->resume, &r->provenance));
     TRY(find_checkpoint(r, &c, &found));
-    if (!found && r->any_there)
+    if (!found && r->any_frames)
         TRY(provenance_restart(&r->provenance, r->job->frames.first, r->options->root));
     if (!found && r->options->resume == RUN_REQUIRE) {
-        st =
-            fail(E_CHECKPOINT, "%s holds no usable checkpoint up to frame %d, and --resume require was given",
-                 r->options->root, r->first_missing);
+        st = fail(E_CHECKPOINT,
+                  "%s has no usable checkpoint at or before frame %d, and --resume require was given",
+                  r->options->root, r->first_missing);
         goto done;
     }
     if (!found && r->frames.first != r->job->frames.first && !r->options->repair) {
         st = fail(
             E_CHECKPOINT,
-            "%s holds no usable checkpoint before frame %d; frames are simulated in order, so run the block before it first",
+            "%s has no usable checkpoint before frame %d; frames are simulated in order, so run the preceding block of frames first",
             r->options->root, r->first_missing);
         goto done;
     }
@@ -416,10 +419,10 @@ static status begin(struct run *r)
         log_info("continuing from the checkpoint of frame %d; %zu of %zu frames are done", c.frame, r->n_done,
                  range_count(r->frames));
     TRY(model_create(r->gpu, r->job, found ? &c : NULL, &r->model));
-    r->began = model_frame(r->model);
-    /* Not before: a scene that is refused does not claim the folder. */
+    r->start_frame = model_frame(r->model);
+    /* Only now, so that a job whose scene is refused does not claim the folder. */
     TRY(provenance_write(&r->provenance, r->gpu, r->job, r->job_hash, r->options->root));
-    TRY(writer_create(r->job, r->job_hash, r->options->root, r->alone, &r->writer));
+    TRY(writer_create(r->job, r->job_hash, r->options->root, r->blocking, &r->writer));
 done:
     checkpoint_free(&c);
     return st;
@@ -447,14 +450,15 @@ static status simulate(struct run *r)
     status st = OK;
     int last = r->last_missing;
     char range[48];
-    /* Frames after it are done, and so are the checkpoints they need. */
+    /* If true, all later frames are done and have their checkpoints. */
     bool repair = last < r->frames.last;
-    /* A checkpoint's own frame may be the first one missing. */
+    /* Whether this process made the current state, or its frame's files are missing; otherwise its files are there already. */
     bool fresh = model_frame(r->model) == r->job->frames.first || model_frame(r->model) == r->first_missing;
     for (;;) {
         int number = model_frame(r->model);
         TRY(lock_check(r->lock));
-        /* The last frame says that all is done: what the next block begins from is there before it. */
+        /* Save the checkpoint before the last frame: the last frame's manifest marks the block of frames as complete, and the next
+         * block starts from this checkpoint. */
         if (fresh && number >= last && !repair)
             TRY(save(r));
         if (fresh)
@@ -471,34 +475,34 @@ static status simulate(struct run *r)
             TRY(save(r));
         if (stop) {
             TRY(writer_finish(&r->writer));
-            st =
-                fail(STOPPED,
-                     "stopped after frame %d, with its checkpoint saved; run the same command again to go on",
-                     number);
+            st = fail(
+                STOPPED,
+                "stopped after frame %d, with its checkpoint saved; run the same command again to continue",
+                number);
             goto done;
         }
         TRY(model_step(r->model));
         fresh = true;
     }
     TRY(writer_finish(&r->writer));
-    log_info("frames %s are in %s, for other programs as %s/%s.usda", range_text(r->frames, range),
-             r->options->root, r->options->root, r->job->name);
+    log_info("frames %s are in %s; other programs can open them with %s/%s.usda",
+             range_text(r->frames, range), r->options->root, r->options->root, r->job->name);
 done:
     return st;
 }
 
-/* All frames are done: what else the folder needs to be whole. The stage shows the files as they are, whatever the job now says of
- * output. */
-static status complete(struct run *r)
+/* All frames are done: restores run.json, job.yaml and the USD stage where necessary. The stage is made from the folder's own
+ * job.yaml, because the files are as that job wrote them. */
+static status complete_folder(struct run *r)
 {
     status st = OK;
     struct path path;
     struct job *theirs = NULL;
-    bool whole;
-    TRY(provenance_whole(r->options->root, &whole));
-    if (r->papers || !whole || !frames_are_ours(r)) {
+    bool intact;
+    TRY(provenance_intact(r->options->root, &intact));
+    if (r->write_provenance || !intact || !frames_are_ours(r)) {
         if (!r->lock)
-            TRY(own_folder(r));
+            TRY(lock_folder(r));
         TRY(provenance_restore(r->job, r->job_hash, r->options->root));
     }
     TRY(path_join(&path, r->options->root, "job.yaml"));
@@ -519,9 +523,9 @@ status run_job(struct job *job, const struct run_options *options)
     if (r.frames.step == 0)
         r.frames = job->frames;
     if (!range_holds(job->frames, r.frames.first) || !range_holds(job->frames, r.frames.last)) {
-        char asked[48], whole[48];
-        return fail(E_USAGE, "--frames %s: the job's frames are %s", range_text(r.frames, asked),
-                    range_text(job->frames, whole));
+        char requested[48], all[48];
+        return fail(E_USAGE, "--frames %s: the job's frames are %s", range_text(r.frames, requested),
+                    range_text(job->frames, all));
     }
     TRY(job_hash(job, &r.job_hash));
     TRY(job_files_hash(job, &r.files_hash));
@@ -532,18 +536,18 @@ status run_job(struct job *job, const struct run_options *options)
     if (!options->repair)
         TRY(survey(&r));
     if (options->resume != RUN_NEVER && r.other.step)
-        TRY(unlike(options->root, r.other, "setting of output, cameras, fps or colours"));
+        TRY(refuse_mixed_files(options->root, r.other, "setting of output, cameras, fps or colours"));
     if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
-        TRY(own_folder(&r));
+        TRY(lock_folder(&r));
     else
         lock_sweep(r.lock_path.text);
     if (r.n_done == 0 && r.frames.first == job->frames.first && !*job->from)
-        TRY(advices_log(job));
+        TRY(advice_log(job));
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
     if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {
         log_info("all %zu frames are done already", r.n_done);
-        st = complete(&r);
+        st = complete_folder(&r);
         goto done;
     }
     TRY(gpu_create(&(struct gpu_options){.device = options->device}, &r.gpu));
@@ -553,9 +557,9 @@ status run_job(struct job *job, const struct run_options *options)
 done:
     snprintf(message, sizeof message, "%s", status_message());
     if (r.model)
-        timing_write(options->root, r.gpu, r.began, model_frame(r.model), started);
+        timing_write(options->root, r.gpu, r.start_frame, model_frame(r.model), started);
     if (st != OK) {
-        /* What was queued before the failure is sound: let it reach the disk, and keep the first sentence. */
+        /* What was queued before the failure is sound, so it is still written. The first error is the one returned. */
         if (writer_finish(&r.writer) != OK && strcmp(status_message(), message) != 0)
             log_warn("%s", status_message());
         fail(st, "%s", message);

@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "base/version.h"
 
-/* To the millisecond: more digits say nothing. */
+/* Rounds to milliseconds; more digits are noise. */
 static double rounded(double seconds)
 {
     return (double)(int64_t)(seconds * 1000 + 0.5) / 1000;

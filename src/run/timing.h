@@ -1,15 +1,15 @@
-/* Where a run's time went: log/timing.jsonl, one line of JSON for each time a run was at work.
+/* log/timing.jsonl: where a run's time went. Each run that simulates appends one line of JSON: version, commit, device, driver, the
+ * time it ended (UTC), the first and last frame simulated, elapsed seconds, and device seconds and dispatches by stage.
  *
- * Kept out of manifests, which are the same for the same job. A line: version, device, driver, when it ended
- * (UTC), the first and last frame it simulated, wall seconds, and device seconds and dispatches by stage.
+ * Times are kept out of the manifests, which are identical for identical jobs.
  */
 #ifndef HOODOO_TIMING_H
 #define HOODOO_TIMING_H
 
 #include "gpu/gpu.h"
 
-/* Notes the device times in the log and adds the line. `started` is from clock_seconds(). Never fails: a run
- * whose frames are written is done, whatever becomes of this; what goes wrong is noted in the log. */
+/* Logs the device times and appends the line. `started` is from clock_seconds(). Errors are only logged, since the frames are
+ * already written. */
 void timing_write(const char *root, const struct gpu *gpu, int first, int last, double started);
 
 #endif

@@ -16,7 +16,7 @@
 #include "usd/usd.h"
 #include "vdb/vdb.h"
 
-/* ---- one frame's files */
+/* ---- the files of one frame */
 
 static uint64_t identity(uint64_t job_hash, int frame, enum folder_file kind)
 {
@@ -24,8 +24,9 @@ static uint64_t identity(uint64_t job_hash, int frame, enum folder_file kind)
     return hash_bytes(words, sizeof words);
 }
 
-/* Writes the bytes, frees them, and has the manifest vouch for them. Without a root they are only made. */
-static status put(const char *root, const char *path, struct vdb_bytes *file, struct manifest *manifest)
+/* Writes the file, adds it to the manifest and frees its bytes, also on error. If root is "", nothing is written. */
+static status write_file(const char *root, const char *path, struct vdb_bytes *file,
+                         struct manifest *manifest)
 {
     status st = OK;
     size_t capacity = manifest->n_files;
@@ -47,9 +48,9 @@ done:
     return st;
 }
 
-/* The same, into a folder that not every job has. */
-static status put_beside(const char *root, const char *name, enum folder_file kind, int frame,
-                         struct vdb_bytes *file, struct manifest *manifest)
+/* The same, for a kind of file whose folder is made when it is first needed. */
+static status write_file_in(const char *root, const char *name, enum folder_file kind, int frame,
+                            struct vdb_bytes *file, struct manifest *manifest)
 {
     status st = OK;
     struct path path, folder;
@@ -57,13 +58,13 @@ static status put_beside(const char *root, const char *name, enum folder_file ki
     TRY(path_folder(&folder, path.text));
     if (*root)
         TRY(folder_make(folder.text));
-    TRY(put(root, path.text, file, manifest));
+    TRY(write_file(root, path.text, file, manifest));
 done:
     return st;
 }
 
-static status put_points(const struct job *job, uint64_t job_hash, const char *root,
-                         const struct frame *frame, struct vdb_options *options, struct manifest *manifest)
+static status write_points(const struct job *job, uint64_t job_hash, const char *root,
+                           const struct frame *frame, struct vdb_options *options, struct manifest *manifest)
 {
     status st = OK;
     struct path path;
@@ -72,20 +73,20 @@ static status put_points(const struct job *job, uint64_t job_hash, const char *r
         options->identity = identity(job_hash, frame->number, FILE_POINTS);
         TRY(vdb_points_of_frame(&frame->rock, frame->deep.voxels[0] ? &frame->deep : NULL, options, &file));
         TRY(folder_path(&path, root, job->name, FILE_POINTS, frame->number, NULL));
-        TRY(put(root, path.text, &file, manifest));
+        TRY(write_file(root, path.text, &file, manifest));
     }
     if (job->output.usd.points != USD_POINTS_NONE) {
         TRY(usd_points(&frame->rock, options, job->fps, &file));
         TRY(folder_path(&path, root, job->name, FILE_USD, frame->number, NULL));
-        TRY(put(root, path.text, &file, manifest));
+        TRY(write_file(root, path.text, &file, manifest));
     }
 done:
     free(file.bytes);
     return st;
 }
 
-static status put_vdbs(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame,
-                       struct manifest *manifest)
+static status write_vdbs(const struct job *job, uint64_t job_hash, const char *root,
+                         const struct frame *frame, struct manifest *manifest)
 {
     status st = OK;
     struct path path;
@@ -108,17 +109,17 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         palette_color(job, i, color[i]);
     options.color = (const float(*)[3])color;
     if (job_writes(job, JOB_POINTS, frame->number))
-        TRY(put_points(job, job_hash, root, frame, &options, manifest));
+        TRY(write_points(job, job_hash, root, frame, &options, manifest));
     if (!job_writes(job, JOB_VOLUMES, frame->number))
         goto done;
     options.identity = identity(job_hash, frame->number, FILE_VOLUMES);
     TRY(vdb_volumes(&frame->grids, &options, &file));
     TRY(folder_path(&path, root, job->name, FILE_VOLUMES, frame->number, NULL));
-    TRY(put(root, path.text, &file, manifest));
+    TRY(write_file(root, path.text, &file, manifest));
     if (frame->air.n_grids && job->output.vdb.wind) {
         options.identity = identity(job_hash, frame->number, FILE_WIND);
         TRY(vdb_volumes(&frame->air, &options, &file));
-        TRY(put_beside(root, job->name, FILE_WIND, frame->number, &file, manifest));
+        TRY(write_file_in(root, job->name, FILE_WIND, frame->number, &file, manifest));
     }
     if (frame->rocks.wanted) {
         options.identity = identity(job_hash, frame->number, FILE_ROCKS);
@@ -127,9 +128,9 @@ static status put_vdbs(const struct job *job, uint64_t job_hash, const char *roo
         options.precision = VDB_PRECISION_EXACT;
         options.spacing = job_piles(job)->rock_m;
         TRY(vdb_points(&frame->rocks.at, &options, &file));
-        TRY(put_beside(root, job->name, FILE_ROCKS, frame->number, &file, manifest));
+        TRY(write_file_in(root, job->name, FILE_ROCKS, frame->number, &file, manifest));
         TRY(usd_rocks(&frame->rocks, &options, job->fps, &file));
-        TRY(put_beside(root, job->name, FILE_ROCKS_USD, frame->number, &file, manifest));
+        TRY(write_file_in(root, job->name, FILE_ROCKS_USD, frame->number, &file, manifest));
     }
 done:
     free(file.bytes);
@@ -137,8 +138,8 @@ done:
     return st;
 }
 
-static status put_images(const struct job *job, uint64_t job_hash, const char *root,
-                         const struct frame *frame, struct manifest *manifest)
+static status write_images(const struct job *job, uint64_t job_hash, const char *root,
+                           const struct frame *frame, struct manifest *manifest)
 {
     status st = OK;
     struct path path;
@@ -155,7 +156,7 @@ static status put_images(const struct job *job, uint64_t job_hash, const char *r
         TRY(exr_encode(&frame->image[i], &options, &file.bytes, &file.size));
         TRY(folder_path(&path, root, job->name, FILE_AOV, frame->number,
                         frame->n_images > 1 ? frame->image[i].camera : NULL));
-        TRY(put(root, path.text, &file, manifest));
+        TRY(write_file(root, path.text, &file, manifest));
     }
 done:
     free(file.bytes);
@@ -182,13 +183,13 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
                  frame->change[i].process);
         manifest.change[i].m3 = frame->change[i].m3;
     }
-    TRY(put_vdbs(job, job_hash, root, frame, &manifest));
-    TRY(put_images(job, job_hash, root, frame, &manifest));
+    TRY(write_vdbs(job, job_hash, root, frame, &manifest));
+    TRY(write_images(job, job_hash, root, frame, &manifest));
     if (frame->stacks.bytes) {
         struct vdb_bytes copy = {.size = frame->stacks.size};
         TRY(memory_alloc(copy.size, 1, "terrain", &copy.bytes));
         memcpy(copy.bytes, frame->stacks.bytes, copy.size);
-        TRY(put_beside(root, job->name, FILE_STACKS, frame->number, &copy, &manifest));
+        TRY(write_file_in(root, job->name, FILE_STACKS, frame->number, &copy, &manifest));
     }
     if (*root)
         TRY(manifest_write(root, job->name, &manifest));
@@ -199,7 +200,8 @@ done:
 
 /* ---- the thread */
 
-/* One at work, so that beside it there is only the one being made: frames are what a run holds most of. */
+/* One item, so that at most two frames are in memory, the one being written and the one being made: frames are the largest part of
+ * a run's host memory. */
 enum { QUEUE = 1, WRITER_NICE = 19 };
 
 struct item {
@@ -212,7 +214,7 @@ struct writer {
     const struct job *job;
     uint64_t job_hash;
     const char *root;
-    bool alone;
+    bool blocking;
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t changed;
@@ -221,7 +223,7 @@ struct writer {
     bool ending;
     status st;
     char message[2048];
-    struct stage_frames frames; /* in the stage; the thread's own */
+    struct stage_frames frames; /* known to the USD stage; used by the thread only */
 };
 
 static void item_free(struct item *item)
@@ -231,7 +233,7 @@ static void item_free(struct item *item)
     free(item);
 }
 
-/* The mark first: a checkpoint that is to stay must not be there without it. */
+/* The mark is written first: a marked checkpoint without its mark could be pruned. */
 static status write_checkpoint(const struct writer *w, const struct checkpoint *c)
 {
     status st = OK;
@@ -242,11 +244,11 @@ done:
     return st;
 }
 
-static void *work(void *argument)
+static void *writer_main(void *argument)
 {
     struct writer *w = argument;
-    /* Linux keeps this per thread. Where the device is the CPU, the simulation goes first; the queue makes it
-     * wait. */
+    /* On Linux this sets the priority of this thread only. Where the device is the CPU, the simulation has precedence; it waits for the
+     * writer in enqueue(). */
     setpriority(PRIO_PROCESS, 0, WRITER_NICE);
     pthread_mutex_lock(&w->lock);
     while (w->n > 0 || !w->ending) {
@@ -260,7 +262,7 @@ static void *work(void *argument)
         if (st == OK)
             st = item->is_checkpoint ? write_checkpoint(w, &item->checkpoint)
                                      : frame_write(w->job, w->job_hash, w->root, &item->frame);
-        /* What is there so far can be opened. */
+        /* Keep the USD stage current, so that an unfinished run can be opened. */
         if (st == OK && item->is_checkpoint)
             st = stage_write(w->job, w->job_hash, w->root, &w->frames);
         pthread_mutex_lock(&w->lock);
@@ -277,7 +279,7 @@ static void *work(void *argument)
     return NULL;
 }
 
-status writer_create(const struct job *job, uint64_t job_hash, const char *root, bool alone,
+status writer_create(const struct job *job, uint64_t job_hash, const char *root, bool blocking,
                      struct writer **out)
 {
     struct writer *w = NULL;
@@ -287,18 +289,18 @@ status writer_create(const struct job *job, uint64_t job_hash, const char *root,
     w->job = job;
     w->job_hash = job_hash;
     w->root = root;
-    w->alone = alone;
+    w->blocking = blocking;
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->changed, NULL);
-    if (pthread_create(&w->thread, NULL, work, w) != 0) {
+    if (pthread_create(&w->thread, NULL, writer_main, w) != 0) {
         free(w);
-        return fail(E_MEMORY, "no thread for the writer");
+        return fail(E_MEMORY, "cannot create the writer thread");
     }
     *out = w;
     return OK;
 }
 
-static status push(struct writer *w, struct item *item)
+static status enqueue(struct writer *w, struct item *item)
 {
     pthread_mutex_lock(&w->lock);
     while (w->n == QUEUE && w->st == OK)
@@ -307,7 +309,7 @@ static status push(struct writer *w, struct item *item)
     if (st == OK)
         w->queue[w->n++] = item;
     pthread_cond_broadcast(&w->changed);
-    while (w->alone && st == OK && w->n > 0)
+    while (w->blocking && st == OK && w->n > 0)
         pthread_cond_wait(&w->changed, &w->lock);
     pthread_mutex_unlock(&w->lock);
     if (st != OK) {
@@ -327,7 +329,7 @@ status writer_frame(struct writer *w, struct frame *frame)
     }
     item->frame = *frame;
     *frame = (struct frame){0};
-    return push(w, item);
+    return enqueue(w, item);
 }
 
 status writer_checkpoint(struct writer *w, struct checkpoint *checkpoint)
@@ -341,7 +343,7 @@ status writer_checkpoint(struct writer *w, struct checkpoint *checkpoint)
     item->is_checkpoint = true;
     item->checkpoint = *checkpoint;
     *checkpoint = (struct checkpoint){0};
-    return push(w, item);
+    return enqueue(w, item);
 }
 
 status writer_finish(struct writer **handle)
@@ -354,7 +356,7 @@ status writer_finish(struct writer **handle)
     pthread_cond_broadcast(&w->changed);
     pthread_mutex_unlock(&w->lock);
     pthread_join(w->thread, NULL);
-    /* At the end all are looked at once more, as a folder that is found complete is. */
+    /* The final stage is made from all manifests, as that of a folder that is found complete, and not from the known frames. */
     status st = w->st == OK ? stage_write(w->job, w->job_hash, w->root, NULL) : fail(w->st, "%s", w->message);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->changed);

@@ -1,10 +1,9 @@
-/* Writes frames and checkpoints behind the simulation: one thread, which holds one item.
+/* Writes frames and checkpoints in a thread of its own while the simulation continues.
  *
- * Order     Files appear in the order given: a frame's files, its manifest last, then the checkpoint taken
- *           after it.
- * Memory    writer_frame() waits while an item is written, so that a slow disk slows the run and nothing
- *           else.
- * Errors    The first error stops the writer; it is returned by the next call, and by writer_finish().
+ * Order     Files appear in the order of the calls: the files of a frame, then its manifest; a checkpoint is one file.
+ * Memory    The writer holds one item. writer_frame() and writer_checkpoint() block while another item is being written, so a slow
+ *           disk slows the run down instead of filling memory.
+ * Errors    The first error stops the writer. The next call returns it, and so does writer_finish().
  */
 #ifndef HOODOO_WRITER_H
 #define HOODOO_WRITER_H
@@ -17,20 +16,21 @@
 
 struct writer;
 
-/* `job` and `root` outlive the writer. `alone`: it is waited for, for want of room for what else is made meanwhile. */
-MUST_USE status writer_create(const struct job *job, uint64_t job_hash, const char *root, bool alone,
+/* `job` and `root` must outlive the writer. `blocking`: each call waits until its item is written, because memory does not hold a
+ * second frame. */
+MUST_USE status writer_create(const struct job *job, uint64_t job_hash, const char *root, bool blocking,
                               struct writer **out);
 
-/* Takes the frame over, whatever comes back. */
+/* Takes ownership of *frame, also on error. */
 MUST_USE status writer_frame(struct writer *w, struct frame *frame);
 
-/* Takes the checkpoint over, whatever comes back. */
+/* Takes ownership of *checkpoint, also on error. */
 MUST_USE status writer_checkpoint(struct writer *w, struct checkpoint *checkpoint);
 
-/* Waits for all that is queued, and ends. NULL is fine. */
+/* Waits until everything is written, ends the thread and frees the writer. *w may be NULL. */
 MUST_USE status writer_finish(struct writer **w);
 
-/* The files of one frame, at once: what the thread does. With "" for a root they are made in memory, and dropped. */
+/* Writes the files of one frame in the calling thread. If root is "", the files are encoded in memory and discarded. */
 MUST_USE status frame_write(const struct job *job, uint64_t job_hash, const char *root,
                             const struct frame *frame);
 

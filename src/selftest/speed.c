@@ -7,7 +7,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "gpu/primitives.h"
-#include "run/room.h"
+#include "run/memory.h"
 #include "selftest/selftest.h"
 
 /* ---- streams */
@@ -195,7 +195,7 @@ static status demo_fits(struct selftest *t, double spacing)
     snprintf(set, sizeof set, "domain.spacing_m=%.10g", spacing);
     TRY(selftest_load(t, t->demo, sets, 1, &job));
     TRY(gpu_create(&(struct gpu_options){.device = t->device}, &gpu));
-    TRY(room_check(gpu, job, &estimate));
+    TRY(run_memory_check(gpu, job, &estimate));
 done:
     gpu_destroy(&gpu);
     job_destroy(&job);
