@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Intensities by where the surface faces and how high it is: by sqrt(rate) for a wall that faces the azimuth, one over that for one that
-// faces away, 1 on level ground and on walls between them.
+// Per surface particle of rock: intensity *= rate^(n.a / 2) (rate per metre)^z, with a the azimuth's unit
+// vector: sqrt(rate) on a wall that faces the azimuth, 1/sqrt(rate) on one that faces away, 1 on level ground.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

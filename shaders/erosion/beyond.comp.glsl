@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What a step would still have taken of the rock beside each of those that went last, where the carry does not go on into rock, in
-// viability.
+// Per particle that vanished in the last round: what the step would still have eroded of rock next to it, as
+// viability, where the carry stops because rock that deep need not have particles. The host sums it for a
+// warning.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -19,7 +20,7 @@ PARAMS(voxel_params)
 #include "particles/held.glsl"
 #include "particles/within.glsl"
 
-// Rock that erodes, as far as is known.
+// Whether a voxel holds rock that can erode; deep voxels count as such.
 bool rock_in(ivec3 v)
 {
     if (!voxel_inside(v))

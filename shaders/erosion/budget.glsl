@@ -1,4 +1,4 @@
-// What is counted of viability: quanta of 2^-31, whole numbers, whose sums are the same in any order.
+// Viability in quanta of 2^-31: integers, whose sums are the same in any order. Sums are two words.
 
 #define QUANTA 2147483648.0
 
@@ -7,7 +7,7 @@ uint quanta(float viability)
     return uint(clamp(viability, 0.0, 1.0) * QUANTA);
 }
 
-// A sum of two words, the low one first, plus or minus a word.
+// A sum of two words, low word first, plus or minus one word.
 uvec2 plus(uvec2 sum, uint more)
 {
     uint carry;

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What erosion took of particles, off the rows of the processes that did it: by their share in the intensity. Deflation and water
-// have theirs in `parts`, abrasion has the rest, so that nothing is lost. What water took of deposits
-// has a row of its own.
+// Per lane: books what erosion removed from each particle (`spent`, quanta) to the processes by their share in
+// the intensity (`parts`). Abrasion gets the remainder, so that the rows add up exactly. What water removed
+// from deposits is booked to a row of its own.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "erosion/budget.glsl"
@@ -36,7 +36,7 @@ void main()
         uint whole = LOAD_U(spent, i);
         if (whole == 0u)
             continue;
-        if (whole > uint(QUANTA)) { // less than none: the sliver that erosion/carry leaves was more than there was
+        if (whole > uint(QUANTA)) { // negative: rounding in erosion/carry left more than there was before
             abrasion = minus(abrasion, 0u - whole);
             continue;
         }

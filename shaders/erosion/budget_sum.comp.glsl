@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Adds all viability to a row of the budget, or takes it off: before and after a process, this makes what it
-// changed. Each invocation has a sum of its own, over every BUDGET_LANES-th value.
+// Per lane: adds the viability of every BUDGET_LANES-th particle to a row of the budget, or subtracts it.
+// Subtracted before a process and added after it, this is the process's change.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "erosion/budget.glsl"

@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What was left of the step when a particle was gone, its neighbours weather on through the faces it bared,
-// so that the retreat does not depend on the step. Those that go, too, hand on what they leave in the next round, until all
-// of the step is spent. Rock that lies deeper than rock is sure to have particles stays (erosion/beyond). What grows on a surface
-// passes to what is bared below it.
+// Per particle, one round of the carry: erodes it through the faces that particles which vanished in the
+// previous round have bared, for what was left of the step when they vanished. Particles that vanish now pass
+// their remainder on in the next round. So the retreat does not depend on the length of the step. Rock deeper
+// than NEAR_REACH layers is left out (beyond.comp.glsl). A particle that was inside takes over normal and
+// vegetation of those in front of it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,5 +1,6 @@
-// The body of erosion/carry, which declares what it reads and writes; with EXPOSED it says what becomes of the time that rock has been
-// bare: what is bared has, negative, what those had that went off it, and skin/reach looks for more. Until then it weathers as they did.
+// Body of erosion/carry.comp.glsl and carry_exposed.comp.glsl, which declare the buffers. With EXPOSED, a
+// particle that is bared takes over the exposure age of those in front of it, with a negative sign until
+// skin/reach has looked for a greater age, and their rate of weathering under crust and damp.
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
@@ -7,15 +8,15 @@
 #include "erosion/budget.glsl"
 #include "erosion/parts.glsl"
 
-// What comes through faces: the step times their area, and the parts that processes have in it; their area, all of it and what
-// plants cover; and the normals, by their step.
+// Sums over the faces towards particles that vanished: the rest of the step times area, and the processes' shares in it; the
+// area, and that covered by plants; and the normals, weighted by the rest of the step.
 struct incoming {
     vec3 step;
     float area, cover;
     uint sheets;
     vec3 normal;
 #ifdef EXPOSED
-    float aged, age, rate; // the faces of rock, how long that had been bare, and its crust and damp in its rate
+    float aged, age, rate; // over faces of rock: area, exposure age, and the factor of crust and damp in the rate
 #endif
 };
 

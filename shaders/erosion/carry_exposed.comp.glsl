@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// As erosion/carry, of rock that keeps how long it has been bare.
+// erosion/carry.comp.glsl for rock that stores how long it has been exposed.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

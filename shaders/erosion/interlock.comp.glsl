@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Erodibility of every particle under its stress (Arenite eq. 2). Deposits (phase 1) have no cement: they are
-// loose whatever the stress.
+// Per particle: erodibility E(T), m/kyr (Arenite eq. 2), from its layer's rates, its own factors and its
+// stress. Deposits have no cement and never interlock: they have the weak rate.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "erosion/rate.glsl"

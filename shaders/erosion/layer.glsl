@@ -1,5 +1,6 @@
-// A stratum's rates, as struct erosion (src/erosion/erosion.h) has them: layers[2 l] = (weak, strong, I in Pa, 0), and what of
-// weather is its own, layers[2 l + 1] = (k_d, k_a, k_t, tau_c), negative where it is the job's. Needs READ_V(layers).
+// Access to a layer's rates, laid out as in struct erosion (src/erosion/erosion.h): layers[2 l] = (weak, strong
+// in m/kyr, I in Pa, 0) and layers[2 l + 1] = the layer's own (k_d, k_a, k_t, tau_c), negative where the job's
+// value holds. Needs READ_V(layers).
 
 vec4 layer_rates(uint layer)
 {

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A front that runs along thin beds is led by soft ones, and time across them adds up: rock's rates are those across its beds, and
-// here intensities grow where the surface cuts its beds steeply enough for these to lead (src/geology/README.md has the law).
+// Per surface particle of rock in thin beds: intensity *= max(f sin(angle between normal and the beds' normal),
+// 1), where f (`along`) is how many times faster a front runs along the beds than across them. Across beds time
+// adds up, along them the softest lead (law: src/geology/README.md).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

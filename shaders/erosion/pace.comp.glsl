@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How fast the surface retreats, m/kyr: rock, and deposits, of which only water takes any.
+// Per surface particle: its retreat in m/kyr, of rock and of deposits, from which water alone removes material.
+// The host limits the time step by the maxima.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

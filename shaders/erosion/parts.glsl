@@ -1,6 +1,6 @@
-// What processes have in an intensity, packed in a word: the shares of deflation and of water, 15 bits each; the rest is
-// abrasion's. PARTS_LOOSE alone: water's, of a deposit. With PARTS_SHEETS the first share is that of sheets that come off, and what
-// wind plucks meanwhile is in the rest.
+// The processes' shares in an intensity, packed in a word: deflation's and water's in 15 bits each; the
+// remainder is abrasion's. PARTS_LOOSE alone: all is water's, on a deposit. PARTS_SHEETS: the first share is
+// that of sheeting and not deflation's, which is in the remainder.
 
 const uint PARTS_LOOSE = 1u << 31, PARTS_SHEETS = 1u << 30;
 const float PARTS_WHOLE = 32767.0;

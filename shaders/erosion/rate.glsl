@@ -1,5 +1,6 @@
-// The rate at which bare rock of a layer retreats at unit intensity, m/kyr: weak until its grains interlock
-// (Arenite eq. 2). layers[l] = (weak, strong, I in Pa, 0).
+// Retreat of bare rock of a layer at unit intensity, m/kyr (Arenite eq. 2): weak below the threshold I of
+// compression, strong above it. With `band` > 0 the jump is smoothed over T = I (1 +- band / 2), linearly in
+// log(rate). layer = (weak, strong, I in Pa, 0).
 
 float retreat(vec4 layer, float rate_factor, float interlock_factor, float stress, float band)
 {

@@ -1,14 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Viability of the surface falls by erodibility times intensity (Arenite eq. 1), in retreat over
-// the spacing.
+// Per surface particle: viability -= E W dt A / h, with erodibility E, intensity W and bare area A in h^2
+// (Arenite eq. 1, in metres of retreat).
 //
-// A bare face of a voxel stands for |n_i| h^2 of the surface, n being the surface's normal and i the face's
-// axis: over any plane these add up to its area, so that a front loses its rate times its area whatever its
-// direction and however rough the voxels make it. What was left of the step when a particle was gone goes to
-// `unspent`, for its neighbours (erosion/carry). Its own viability becomes what that would have taken of it, negative: so much
-// would go of it if it did not come to rest (erosion/beyond). Of deposits only water takes any: what wind can take has not come to
-// rest among them.
+// A bare face of a voxel stands for |n_axis| h^2 of the surface with normal n. Over any plane these add up to
+// its area, so a front loses its rate times its area whatever its direction and however rough the voxels make
+// it. If the particle vanishes, the rest of the step goes to `unspent`, for its neighbours (carry.comp.glsl),
+// and its viability becomes minus what that rest would have removed from it (used by beyond.comp.glsl). Only
+// water erodes deposits: what wind can lift has not come to rest among them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -52,7 +51,7 @@ void main()
     }
     float after = before - taken;
     if (after <= 0.0 && taken > 0.0) {
-        float left = max(step * (-after / taken), 1e-30); // its neighbours are to know that it went
+        float left = max(step * (-after / taken), 1e-30); // > 0 tells the neighbours that it vanished
         AT(unspent, self) = left;
         AT(shares, self) = AT(parts, i);
         atomicAdd(AT(counts, COUNT_ERODED), 1u);

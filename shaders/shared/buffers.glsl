@@ -1,14 +1,17 @@
-// Buffers, the same in every kernel, compiled three ways.
+// Buffer declarations and access for every kernel. Each kernel is compiled in three variants.
 //
-//   READ_F(0, mass)       a buffer of floats that this kernel reads      LOAD_F(mass, i)
-//   READ_V(1, position)   of vec4                                         LOAD_V(position, i)
-//   READ_U(2, start)      of uint                                         LOAD_U(start, i)
-//   WRITE_F(3, sum)       one that it writes (_V and _U likewise)         AT(sum, i) = x; atomicAdd(AT(count,
-//   i), 1u)
+//   declaration           the buffer is                    access
+//   READ_F(0, mass)       float, read                      LOAD_F(mass, i)
+//   READ_V(1, position)   vec4, read                       LOAD_V(position, i)
+//   READ_U(2, start)      uint, read                       LOAD_U(start, i)
+//   WRITE_F(3, sum)       float, written (or _V, _U)       AT(sum, i) = x, or atomicAdd(AT(count, i), 1u)
 //
-// One declaration a line: the build reads them too. lavapipe gathers from texel buffers three to seven times
-// faster than it loads from storage buffers; other devices do not care. A buffer may be bound both ways in
-// one dispatch only if each invocation touches no element but its own.
+// texel     reads go through texel buffers: lavapipe gathers from these three to seven times faster than from storage buffers
+// storage   storage buffers
+// wide      buffer addresses, without the limits on a binding's size
+//
+// The build parses these declarations: write one per line. A buffer may be bound for both reading and writing in one
+// dispatch only if each invocation accesses no element but its own.
 
 #extension GL_EXT_scalar_block_layout : require
 
@@ -63,9 +66,8 @@ layout(std140, binding = 0) uniform addresses_block { uvec4 address[16]; };
 #define WRITE_V(b, name) WRITE_(b, name, vec4)
 #define WRITE_U(b, name) WRITE_(b, name, uint)
 
-// The kernel's parameters, a struct of shared/params.h whose first member is n, the number of invocations
-// that work.
+// The kernel's parameters: a struct of shared/params.h whose first member n is the number of invocations with work to do.
 #define PARAMS(type) layout(push_constant, scalar) uniform params_block { type k; };
 
-// This invocation's number. Grids are two-dimensional past 65535 groups.
+// The index of this invocation. The dispatch is two-dimensional beyond 65535 groups.
 #define THREAD (gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * (gl_NumWorkGroups.x * gl_WorkGroupSize.x))

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Nodes that move: those of cells with rock, but for the ground's, which are held.
+// Per kept node: flags it (1) if its displacement is an unknown, that is if any of its eight cells has fill and
+// it does not lie on the ground (z = 0), where u = 0.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

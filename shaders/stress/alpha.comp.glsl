@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Step length alpha = r.z / p.q, from the partial sums of p.q. alpha r.z is the energy this step takes out of
-// the error (Hestenes and Stiefel 1952), which tells when to stop.
+// Conjugate gradients, one group of 64: alpha = r.z / p.q from the partial sums of p.q. Records alpha r.z, the
+// energy that this step removes from the error (Hestenes and Stiefel 1952, theorem 6:1), for the stopping rule.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

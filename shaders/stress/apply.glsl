@@ -1,11 +1,11 @@
-// K u at a node: linear elasticity on trilinear hexahedra, one element matrix for all cells, scaled by their
-// stiffness.
+// K u at a node: linear elasticity on trilinear hexahedra with full integration. One element matrix serves all cells,
+// scaled by each cell's stiffness share.
 //
-// With N_a the product of (1 -+ x) / 2 along the axes, the blocks of the element matrix are
+// With N_a the product of (1 -+ x) / 2 along the axes, the blocks of the element matrix (over dx) are
 //   K_ab^ii = (lambda + 2 mu) s_i m_j m_k + mu (s_j m_i m_k + s_k m_i m_j)
 //   K_ab^ij = (lambda g_ai g_bj + mu g_aj g_bi) m_k / 4
 // where along each axis s = 1, m = 1/3 if a and b agree, s = -1, m = 1/6 if not, and g = -1 at the low end, 1
-// at the high end. These have ten distinct magnitudes; everything else below is a constant once unrolled.
+// at the high end. Unrolled, only these coefficients remain; the rest is constant.
 // Needs READ_U(run), READ_V(u), READ_F(fill), k.lambda, k.mu, k.dx, k.walls and stress/rows.glsl.
 
 #define SAME(a, b) ((a) == (b))
@@ -39,7 +39,7 @@
         scales += scale;                                                                                       \
     }
 
-// For the node that is kept at `at`. xyz: K u (N, for u in m); w: the sum of the cells' stiffness shares.
+// For the node in slot `at`. xyz: K u (N, for u in m); w: the sum of its cells' stiffness shares.
 vec4 apply_stiffness(uint at)
 {
     float stiff = (k.lambda + 2.0 * k.mu) * k.dx, shear = k.mu * k.dx;

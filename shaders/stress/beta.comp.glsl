@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// beta = r.z / (r.z of the step before), from the partial sums of r.z.
+// Conjugate gradients, one group of 64: beta = r.z / (r.z of the previous step), from the partial sums of r.z;
+// 0 in the first step.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The displacement of the nodes that are kept from now on, from where it is kept so far; 0 where it is not.
+// Per slot of the new layout: copies the displacement u from its slot in the old layout; 0 where the old layout
+// has none.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

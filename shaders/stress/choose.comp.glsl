@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which run is in which slot, from how many before each are kept.
+// Per run of the whole grid: writes the run's number into its slot, from the exclusive prefix sum of the marks.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A coarse cell's share of the full stiffness: the mean of its eight children's, negative where one of them has deposits.
+// Per coarse cell: stiffness share = mean over its eight children; negative where a child's is (deposits or
+// joints). For whole cells and trilinear interpolation this is the Galerkin product R K P.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What a correction leaves of the residual: r - K u, node by node.
+// Per moving node: defect d = r - K u, for the correction u of this level.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

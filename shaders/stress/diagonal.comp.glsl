@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The inverse diagonal of a level's stiffness, in r.w.
+// Per moving node of a coarse level: r = 0, and the inverse diagonal of K in r.w.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

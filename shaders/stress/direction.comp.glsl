@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// p = z + beta p, with z = r / diagonal.
+// Per moving node: search direction p = z + beta p, with Jacobi's z = r / diagonal.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

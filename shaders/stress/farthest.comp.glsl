@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How far from the domain's corner the filled cells reach, in cells.
+// Per kept cell: maximum over the filled cells of their largest coordinate, counted in cells from the domain's
+// low corner. The host uses it to choose the number of levels.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -13,7 +14,7 @@ PARAMS(stress_params)
 void main()
 {
     uint i = THREAD;
-    // Of those next to each other in a row only the last can be the farthest.
+    // Within a row of filled cells only the last can be the farthest.
     if (i >= k.n || LOAD_F(fill, i) == 0.0 || LOAD_F(fill, i + 1u) != 0.0)
         return;
     ivec3 c = node_of(LOAD_U(run, i / STRESS_RUN), i, uvec3(k.cx, k.cy, k.cz));

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each kept cell's share of rock, the viability of the particles in its eight voxels over eight, and its weight likewise. Where
-// deposits or joints are in it, `fill` has the share of the stiffness instead, negative, for they are softer; and their weight is not theirs:
-// it presses on the rock below, as a heap's does, and nothing hangs on a wall beside it.
+// Per kept cell: `fill` is the viability of the particles in its eight voxels, divided by eight; `weight` is
+// its weight in full cells of rock. In a cell with deposits or softened by joints `fill` is instead
+// minus its share of the full stiffness. The weight of deposits acts on the next cell below with at least half
+// its volume in rock, so that a heap presses down and does not hang on a wall beside it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -23,9 +24,9 @@ PARAMS(stress_params)
 #include "particles/held.glsl"
 #include "particles/within.glsl"
 
-const float BEARS = 4.0; // rock in a cell that bears what lies on it
+const float BEARS = 4.0; // voxels of rock in a cell, of 8, from which it carries deposits above it
 
-// Rock and deposits in a voxel; deep ones are whole.
+// (rock, deposits) in a voxel, by viability; deep voxels are full of rock.
 vec2 rock_in(ivec3 v)
 {
     if (voxel_deep(v))
@@ -37,7 +38,7 @@ vec2 rock_in(ivec3 v)
     return sum;
 }
 
-// The same of a cell, each up to 8.
+// (rock, deposits) in a cell: the sum over its eight voxels.
 vec2 held_in(ivec3 c)
 {
     vec2 sum = vec2(0.0);
@@ -48,7 +49,7 @@ vec2 held_in(ivec3 c)
     return sum;
 }
 
-// Deposits that lie on this cell, up to the next that is rock enough to bear them.
+// Deposits in the cells above this one, up to the next cell that carries them itself or has none.
 float on_top(ivec3 c)
 {
     float sum = 0.0;

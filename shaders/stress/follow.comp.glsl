@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// p = z + beta p, with z from the cycle.
+// Per moving node: search direction p = z + beta p, with z from the multigrid cycle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

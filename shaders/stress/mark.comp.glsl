@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Marks the runs to be kept for the cells with particles.
+// Per particle: marks the runs to keep for the particle's cell (mark.glsl).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -24,7 +24,7 @@ void main()
     if (i >= k.n)
         return;
     uvec2 runs = runs_of(i);
-    // Particles are ordered by voxel: mostly the one before has marked them.
+    // Particles are ordered by voxel, so the previous particle has usually marked the same runs.
     if (i == 0u || runs_of(i - 1u) != runs)
         mark_runs(runs, CELLS);
 }

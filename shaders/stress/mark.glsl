@@ -1,12 +1,13 @@
-// Marks the runs to be kept for a filled cell: those its nodes are in or next to. Needs WRITE_U(mark) and stress/grid.glsl.
+// Marks the runs to keep for a filled cell: those that hold its nodes or the nodes next to these in the same
+// row. Needs WRITE_U(mark) and stress/grid.glsl.
 
-// The first and last of them in the cell's own row.
+// The first and last of these runs in the cell's own row.
 uvec2 runs_with(ivec3 c, uvec3 cells)
 {
     return uvec2(run_of(c - ivec3(1, 0, 0), cells), run_of(c + ivec3(2, 0, 0), cells));
 }
 
-// In the rows of its nodes.
+// Marks them in all four rows of the cell's nodes.
 void mark_runs(uvec2 runs, uvec3 cells)
 {
     uvec2 next = run_steps(cells);

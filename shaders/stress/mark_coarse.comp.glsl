@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Marks a coarse level's runs to be kept: those for the cells with filled children.
+// Per kept cell of the finer level: if it is filled, marks the runs of the coarse level to keep for its parent.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -19,7 +19,7 @@ void main()
     ivec3 child = node_of(LOAD_U(run, i / STRESS_RUN), i, uvec3(k.cx, k.cy, k.cz));
     uvec3 above = uvec3(k.px, k.py, k.pz);
     uvec2 runs = runs_with((child + 1) / 2, above);
-    // Mostly the child before has marked them.
+    // The previous child has usually marked the same runs.
     if (LOAD_F(fill, i - 1u) == 0.0 || runs_with((child + ivec3(0, 1, 1)) / 2, above) != runs)
         mark_runs(runs, above);
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Marks the runs to be kept for the cells with deep voxels, by words of bits.
+// Per word of voxel bits: marks the runs to keep for the cells of deep voxels, which have no particles.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

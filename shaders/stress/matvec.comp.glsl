@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// q = K p, and p . q node by node, for the solver's step length.
+// Per moving node: q = K p, and the node's term of p.q for the step length alpha. `u` is bound to p.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

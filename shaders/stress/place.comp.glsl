@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Values in the order of the list to where their nodes are kept.
+// Per moving node: scatters a value in list order to the node's slot.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

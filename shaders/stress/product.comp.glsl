@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// r . z, node by node.
+// Per moving node: its term of r.z, with z from the multigrid cycle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A coarse level's correction added to the finer level's, by trilinear interpolation.
+// Per moving node of the finer level: z += P z_coarse, trilinear interpolation of the coarse level's
+// correction.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -20,7 +21,7 @@ void main()
         return;
     uint node = LOAD_U(list, i);
     ivec3 a = node_of(LOAD_U(run, node / STRESS_RUN), node, uvec3(k.cx, k.cy, k.cz));
-    ivec3 low = (a + 1) / 2, high = (a + 2) / 2; // the same where the nodes coincide
+    ivec3 low = (a + 1) / 2, high = (a + 2) / 2; // equal where the nodes coincide
     vec3 sum = vec3(0.0);
     for (int b = 0; b < 4; b++) {
         ivec3 at = ivec3(low.x, (b & 1) == 0 ? low.y : high.y, b < 2 ? low.z : high.z);

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Stress at each cell's centre, Pa, tension positive: (xx, yy, zz, T = -trace) and (xy, yz, xz, von Mises). Where there are deposits
-// and rock it is the rock's.
+// Per cell with fill: stress at its centre from u, sigma = lambda tr(eps) I + 2 mu eps, in Pa, tension
+// positive: (xx, yy, zz, T = -trace) and (xy, yz, xz, von Mises). It is scaled by the rock's stiffness, or by
+// the deposits' where the cell is as soft as deposits are.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

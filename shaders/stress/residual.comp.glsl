@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// r = b - K u, the inverse diagonal (in r.w), and r . z for z = r / diagonal. b is the weight of the cells
-// around.
+// Per moving node: r = b - K u, the inverse diagonal in r.w, and the node's term of r.z for Jacobi's z = r /
+// diagonal. The load b is an eighth of the weight of each of its eight cells, towards -z.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The residual of a coarse level: each of its nodes gathers what the finer level leaves around it, with the
-// weights of trilinear interpolation. Finer nodes that do not move hold zero.
+// Per moving node of the coarse level: r = P^T d, the finer level's defects around it with the weights of
+// trilinear interpolation. Defects of nodes that do not move are zero.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,8 +1,9 @@
-// The rows around a node or cell of the grid of k.cx by k.cy by k.cz cells. Needs READ_U(table) and stress/grid.glsl.
+// Access to the rows of nodes or cells next to an item, on a grid of k.cx by k.cy by k.cz cells. Needs
+// READ_U(table) and stress/grid.glsl.
 
 #define CELLS uvec3(k.cx, k.cy, k.cz)
 
-// The cell that is seen at c: behind a wall lies the mirror image. Cells more than one beyond are not asked for.
+// The cell to read for c: beyond a wall, the mirror image's. c is at most one cell beyond.
 ivec3 side_cell(ivec3 c)
 {
     ivec3 low = ivec3((k.walls & WALL_X_MIN) != 0u ? 1 : 0, (k.walls & WALL_Y_MIN) != 0u ? 1 : 0, 0);
@@ -10,7 +11,7 @@ ivec3 side_cell(ivec3 c)
     return clamp(c, low, high);
 }
 
-// Where the neighbour in the row y, z away is, of what is kept at `at` in the run `own`.
+// Slot of the neighbour (0, y, z) of the item in slot `at`, which belongs to run `own`.
 uint row_at(uint own, uint at, int y, int z)
 {
     uvec2 next = run_steps(CELLS);

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Stress at the particles: trilinear between the centres of cells that hold rock, weighted by how much they hold, each
-// carried on to the particle along its slope. Between cells the slopes cancel; at faces, which lie up to a cell beyond
-// the last centre, they are what tells the face's stress from the inside's.
+// Per particle: T and von Mises stress at its position, trilinear between the centres of the cells around it,
+// weighted by their fill, each extrapolated to the particle along its slope (slope.comp.glsl). Between centres
+// the slope terms nearly cancel; at a face, up to a cell beyond the last centre, they give the face's stress
+// instead of the interior's.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -32,7 +33,7 @@ void main()
     for (int b = 0; b < 8; b++) {
         ivec3 corner = ivec3(b & 1, (b >> 1) & 1, b >> 2), seen = low + corner;
         vec3 flip = vec3(1.0);
-        if (k.walls != 0u) { // of what lies behind one there is the mirror image
+        if (k.walls != 0u) { // beyond a wall lies the mirror image
             seen = side_cell(seen);
             flip = mix(vec3(-1.0), flip, equal(seen, low + corner));
         }

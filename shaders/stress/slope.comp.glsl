@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How T and von Mises stress change across a cell, Pa a cell: the plane that fits the cells around best, each weighted
-// by its rock. It is held level where there are too few cells to tell, as across a member one cell wide.
+// Per cell with fill: gradient of T and of the von Mises stress, in Pa per cell: least-squares plane through
+// the 27 cells around it, weighted by fill. A regularisation of 1/4 keeps the plane level across members of one
+// cell, where the cells do not determine it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -25,9 +26,9 @@ void main()
     float weights = 0.0;
     vec3 middle = vec3(0.0);
     vec2 mean = vec2(0.0), here = vec2(LOAD_V(normal_stress, i).w, LOAD_V(shear_stress, i).w);
-    mat3 spread = mat3(0.25); // what holds it level
+    mat3 spread = mat3(0.25); // regularisation
     mat2x3 along = mat2x3(0.0);
-    // Behind a wall lies the mirror image: beside a cell at it, the cell itself.
+    // Beyond a wall lies the mirror image: the neighbour of a cell at the wall is the cell itself.
     ivec3 before = ivec3(-1), behind = ivec3(1);
     if (k.walls != 0u) {
         ivec3 c = node_of(own, i, CELLS);

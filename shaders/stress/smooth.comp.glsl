@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A step of the smoother from the correction u: z = u + keep (u - the one before) + gain (r - K u) / diagonal.
-// z overwrites the one before; where that was nothing, keep counts from zero.
+// Per moving node: one step of the smoother, z = u + keep (u - u_previous) + gain (r - K u) / diagonal (Lottes
+// 2022). z overwrites u_previous, which counts as 0 if `second` is set.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

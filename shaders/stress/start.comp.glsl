@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The smoother's first step where there is no correction yet: z = gain r / diagonal.
+// Per moving node: the smoother's first step from u = 0, z = gain r / diagonal.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,5 +1,5 @@
-// How stiff a cell's rock is, as a share of the rock's without joints. Needs READ_F(stiff), which has no margin, and which means nothing where
-// k.jointed is 0.
+// A cell's rock stiffness as a share of that of rock without joints. Needs READ_F(stiff), which has no margin
+// and is not read if k.jointed is 0.
 
 float stiff_rock(ivec3 c)
 {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where each kept run begins.
+// Per kept run: enters the run's first slot into the table of the whole grid.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,4 +1,4 @@
-// The sum of REDUCE_THREADS partial sums, by one group of 64 in a fixed tree; valid in invocation 0.
+// The sum of REDUCE_THREADS partial sums, by one group of 64 in a fixed tree. Valid in invocation 0.
 
 shared float leaf[64];
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// u += alpha p, r -= alpha q, and r . z.
+// Per moving node: u += alpha p, r -= alpha q, and the node's term of r.z for Jacobi's z = r / diagonal.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

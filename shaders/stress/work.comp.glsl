@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The work of the weight along u, node by node: twice the elastic energy once u is at rest.
+// Per moving node: its term of b.u, the work of the weight, which is twice the elastic energy once u is the
+// solution.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

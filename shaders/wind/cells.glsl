@@ -1,5 +1,5 @@
-// Calls BODY for every particle j in the cells around x, up to a support away on each axis. Needs
-// READ_U(start) and wind/flow.glsl. Cells next to each other in x follow each other in memory.
+// FLOW_EACH(x, BODY): runs BODY for every particle j in the 27 cells around x. Needs READ_U(start) and
+// wind/flow.glsl. Cells adjacent in x are contiguous in memory.
 
 #define FLOW_EACH(middle, BODY)                                                                             \
     {                                                                                                       \

@@ -1,5 +1,6 @@
-// Deflation (Arenite eq. 12) of a grain under the pressure t, and the k_a of abrasion, times the wind's. `own` is what of weather is its
-// layer's own. Needs PARAMS(wind_params) and erosion/layer.glsl.
+// Deflation at the compression t (Arenite eq. 12, normalised to k_d on unstressed rock) and the coefficient of
+// abrasion k_a (|v| / v_ref)^2. `own` holds the layer's own values, negative where the job's hold. Needs
+// PARAMS(wind_params) and erosion/layer.glsl.
 
 float deflation(float t, vec4 own)
 {

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Wind on each particle of the surface (Arenite eqs. 7, 8, 12), as an intensity: deflation, and abrasion
-// where the wind reaches it.
+// Per surface particle: the wind's intensity W = W_d + W_a (Arenite eqs. 7, 8, 12) where the wind is uniform.
+// W_a is 0 if rock stands upwind within the sheltering distance.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -22,8 +22,8 @@ PARAMS(wind_params)
 #include "erosion/parts.glsl"
 #include "wind/deflation.glsl"
 
-// 1 if the wind reaches x, 0 if rock stands upwind within the sheltering distance. The first steps leave the
-// particle's own bump.
+// 1 if the wind reaches x, 0 if there is rock upwind within the sheltering distance. The march starts 1.5 voxels off the
+// surface, clear of the particle's own roughness.
 float reached_by_wind(vec3 x, vec3 n)
 {
     vec3 wind = vec3(k.wind_x, k.wind_y, k.wind_z), at = x + 1.5 * k.h * n - 0.5 * k.h * wind;

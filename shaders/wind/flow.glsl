@@ -1,4 +1,4 @@
-// The air's particles: kernel, cells, kinds. Needs PARAMS(flow_params).
+// SPH kernel, cells and kinds of the air's particles. Needs PARAMS(flow_params).
 
 // Cubic spline with support FLOW_SUPPORT; its integral is 1. q = r / support.
 float flow_kernel(float r)
@@ -7,14 +7,14 @@ float flow_kernel(float r)
     return (1.0 / 3.14159265) * (q <= 0.5 ? 6.0 * (q * q * q - q * q) + 1.0 : 2.0 * p * p * p);
 }
 
-// Its gradient at the offset d of length r.
+// Gradient of the kernel at the offset d of length r.
 vec3 flow_slope(vec3 d, float r)
 {
     float q = r / FLOW_SUPPORT, p = max(1.0 - q, 0.0);
     return d * ((1.0 / 3.14159265) * (q <= 0.5 ? 4.5 * q - 3.0 : -3.0 * p * p / r));
 }
 
-// Cells begin half a support below the ground, where the boundary's particles are.
+// The cells start half a support below the ground, to hold the ground's boundary particles.
 ivec3 flow_cell(vec3 x)
 {
     ivec3 c = ivec3(floor(vec3(x.xy, x.z + 0.5 * FLOW_SUPPORT) / FLOW_SUPPORT));
@@ -43,7 +43,7 @@ bool flow_inside(vec3 x)
     return all(greaterThanEqual(x, vec3(0.0))) && all(lessThan(x, vec3(k.bx, k.by, k.bz)));
 }
 
-// Where the list has the neighbour s of particle i: those of 32 particles next to each other lie together.
+// Index of the neighbour s of particle i in the lists, which are interleaved in groups of 32 particles.
 uint flow_listed(uint i, uint s)
 {
     return (i / 32u * FLOW_NEIGHBOURS + s) * 32u + i % 32u;

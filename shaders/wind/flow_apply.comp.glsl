@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Velocities take a change, and viscosity's share of another.
+// Per particle: v += push, the velocity change by pressure, + gain times that by viscosity.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

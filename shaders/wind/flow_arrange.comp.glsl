@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// All of a particle to its place in the order of cells.
+// Per slot: copies all fields of a particle to its place in the order of cells.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

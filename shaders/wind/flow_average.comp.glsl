@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Adds the air's velocity at the middles of the box's cells, weighted by the kernel (Shepard 1968), to the sums of a
-// block. w: how much air there is around.
+// Per cell of the box: adds the kernel-weighted sum of air velocities at the cell's centre, and of the weights
+// (Shepard 1968), to the current block of samples.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

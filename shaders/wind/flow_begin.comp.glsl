@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Before a run: the air that is still outside the rock stays, the boundary of the last run goes. Slots from
-// `first` on are empty.
+// Per slot, before a run: keeps the air that is still outside the rock and removes the boundary particles of
+// the last run. Slots from `first` on are empty.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The boundary: one particle in each cell that holds a piece of the rock's surface, and a layer under the
-// ground. All are half a spacing behind the surface they stand for: a flat layer there and the lattice of air
-// before it are at rest density.
+// Per boundary particle: one in each cell that holds surface of the rock, and a layer under the ground. Each is
+// half a spacing behind the surface it stands for, so that a flat layer and the lattice of air in front of it
+// are at rest density.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -36,7 +36,7 @@ void main()
         uint c = LOAD_U(list, i - ground);
         float per = 1.0 / (FLOW_FIXED * float(LOAD_U(sums, 8u * c)));
         vec3 corner = vec3(c % k.bx, c / k.bx % k.by, c / (k.bx * k.by));
-        /* the rock's particles are half a voxel behind its surface themselves */
+        /* the rock's particles are already half a voxel behind its surface */
         float behind = 0.5 - 0.5 * k.h / k.spacing;
         x = corner + per * (signed_sum(8u * c + 1u) - behind * signed_sum(8u * c + 4u));
         AT(id, slot) = FLOW_ROCK_ID + c;

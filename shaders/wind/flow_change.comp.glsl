@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Counts the cells that are surface, and those that were or are it, but not both.
+// Per cell of the box: counts the cells that held surface in the last run, and the cells in which that has
+// changed.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The wind carries a lattice of particles on. Those planes of it that have just come into the box are new.
+// Per new particle: places it in the plane of the wind-borne lattice that has just entered the box. Counts
+// particles that find no slot.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

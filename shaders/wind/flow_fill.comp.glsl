@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The first air: a lattice over the box where there is no rock, in potential flow.
+// Per cell of the box: the initial air, one particle at each centre outside rock, in potential flow v = wind -
+// grad(potential).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -36,6 +37,6 @@ void main()
             v[a] = 0.5 * (through(before, a) + through(c, a));
         }
     AT(position, i) = vec4(vec3(c) + 0.5, 1.0);
-    AT(velocity, i) = v; /* what is rock is not kept */
+    AT(velocity, i) = v; /* cells of rock get a particle, too; flow_begin removes it */
     AT(id, i) = i;
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Cells of the box that hold a piece of the rock's surface.
+// Per cell of the box: 1 if it holds surface of the rock.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

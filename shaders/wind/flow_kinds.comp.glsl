@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the cells of the box are for the first air: rock where there is some within half a spacing of the middle
-// on any axis.
+// Per cell of the box: its kind for the initial air. It is rock if rock lies within half a spacing of its
+// centre along any axis.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

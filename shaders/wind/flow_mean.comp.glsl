@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The averaged velocity and share of air in the box's cells.
+// Per cell of the box: averaged velocity and share of air, from the sums (mean.glsl).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

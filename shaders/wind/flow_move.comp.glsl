@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Positions, and each particle's cell: none for those that have left the box. Air also drifts to where there
-// is more room, so that it fills wakes (as particle shifting does: Lind et al. 2012).
+// Per particle: x += dt v - dt gain grad(density), and the key of its cell, or none if it has left the box or
+// entered rock. The second term (particle shifting, Lind et al. 2012) drifts air towards lower density, so that
+// it fills wakes. Speeds are clamped to half a spacing per step.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each particle's neighbours, and what a step needs of them: its density, the factor of both solves, how fast
-// it is being compressed (Bender and Koschier 2015), the change of its velocity by viscosity (Becker et al.
-// 2009), and the way to where there is more room. Particles that do not move freely get none of it.
+// Per particle of free air: its neighbour list and what the step needs from it: density rho, factor of the
+// pressure solves 1 / (|sum V grad W|^2 + sum |V grad W|^2), rate of compression D rho (Bender and Koschier
+// 2015), velocity change by viscosity (Becker et al. 2009), and grad rho for the drift. Zero for other
+// particles.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Half a sweep of successive over-relaxation over the box's cells, by `gain`: those of one colour of a
-// chessboard, whose neighbours all have the other.
+// Per cell of one colour of a chessboard: half a sweep of successive over-relaxation (factor `gain`) for the
+// potential of the initial air.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The change of velocity by a pressure.
+// Per particle: velocity change by pressure, a_i = -sum_j V_j (p_i + p_j) grad W_ij. Boundary particles have p
+// = 0.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

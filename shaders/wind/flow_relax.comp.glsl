@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One Jacobi iteration: pressure where the velocity that it leaves still compresses. Where the air is full it
-// may also pull.
+// Per particle: one Jacobi iteration with omega = 1/2, p += (s + D a) factor / 2, where s is the compression to
+// remove and D a that of the pressure's velocity change. Pressure is clamped to >= 0 unless the density is at
+// least `full`, where air may also pull.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

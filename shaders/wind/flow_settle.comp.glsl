@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The average takes a block of samples: `gain` of it, `keep` of what it was. And squares, in cells within two of
-// the rock's surface: of how far the block's velocity is from the average's, and of the average's.
+// Per cell of the box: average = keep * average + gain * block of samples. In cells within two of the rock's
+// surface, the squared distance between the block's mean velocity and the average, and the squared average, for
+// the error estimate.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

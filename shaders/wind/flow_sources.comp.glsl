@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much more of an even wind leaves each cell of the box than enters it, and bits for the faces through which
-// a potential can set that right: 2 for each axis, low side first.
+// Per cell of the box: net outflow of the uniform wind, and the faces through which the potential may correct
+// it, as bits: two per axis, low side first.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The rock's surface at the air's spacing: how many surface particles each cell of the box has, and integer
-// sums of their positions in it and of their normals.
+// Per surface particle of the rock: adds 1, its position within its cell of the box, and its normal to the
+// cell's integer sums.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

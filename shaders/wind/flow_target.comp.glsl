@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the constant-density solve has to take away: the compression that leads from the present density to
-// more than 1 in a step.
+// Per particle: the compression that the constant-density solve has to remove, (rho - 1) / dt + D rho, for the
+// current velocities.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The volume that a boundary particle stands for, from how densely others are strewn around it (Akinci et al.
-// 2012); a flat layer at a spacing of 1 has volumes of 1.
+// Per boundary particle: its volume V = 0.7 / sum W over boundary particles (Akinci et al. 2012). The constant
+// makes V = 1 in a flat layer of spacing 1.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,5 +1,5 @@
-// The first air on the box's cells: the wind, made free of divergence by the slope of a potential. Needs
-// READ_U(kinds), what the cells are, and PARAMS(flow_params).
+// Potential flow on the box's cells for the initial air: the uniform wind made divergence-free by the gradient
+// of a potential. Needs READ_U(kinds), the cells' kinds, and PARAMS(flow_params).
 
 ivec3 potential_cell(uint i)
 {
@@ -11,8 +11,8 @@ uint potential_index(ivec3 c)
     return (uint(c.z) * k.by + uint(c.y)) * k.bx + uint(c.x);
 }
 
-// The wind through the face between cell c and the next one on an axis. y: 1 where a potential changes it: not
-// on rock and ground, which let nothing through, and not at the sides, where the air moves with the wind.
+// x: the wind through the face between cell c and the next one on an axis. y: 1 where the potential may change it: not at
+// rock and ground, which nothing passes, and not at the sides, where the air moves with the wind.
 vec2 potential_face(ivec3 c, int axis)
 {
     ivec3 next = c;

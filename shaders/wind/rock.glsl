@@ -1,4 +1,4 @@
-// Is there rock at a point of the box? Needs READ_U(words) and PARAMS(flow_params).
+// Whether a point of the box is in rock. Needs READ_U(words) and PARAMS(flow_params).
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/empty.glsl"

@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Wind on each particle of the surface (Arenite eqs. 7, 8, 12), where it flows around the rock: deflation, and
-// abrasion by the velocity of the air before it.
+// Per surface particle: the wind's intensity W = W_d + W_a (Arenite eqs. 7, 8, 12), with W_a from the averaged
+// air around the rock.
 //
-// Blown grains need some metres to follow the air, and strike with the speed it had that far off (`shelter`), or
-// one spacing of the air off if that is farther: from there on the average is within a few hundredths of potential
-// flow before a sphere; closer in the kernel reaches only air that is farther out. In a narrower gap it is sampled
-// midway to the other side.
+// Blown grains need some metres to adapt to the air's motion: they strike with the velocity that the air has
+// `shelter` metres off the surface, or one spacing of the air if that is more. From there on the average is
+// within a few hundredths of potential flow in front of a sphere; nearer, the kernel reaches only air that is
+// farther out. In a gap narrower than that, the velocity is sampled at its middle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -44,7 +44,8 @@ vec3 air_between(ivec3 c, vec3 f)
     return mix(low, high, f.z);
 }
 
-// The first steps leave the particle's own bump.
+// How far along the normal the velocity is sampled, m. The march starts 1.5 voxels off the surface, clear of the particle's own
+// roughness.
 float clear_way(vec3 x, vec3 n)
 {
     float most = max(k.shelter, k.cell);

@@ -52,7 +52,7 @@ status budget_read(struct gpu *gpu, const struct budget *b, int64_t quanta[PROCE
     TRY(memory_alloc(WORDS, sizeof *word, "the frame's budget", &word));
     TRY(gpu_download(gpu, b->sums, 0, word, WORDS));
     for (size_t row = 0; row < PROCESSES; row++) {
-        uint64_t sum = 0; /* of two's complements */
+        uint64_t sum = 0; /* in two's complement */
         for (size_t i = row * BUDGET_LANES; i < (row + 1) * BUDGET_LANES; i++)
             sum += word[2 * i] | (uint64_t)word[2 * i + 1] << 32;
         quanta[row] = (int64_t)sum;

@@ -31,7 +31,7 @@ void erosion_destroy(struct gpu *gpu, struct erosion *e)
     gpu_buffer_destroy(gpu, &e->parts);
 }
 
-/* By the plane face of unstressed rock, across the wind. Where edges, tension, noise, paint and deposits make single spots faster,
+/* The count is for a plane face of unstressed rock. Where edges, tension, noise, paint or deposits make single spots faster,
  * the model cuts a step into parts. */
 int erosion_steps(const struct job *job, double m_per_kyr)
 {
@@ -126,7 +126,7 @@ done:
     return st;
 }
 
-/* What a round would have taken of rock that lies too deep for it, m3. `scratch`: float, by particle. */
+/* Adds to *beyond what this round would have eroded of rock that lies too deep for it, m3. scratch: float [n]. */
 static status add_beyond(struct gpu *gpu, struct gpu_work *work, const struct particles *p,
                          struct gpu_buffer *unspent, struct gpu_buffer *scratch, double *beyond)
 {
@@ -143,8 +143,8 @@ done:
     return st;
 }
 
-/* What is left of the step where particles are gone, on through those below, round after round. Some are gone. Farther in than
- * NEAR_REACH rock need not have particles, and none of it is taken. */
+/* Carries the rest of the step from particles that vanished to those behind them, in rounds, until no more vanish. Rock deeper
+ * than NEAR_REACH layers need not have particles and is not eroded. */
 static status carry(struct gpu *gpu, struct gpu_work *work, struct erosion *e, struct particles *p,
                     struct gpu_buffer *crust, struct budget *budget, uint32_t *n_eroded, double *beyond)
 {
@@ -196,7 +196,7 @@ status erosion_weather(struct gpu *gpu, struct gpu_work *work, struct erosion *e
         .walls = p->walls,
     };
     struct gpu_buffer *counts = gpu_work_words(work);
-    /* What is left of the step where a particle is gone, by what it went, and the quanta each process took. */
+    /* By particle: rest of the step where it vanished, the processes' shares in that, and quanta removed. */
     struct gpu_buffer *unspent = p->flags, *shares = p->place, *spent = p->taken;
     gpu_fill(gpu, counts, 0);
     gpu_fill(gpu, unspent, 0);

@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-/* What is left of the energy after a cycle is at most the share SLOWEST, so that the estimate stays finite. SAFETY leads
- * from the energy norm to what is wanted, the 95th percentile of T's error by T's own: where T is about the same
- * everywhere the two are equal, and where much of the rock hardly carries anything, as in a canyon's broad floor, the
- * percentile was up to 2.7 times the norm (tests/long/test_stress_error.c). */
+/* The convergence rate (energy left after a cycle, as a share of that before) is taken as SLOWEST at most, so that the
+ * estimate stays finite. SAFETY converts from the energy norm to the quantity that is bounded, the 95th percentile of the
+ * error of T by that of T. Where T is nearly uniform the two are equal; where much of the rock carries little, as in a
+ * canyon's broad floor, the percentile was up to 2.7 times the norm (tests/long/test_stress_error.c). */
 #define SAFETY 3.0
 #define SLOWEST 0.95
 
@@ -39,7 +39,7 @@ static struct stress_params params(const struct elastic *e, size_t n)
     return k;
 }
 
-/* The finest level is the solver's own; the cycle works where the stress will be. */
+/* The finest level uses the solver's buffers; the cycle works in those that will hold the stress. */
 static void set_finest(struct elastic *e)
 {
     struct stress_level *l = &e->levels.level[0];
@@ -50,21 +50,21 @@ static void set_finest(struct elastic *e)
     l->other = e->shear_stress;
 }
 
-/* Products, node by node; the flags are free once the nodes are listed. */
+/* Scratch for the nodes' terms of a scalar product: the lattice's flags, unused once the nodes are listed. */
 static struct gpu_buffer *product_of(const struct elastic *e)
 {
     return e->lattice.flags;
 }
 
-/* Into the scalars: the residual's product with what the preconditioner makes of it. */
-static void weigh(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
+/* Sums r.z into the scalars and computes beta. */
+static void update_beta(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
 {
     const struct cg_params scalar = {64, 0, e->iterations == 0};
     GPU_RUN(gpu, stress_beta, 64, scalar, gpu_partial_sums(gpu, work, product_of(e), e->lattice.n_active),
             e->scalars);
 }
 
-/* A step of conjugate gradients from the residual r, whose product with Jacobi's correction is weighed already. */
+/* One step of conjugate gradients from the residual r. With Jacobi, beta is already known. */
 static void iterate(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
 {
     const struct stress_lattice *l = &e->lattice;
@@ -74,7 +74,7 @@ static void iterate(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
     if (e->options.multigrid) {
         multigrid_cycle(gpu, &e->levels);
         GPU_RUN(gpu, stress_product, k.n, each, l->list, e->r, e->levels.level[0].z, product_of(e));
-        weigh(gpu, work, e);
+        update_beta(gpu, work, e);
         GPU_RUN(gpu, stress_follow, k.n, each, l->list, e->scalars, e->levels.level[0].z, e->p, e->p);
     } else {
         GPU_RUN(gpu, stress_direction, k.n, each, l->list, e->scalars, e->r, e->p, e->p);
@@ -85,13 +85,13 @@ static void iterate(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
             product_of(e));
     e->iterations++;
     if (!e->options.multigrid)
-        weigh(gpu, work, e);
+        update_beta(gpu, work, e);
 }
 
-/* Which energy is still in the error, from what the steps so far took out of it. Jacobi's steps are many and take
- * unevenly: what the last CG_CHECK took is what was left before them. Those of the cycle take ever less by about
- * the same factor: what is left is the rest of the series, by the slower of the last two. (Meurant and Tichy 2019 call
- * such estimates delayed; with a cycle the delay is a step.) */
+/* Estimates the energy left in the error from what each step removed. Jacobi's steps are many and uneven: the estimate is
+ * what the last CG_CHECK steps removed together, which bounds from below what was left before them. The cycle's steps remove
+ * less and less by about the same factor: what is left is the rest of the geometric series, by the larger of the last two
+ * ratios. (Such estimates are called delayed in Meurant and Tichy 2019; with the cycle the delay is one step.) */
 static double energy_left(const struct elastic *e, const float *scalars)
 {
     double taken[CG_CHECK], slower = e->iterations < 2 ? SLOWEST : 0;
@@ -110,8 +110,8 @@ static double energy_left(const struct elastic *e, const float *scalars)
     return SAFETY * SAFETY * taken[0] * slower / (1 - slower);
 }
 
-/* Reads what the steps so far took, and estimates what is left. */
-static status judge(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
+/* Downloads what the steps removed and sets e->error. Waits. */
+static status estimate_error(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
 {
     status st = OK;
     float scalars[CG_ENERGY + CG_CHECK];
@@ -150,12 +150,12 @@ status elastic_solve(struct gpu *gpu, struct gpu_work *work, struct elastic *e)
     GPU_RUN(gpu, stress_residual, k.n, k, l->list, l->run, l->table, e->u, l->fill, e->weight, e->r,
             product_of(e));
     if (!e->options.multigrid)
-        weigh(gpu, work, e);
+        update_beta(gpu, work, e);
     do {
-        /* A cycle is worth a look at what it did, a step of Jacobi's is not. */
+        /* Checking waits for the device: after each cycle, but only after CG_CHECK of Jacobi's cheap steps. */
         for (int i = 0; i < (e->options.multigrid ? 1 : (int)CG_CHECK); i++)
             iterate(gpu, work, e);
-        TRY(judge(gpu, work, e));
+        TRY(estimate_error(gpu, work, e));
     } while (e->error > e->options.tolerance && e->iterations < e->options.max_iterations);
 done:
     return st;

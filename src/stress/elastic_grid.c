@@ -1,4 +1,4 @@
-/* What the stress grid holds, and how it follows the rock. */
+/* Memory of the stress grid, and its update to a new shape of the rock. */
 #include "stress/elastic.h"
 
 /* Cells with the margin. */
@@ -8,7 +8,7 @@ static void cells_of(const int voxels[3], int cells[3])
         cells[a] = voxels[a] / 2 + 2;
 }
 
-/* Beside the lattice's own: u, p, q, r, the stress, and the weight. */
+/* Bytes per item besides the lattice's: u, p, q, r, the two stress buffers, and the weight. */
 enum { VALUE_BYTES = 6 * 16 + 4 };
 
 uint64_t elastic_bytes(const int voxels[3], uint64_t n, uint64_t bare, uint64_t ends)
@@ -27,8 +27,8 @@ size_t elastic_work_items(const int voxels[3])
     return lattice_items_most(cells);
 }
 
-/* Buffers of values with room for what the lattice keeps; those of the displacement is the caller's. */
-static status make_room(struct gpu *gpu, struct elastic *e)
+/* Creates the buffers of values for the lattice's current capacity, but not that of the displacement, which is still read. */
+static status create_values(struct gpu *gpu, struct elastic *e)
 {
     status st = OK;
     TRY(lattice_buffer(gpu, &e->lattice, "search direction", 16, &e->p));
@@ -52,7 +52,7 @@ status elastic_create(struct gpu *gpu, const int voxels[3], double h, const stru
     e->lattice.walls = options->walls;
     TRY(gpu_buffer_create(gpu, "marks of runs", e->lattice.n_table + 1, 4, &e->marks));
     TRY(gpu_buffer_create(gpu, "solver scalars", CG_ENERGY + CG_CHECK, 4, &e->scalars));
-    TRY(make_room(gpu, e));
+    TRY(create_values(gpu, e));
     TRY(lattice_buffer(gpu, &e->lattice, "displacement", 16, &e->u));
     TRY(multigrid_create(gpu, cells, &e->levels));
 done:
@@ -73,7 +73,7 @@ void elastic_destroy(struct gpu *gpu, struct elastic *e)
 
 /* ---- the shape */
 
-/* The displacement where the lattice will keep it once its table is written. It travels in p. */
+/* Copies the displacement to its slots in the new layout, in p. The table is still the old one. */
 static status carry(struct gpu *gpu, struct elastic *e)
 {
     status st = OK;
@@ -84,8 +84,8 @@ done:
     return st;
 }
 
-/* Values in q, in the order of the list, become the displacement. */
-static void place(struct gpu *gpu, struct elastic *e)
+/* Sets u from values in q, in the order of the list; 0 elsewhere. */
+static void scatter_to_u(struct gpu *gpu, struct elastic *e)
 {
     const struct count_params k = {(uint)e->lattice.n_active};
     gpu_fill(gpu, e->u, 0);
@@ -104,18 +104,18 @@ status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct elastic *
         GPU_RUN(gpu, stress_mark_deep, words.n, words, p->held.words, e->marks);
     }
     TRY(lattice_choose(gpu, work, l, e->marks));
-    TRY(make_room(gpu, e));
+    TRY(create_values(gpu, e));
     TRY(carry(gpu, e));
     lattice_table(gpu, l);
     struct stress_params k = lattice_params(l, lattice_items(l));
-    k.loose = (float)e->options.loose; /* the rest tells where things are */
+    k.loose = (float)e->options.loose; /* material and load are not read */
     k.jointed = e->options.stiff != NULL;
     struct gpu_buffer *stiff = e->options.stiff ? e->options.stiff : e->marks; /* any: it is not looked at */
     GPU_RUN(gpu, stress_fill, k.n, k, l->run, p->held.words, p->start, p->field[ROCK_viability],
             p->field[ROCK_phase], l->fill, e->weight, stiff);
     TRY(lattice_activate(gpu, work, l));
     gpu_gather(gpu, l->list, e->p, e->q, l->n_active);
-    place(gpu, e);
+    scatter_to_u(gpu, e);
 done:
     return st;
 }
@@ -146,7 +146,7 @@ status elastic_upload(struct gpu *gpu, struct elastic *e, const void *u)
 {
     status st = OK;
     TRY(gpu_upload(gpu, e->q, 0, u, e->lattice.n_active));
-    place(gpu, e);
+    scatter_to_u(gpu, e);
 done:
     return st;
 }

@@ -1,6 +1,6 @@
 #include "stress/lattice.h"
 
-/* Slots that are always empty: before the first run, and behind the last. */
+/* Runs of zeros: STRESS_FIRST before the first kept run and one after the last. */
 enum { EMPTY_SLOTS = STRESS_FIRST + 1 };
 
 size_t lattice_runs(const int cells[3])
@@ -15,21 +15,21 @@ static size_t items(size_t runs)
 
 size_t lattice_items(const struct stress_lattice *l)
 {
-    return items(l->room);
+    return items(l->capacity);
 }
 
-/* Some more than are asked for, so that growing rock does not ask again in every frame. */
-static size_t room_for(size_t runs)
+/* Some spare capacity, so that growing rock does not reallocate in every frame. */
+static size_t capacity_for(size_t runs)
 {
     return runs + runs / 32 + 1;
 }
 
 size_t lattice_items_most(const int cells[3])
 {
-    return items(room_for(lattice_runs(cells)));
+    return items(capacity_for(lattice_runs(cells)));
 }
 
-/* Beside the nodes within, half of those at the surface; and where a row ends, one beside it and as many as fill a run. */
+/* Nodes inside, half of those at the surface, and where a row ends one neighbour and half a run of padding. */
 static uint64_t kept_nodes(const struct rock_size *rock)
 {
     return rock->inside + rock->bare / 2 + rock->ends + rock->ends * (STRESS_RUN - 1) / 2;
@@ -38,7 +38,7 @@ static uint64_t kept_nodes(const struct rock_size *rock)
 uint64_t lattice_bytes(const int cells[3], const struct rock_size *rock, uint64_t others)
 {
     const uint64_t all = lattice_runs(cells), runs = kept_nodes(rock) / STRESS_RUN;
-    const uint64_t kept = items(room_for(runs < all ? runs : all));
+    const uint64_t kept = items(capacity_for(runs < all ? runs : all));
     return (all + 1) * 4 + kept / STRESS_RUN * 4 + kept * (4 * 4 + others);
 }
 
@@ -51,14 +51,14 @@ status lattice_buffer(struct gpu *gpu, const struct stress_lattice *l, const cha
     return gpu_buffer_create(gpu, name, lattice_items(l), item, buffer);
 }
 
-/* Room for that many runs: more where it is too little, less where half of it is not needed. */
-static status keep(struct gpu *gpu, struct stress_lattice *l, size_t n)
+/* Adapts the capacity to n runs: grows when it is too small, shrinks when less than half is used. */
+static status resize(struct gpu *gpu, struct stress_lattice *l, size_t n)
 {
     status st = OK;
-    if (n > l->room || n < l->room / 2 || !l->run) {
-        l->room = room_for(n);
+    if (n > l->capacity || n < l->capacity / 2 || !l->run) {
+        l->capacity = capacity_for(n);
         gpu_buffer_destroy(gpu, &l->run);
-        TRY(gpu_buffer_create(gpu, "runs of nodes", l->room + EMPTY_SLOTS, 4, &l->run));
+        TRY(gpu_buffer_create(gpu, "runs of nodes", l->capacity + EMPTY_SLOTS, 4, &l->run));
     }
     l->n = n;
     TRY(lattice_buffer(gpu, l, "cell fill", 4, &l->fill));
@@ -75,7 +75,7 @@ status lattice_create(struct gpu *gpu, const int cells[3], struct stress_lattice
     status st = OK;
     *l = (struct stress_lattice){.cells = {cells[0], cells[1], cells[2]}, .n_table = lattice_runs(cells)};
     TRY(gpu_buffer_create(gpu, "table of runs", l->n_table, 4, &l->table));
-    TRY(keep(gpu, l, 0));
+    TRY(resize(gpu, l, 0));
     lattice_table(gpu, l);
 done:
     return st;
@@ -96,7 +96,7 @@ status lattice_choose(struct gpu *gpu, struct gpu_work *work, struct stress_latt
     const struct count_params k = {(uint)l->n_table};
     gpu_scan(gpu, work, marks, l->n_table + 1);
     TRY(gpu_download(gpu, marks, l->n_table, &n, 1));
-    TRY(keep(gpu, l, n));
+    TRY(resize(gpu, l, n));
     GPU_RUN(gpu, stress_choose, k.n, k, marks, l->run);
 done:
     return st;

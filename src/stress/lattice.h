@@ -1,10 +1,11 @@
-/* Where the stress grid's nodes and cells are kept: only where there is rock, in runs of STRESS_RUN along x.
+/* Sparse storage of the stress grid's nodes and cells: only where there is rock, in runs of STRESS_RUN along x.
  *
- * Runs       Those a filled cell's nodes are in, or next to in their row, are kept, in the order of the whole grid; a small
- *            table finds them (shaders/stress/grid.glsl). A cell is kept where its first node is. Buffers of values
- *            have lattice_items(): all kept runs, and three that are zero for what lies outside them.
- * Calling sequence   for a shape: marks; lattice_choose(), which lays the runs out anew; then, once nobody wants the old
- *            layout any more, lattice_table(); then fill; then lattice_activate().
+ * Runs       A run is kept if it holds a node of a filled cell or a node next to one in its row. Kept runs are stored in the
+ *            order of the whole grid; a table over all runs finds them (shaders/stress/grid.glsl). A cell is stored in the
+ *            slot of its first node. Buffers of values have lattice_items() items: all kept runs, and three runs of zeros
+ *            that stand for everything outside.
+ * Calling sequence   for each new shape: mark the runs; lattice_choose() computes the new layout; copy values from the old
+ *            layout; lattice_table() switches the table to the new one; compute the fill; lattice_activate().
  */
 #ifndef HOODOO_STRESS_LATTICE_H
 #define HOODOO_STRESS_LATTICE_H
@@ -14,50 +15,51 @@
 
 struct stress_lattice {
     int cells[3];             /* with the margin: two more than the domain's */
-    unsigned walls;           /* of the domain, WALL_*: set by the caller */
+    unsigned walls;           /* WALL_*, set by the caller */
     size_t n_table;           /* runs of the whole grid */
-    size_t n, room;           /* runs kept, and those there is room for */
-    size_t n_active;          /* nodes that move */
-    struct gpu_buffer *table; /* uint [n_table]: where each begins */
-    struct gpu_buffer *run;   /* uint [slots]: which is kept there, or STRESS_NO_RUN */
-    struct gpu_buffer
-        *fill; /* float [items]: the cells' share of rock or, on coarser levels, of the full stiffness */
-    struct gpu_buffer *list;          /* uint [n_active]: where the nodes that move are kept, ascending */
-    struct gpu_buffer *flags, *place; /* scratch, a word for each item */
+    size_t n, capacity;       /* runs kept, and runs allocated */
+    size_t n_active;          /* nodes that move: the unknowns are three for each */
+    struct gpu_buffer *table; /* uint [n_table]: first slot of each run */
+    struct gpu_buffer *run;   /* uint [runs allocated + 3]: the run stored there, or STRESS_NO_RUN */
+    struct gpu_buffer *
+        fill; /* float [items], by cell: share of rock or, negative and on coarser levels, of the stiffness */
+    struct gpu_buffer *list;          /* uint [n_active]: slots of the nodes that move, ascending */
+    struct gpu_buffer *flags, *place; /* uint [items]: scratch */
 };
 
-/* Runs of the whole grid. */
+/* Number of runs of the whole grid. */
 size_t lattice_runs(const int cells[3]);
 
-/* Values that each buffer has room for, and the most that may be. */
+/* Number of items of each buffer of values, and its maximum for a grid. */
 size_t lattice_items(const struct stress_lattice *l);
 size_t lattice_items_most(const int cells[3]);
 
-/* About how many cells rock is in, how many of their faces are bare, and how many of these end a row along x. */
+/* Estimated extent of the rock: filled cells, bare faces of these, and bare faces that end a row along x. */
 struct rock_size {
     uint64_t inside, bare, ends;
 };
 
-/* Bytes on the device for such a rock, with so many bytes of others' for each value. */
+/* Estimated bytes on the device for such rock, including `others` bytes per item for the caller's own buffers. */
 uint64_t lattice_bytes(const int cells[3], const struct rock_size *rock, uint64_t others);
 
-/* Nothing is kept. */
+/* An empty lattice. */
 MUST_USE status lattice_create(struct gpu *gpu, const int cells[3], struct stress_lattice *out);
 void lattice_destroy(struct gpu *gpu, struct stress_lattice *l);
 
-/* Keeps the runs that are marked with 1 (uint [n_table + 1], lost), as they will be found once lattice_table() has been
- * called. Values are lost where the room changes. Waits. */
+/* Lays out the runs whose mark is 1 (marks: uint [n_table + 1], overwritten). They are found by the table only after
+ * lattice_table(). Buffers whose capacity changes are created again and lose their values. Waits for the device. */
 MUST_USE status lattice_choose(struct gpu *gpu, struct gpu_work *work, struct stress_lattice *l,
                                struct gpu_buffer *marks);
 void lattice_table(struct gpu *gpu, struct stress_lattice *l);
 
-/* Finds the nodes that move, from the fill. Waits. */
+/* Lists the nodes that move, from the fill. Waits for the device. */
 MUST_USE status lattice_activate(struct gpu *gpu, struct gpu_work *work, struct stress_lattice *l);
 
-/* For n invocations that only ask where things are. */
+/* Kernel parameters for n invocations, with the grid's layout only: material and load are 0. */
 struct stress_params lattice_params(const struct stress_lattice *l, size_t n);
 
-/* A buffer of the lattice's values, made anew and zero unless it has the right room. */
+/* Makes *buffer one of lattice_items() items of `item` bytes: kept if its size is right, else destroyed and created again,
+ * filled with zeros. */
 MUST_USE status lattice_buffer(struct gpu *gpu, const struct stress_lattice *l, const char *name, size_t item,
                                struct gpu_buffer **buffer);
 

@@ -1,9 +1,9 @@
 #include "stress/multigrid.h"
 
-/* Steps of the smoother; cells across at which coarsening ends. */
+/* Smoother steps on the finest, the middle and the coarsest levels; cells across at which coarsening ends. */
 enum { FINEST_STEPS = 1, STEPS = 2, COARSEST_STEPS = 8, COARSEST_CELLS = 4 };
 
-/* The next coarser level's cells; false where it ends. */
+/* Cells of the next coarser level (with margin); false if `cells` is coarse enough. */
 static bool coarsen(const int cells[3], int coarse[3])
 {
     int most = 0;
@@ -14,7 +14,7 @@ static bool coarsen(const int cells[3], int coarse[3])
     return most > COARSEST_CELLS;
 }
 
-/* Beside the lattice's own: r, z and the other. */
+/* Bytes per item besides the lattice's: r, z and other. */
 enum { VALUE_BYTES = 3 * 16 };
 
 uint64_t multigrid_bytes(const int cells[3], const struct rock_size *rock)
@@ -56,7 +56,7 @@ void multigrid_destroy(struct gpu *gpu, struct multigrid *m)
     m->n = 0;
 }
 
-/* `n` invocations between a level and the coarser one. */
+/* Parameters for n invocations of a kernel between level l and the coarser l[1]. */
 static struct coarse_params between(const struct stress_level *l, size_t n)
 {
     const int *cells = l->lattice.cells, *above = l[1].lattice.cells;
@@ -64,7 +64,7 @@ static struct coarse_params between(const struct stress_level *l, size_t n)
                                   (uint)above[0], (uint)above[1], (uint)above[2], l->params.walls};
 }
 
-/* What of a level is kept: the cells with filled children. */
+/* Lays out a level: it keeps the cells that have filled children. */
 static status choose(struct gpu *gpu, struct gpu_work *work, const struct stress_level *below,
                      struct stress_level *l, struct gpu_buffer *marks)
 {
@@ -97,13 +97,13 @@ static status assemble_level(struct gpu *gpu, struct gpu_work *work, const struc
     l->params.dx *= 2;
     l->params.n = (uint)at->n_active;
     GPU_RUN(gpu, stress_diagonal, l->params.n, l->params, at->list, at->run, at->table, at->fill, l->r);
-    gpu_fill(gpu, l->z, 0); /* what does not move counts as zero */
+    gpu_fill(gpu, l->z, 0); /* nodes that do not move are read as zero */
     gpu_fill(gpu, l->other, 0);
 done:
     return st;
 }
 
-/* How far the rock reaches from the domain's corner, in cells. */
+/* The largest coordinate of a filled cell, counted from the domain's corner. */
 static status farthest(struct gpu *gpu, struct gpu_work *work, const struct stress_level *l, uint32_t *cells)
 {
     struct stress_params k = l->params;
@@ -121,7 +121,7 @@ status multigrid_assemble(struct gpu *gpu, struct gpu_work *work, struct multigr
     gpu_fill(gpu, m->level[0].z, 0);
     gpu_fill(gpu, m->level[0].other, 0);
     TRY(farthest(gpu, work, &m->level[0], &across));
-    /* As coarsen() goes on: no farther than the rock needs, so that the box around it does not matter. */
+    /* As in coarsen(), but only as far as the rock reaches, so that the size of the domain around it does not matter. */
     for (m->n_used = 1; m->n_used < m->n && across > COARSEST_CELLS; m->n_used++) {
         TRY(assemble_level(gpu, work, &m->level[m->n_used - 1], &m->level[m->n_used], marks));
         across = (across + 1) / 2;
@@ -130,14 +130,14 @@ done:
     return st;
 }
 
-/* The weights of step k (from 0) of `steps`. */
+/* Weights of smoother step k (from 0) of `steps`: the fourth-kind Chebyshev recurrence of Lottes 2022. */
 static struct smooth_params weights(const struct stress_level *l, int steps, int k)
 {
     const struct stress_params *p = &l->params;
-    /* The largest eigenvalue of an element matrix, that of even expansion, by its diagonal. */
+    /* Largest eigenvalue of the element matrix, that of uniform expansion, over its diagonal. */
     const double most =
         (1.5 * (double)p->lambda + (double)p->mu) / (((double)p->lambda + 4 * (double)p->mu) / 9);
-    /* One step alone is better damped less than the polynomial's 4/3. */
+    /* A single step converges faster with 1.6 than with the polynomial's 4/3. */
     return (struct smooth_params){
         .n = p->n,
         .cx = p->cx,
@@ -152,7 +152,7 @@ static struct smooth_params weights(const struct stress_level *l, int steps, int
     };
 }
 
-/* From the correction z, or from none at all: `fresh`. */
+/* Smoothes the correction z; `fresh`: z counts as 0 and is not read. */
 static void smooth(struct gpu *gpu, struct stress_level *l, int steps, bool fresh)
 {
     const struct stress_lattice *at = &l->lattice;
@@ -171,8 +171,8 @@ static void smooth(struct gpu *gpu, struct stress_level *l, int steps, bool fres
     }
 }
 
-/* What follows is a level's, for the timers. */
-static void tell(struct gpu *gpu, int n)
+/* Attributes what is recorded next to a level's timer. */
+static void name_stage(struct gpu *gpu, int n)
 {
     static const char *const names[] = {"stress", "stress level 1", "stress level 2", "stress level 3 on"};
     gpu_stage(gpu, names[n < 3 ? n : 3]);
@@ -183,7 +183,7 @@ static void cycle(struct gpu *gpu, struct multigrid *m, int n, bool fresh)
     struct stress_level *l = &m->level[n], *up = l + 1;
     const struct stress_lattice *at = &l->lattice, *above = &up->lattice;
     const int steps = n == 0 ? FINEST_STEPS : STEPS;
-    tell(gpu, n);
+    name_stage(gpu, n);
     if (n == m->n_used - 1) {
         smooth(gpu, l, COARSEST_STEPS, fresh);
         return;
@@ -196,7 +196,7 @@ static void cycle(struct gpu *gpu, struct multigrid *m, int n, bool fresh)
     cycle(gpu, m, n + 1, true);
     if (n + 1 < m->n_used - 1)
         cycle(gpu, m, n + 1, false);
-    tell(gpu, n);
+    name_stage(gpu, n);
     k.n = (uint)at->n_active;
     GPU_RUN(gpu, stress_prolong, k.n, k, at->list, at->run, above->table, up->z, l->z, l->z);
     smooth(gpu, l, steps, false);

@@ -26,7 +26,7 @@ status stress_places_find(struct gpu *gpu, struct stress_places *s, const float 
     TRY(gpu_upload(gpu, s->at.field[ROCK_P], 0, P, n));
     if (s->recovered)
         elastic_sample(gpu, s->e, &s->at);
-    else /* a checkpoint may have been made since the frame was solved */
+    else /* writing a checkpoint may have overwritten the recovered stress */
         elastic_recover(gpu, s->e, &s->at);
     s->recovered = true;
 done:

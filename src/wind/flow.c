@@ -8,19 +8,19 @@
 #include "wind/flow_parts.h"
 
 enum {
-    SAMPLE_EVERY = 4,     /* steps between samples of the average, */
-    BLOCK = 32,           /* and in a block of it: the wind goes on by six spacings */
-    FIRST_ITERATIONS = 40 /* of the divergence solve, for air that has not felt the rock yet */
+    SAMPLE_EVERY = 4, /* steps between samples of the average */
+    BLOCK = 32,       /* steps in a block, in which the wind advances by six spacings */
+    FIRST_ITERATIONS =
+        40 /* of the divergence solve in the first step, for air that has not met the rock yet */
 };
 
-/* The drift to where there is more room, in wind speeds for each unit of the density's slope (where all of
- * one side is missing that is about 0.7). Without it the particles of a wake cling together in strings with
- * voids between them: behind a cube 2/5 of the space was air, with it 3/4. At 3 it overshoots and heats the
- * lattice. */
+/* Drift towards lower density, in wind speeds per unit of the density's gradient (which is about 0.7 where one side is
+ * empty). Without it the particles of a wake cluster in strings with voids between them: behind a cube 2/5 of the space was
+ * air, with it 3/4. At 3 it overshoots and the lattice becomes noisy. */
 #define DRIFT 2.0f
 
-/* Share of the last step's pressures that the solves begin with, and the density from which air may pull on
- * its neighbours: less than full, it would tear strings out of them. */
+/* Warm start: share of the last step's pressures with which the solves begin. FULL: density from which pressure may be
+ * negative in the divergence solve; at lower density it would pull particles into strings. */
 #define WARM_DENSITY 0.5f
 #define WARM_DIVERGENCE 1.0f
 #define FULL 0.8f
@@ -63,7 +63,7 @@ static void swap(struct gpu_buffer *pair[2])
     pair[1] = first;
 }
 
-/* Particles into the order of their keys. */
+/* Sorts the particles by cell. */
 static void arrange(struct gpu *gpu, struct flow *f, struct flow_params k)
 {
     struct gpu_sort sort = {.keys = f->key,
@@ -86,7 +86,7 @@ static void arrange(struct gpu *gpu, struct flow *f, struct flow_params k)
     swap(f->id);
 }
 
-/* Iterations of a solve; the velocities take what they find. */
+/* One pressure solve: fixed Jacobi iterations, then the velocities are updated. */
 static void solve(struct gpu *gpu, struct flow *f, struct flow_params k, struct gpu_buffer *pressure,
                   int iterations)
 {
@@ -98,8 +98,7 @@ static void solve(struct gpu *gpu, struct flow *f, struct flow_params k, struct 
     GPU_RUN(gpu, wind_flow_apply, f->slots, k, f->push, f->viscous, f->velocity[0]);
 }
 
-/* A column of the lattice, of those inside, that came in with the last move along an axis; the box's size if
- * none did. */
+/* Index of the lattice plane that entered the box with the last move along an axis; the box's size if none did. */
 static uint entered(double first, double moved, int box)
 {
     if (moved > 0)
@@ -183,7 +182,7 @@ int flow_flush(const struct flow *f, const double direction[2])
     return (int)ceil((fabs(direction[0]) * f->box[0] + fabs(direction[1]) * f->box[1]) / FLOW_DT);
 }
 
-/* Air that stays, and the rock as it is now. */
+/* Prepares a run: removes air that is now in rock, and samples boundary particles from the current surface. */
 static status begin(struct gpu *gpu, struct flow *f, struct flow_params k, struct particles *p)
 {
     status st = OK;
@@ -196,7 +195,7 @@ static status begin(struct gpu *gpu, struct flow *f, struct flow_params k, struc
     TRY(gpu_compact(gpu, f->work, f->flags, f->place, f->surface_list, box_count(f), &n_rock));
     k.n = (uint)(ground_count(f) + n_rock);
     if (k.first + k.n > f->slots)
-        return fail(E_NUMERIC, "wind.flow: %u particles of air and %u of rock do not fit into %zu places",
+        return fail(E_NUMERIC, "wind.flow: %u particles of air and %u of rock do not fit into %zu slots",
                     k.first, k.n, f->slots);
     GPU_RUN(gpu, wind_flow_boundary, k.n, k, f->surface_list, f->surface_sums, f->position[0], f->velocity[0],
             f->id[0], f->key, f->density_pressure[0], f->divergence_pressure[0]);
@@ -211,7 +210,7 @@ done:
     return st;
 }
 
-/* How well the solves did, and how many particles came and went. */
+/* Fills the report: residuals of the solves, largest speed, particles that entered and left. */
 static status measure(struct gpu *gpu, struct flow *f)
 {
     status st = OK;
@@ -220,8 +219,9 @@ static status measure(struct gpu *gpu, struct flow *f)
     TRY(gpu_download(gpu, f->start, cell_count(f), &f->state.n, 1));
     TRY(gpu_download(gpu, f->counts, 0, &lost, 1));
     if (lost)
-        return fail(E_NUMERIC, "wind.flow: %u particles of air found no place in %zu: the flow has jammed",
-                    lost, f->slots);
+        return fail(E_NUMERIC,
+                    "wind.flow: %u particles of air found no free slot among %zu: the flow has jammed", lost,
+                    f->slots);
     TRY(memory_alloc(4 * (size_t)f->state.n, 4, "the air's densities", &of_step));
     TRY(memory_alloc(4 * (size_t)f->state.n, 4, "the air's velocities", &velocity));
     TRY(gpu_download(gpu, f->of_step, 0, of_step, f->state.n));
@@ -256,20 +256,19 @@ done:
     return st;
 }
 
-/* Whether the air of the last run may go on: after a turn of more than a right angle's fifth it had better begin
- * anew. */
-static bool goes_on(const struct flow_state *s, const double to[2])
+/* Whether the air of the last run can be continued: not if the wind has turned by more than acos 0.95, 18 degrees. */
+static bool can_continue(const struct flow_state *s, const double to[2])
 {
     return s->steps > 0 && s->direction[0] * to[0] + s->direction[1] * to[1] > 0.95;
 }
 
-/* Steps, in blocks, until the average has settled. */
-static status settle(struct gpu *gpu, struct flow *f, struct particles *p, int most, double settled)
+/* Steps, in blocks, until the average is known to within `settled`. */
+static status run_blocks(struct gpu *gpu, struct flow *f, struct particles *p, int most, double settled)
 {
     status st = OK;
     const struct flow_params k = flow_params_of(f, p);
     struct flow_report *r = &f->report;
-    bool forms = f->state.steps == 0; /* its wake does: what that block averages is not kept */
+    bool forms = f->state.steps == 0; /* the wake is still forming: the first block's average is dropped */
     gpu_fill(gpu, f->block, 0);
     f->samples = 0;
     r->unsettled = INFINITY;
@@ -280,9 +279,9 @@ static status settle(struct gpu *gpu, struct flow *f, struct particles *p, int m
             if (i % SAMPLE_EVERY == 0 || i == n)
                 flow_sample(gpu, f);
         }
-        TRY(flow_settle(gpu, f, n, &r->unsettled));
+        TRY(flow_add_block(gpu, f, n, &r->unsettled));
         r->steps += n;
-        /* As much as half of the run and a block at least: what came before has to fade, too. */
+        /* Weighs at most half of the run, and at least a block, so that older air fades from the average. */
         f->state.weight = forms ? 0 : fmin(f->state.weight, fmax(BLOCK, 0.5 * r->steps));
         forms = false;
     }
@@ -294,15 +293,16 @@ status flow_run(struct gpu *gpu, struct flow *f, struct particles *p, const doub
                 double settled)
 {
     status st = OK;
-    if (!goes_on(&f->state, direction))
+    if (!can_continue(&f->state, direction))
         f->state = (struct flow_state){0};
     memcpy(f->state.direction, direction, sizeof f->state.direction);
-    f->state.weight = fmin(f->state.weight, BLOCK); /* so that a block counts as much as all before */
+    f->state.weight =
+        fmin(f->state.weight, BLOCK); /* so that the first block counts as much as the old average */
     struct flow_params k = flow_params_of(f, p);
     f->report = (struct flow_report){0};
     gpu_fill(gpu, f->counts, 0);
     TRY(begin(gpu, f, k, p));
-    TRY(settle(gpu, f, p, most, settled));
+    TRY(run_blocks(gpu, f, p, most, settled));
     k.warm = 1;
     neighbours(gpu, f, k);
     flow_average(gpu, f);

@@ -1,4 +1,4 @@
-/* The air's average: how it is gathered, and how far it may still be off. */
+/* The time average of the air, and its error estimate. */
 #include <math.h>
 
 #include "wind/flow_parts.h"
@@ -11,7 +11,7 @@ void flow_sample(struct gpu *gpu, struct flow *f)
     f->samples++;
 }
 
-status flow_settle(struct gpu *gpu, struct flow *f, int steps, double *error)
+status flow_add_block(struct gpu *gpu, struct flow *f, int steps, double *error)
 {
     status st = OK;
     struct flow_params k = flow_params_of(f, NULL);
@@ -30,7 +30,7 @@ status flow_settle(struct gpu *gpu, struct flow *f, int steps, double *error)
     TRY(gpu_download(gpu, f->squares, 0, square, 2));
     f->state.weight = all;
     f->samples = 0;
-    /* The block is `before / all` of its distance to what came before away from the average of both. */
+    /* The block differs from the new average by before / all of its difference to the old one. */
     *error = before == 0     ? INFINITY
              : square[1] > 0 ? sqrt((double)square[0] / (double)square[1] * steps / before)
                              : 0;

@@ -1,4 +1,4 @@
-/* The air's box, its memory and its state; flow.c moves it. */
+/* The air's box, memory and state; flow.c steps it. */
 #include "wind/flow_parts.h"
 
 #include <math.h>
@@ -6,9 +6,9 @@
 
 enum {
     SLOTS_MAX = 1 << 24,
-    MARGIN = 4 /* spacings of air around the rock's domain, at least */
+    MARGIN = 4 /* least spacings of air around the rock's domain */
 };
-static const double spare = 1.25; /* slots, of those that a full box takes */
+static const double spare = 1.25; /* slots over the particles of a full box */
 
 /* ---- sizes */
 
@@ -30,7 +30,7 @@ status flow_layout(const struct job *job, const int voxels[3], struct flow *f)
     if (!(slots <= SLOTS_MAX))
         return fail(
             E_USAGE,
-            "wind.flow: %.0f particles of air in a box of %.0f x %.0f x %.0f spacings of %g m, of %d at most: raise wind.flow.spacing_m or lower wind.flow.domain",
+            "wind.flow: %.0f particles of air in a box of %.0f x %.0f x %.0f spacings of %g m, but at most %d are possible: raise wind.flow.spacing_m or lower wind.flow.domain",
             slots, box[0], box[1], box[2], f->spacing, SLOTS_MAX);
     for (int a = 0; a < 3; a++) {
         f->box[a] = (int)box[a];
@@ -155,7 +155,8 @@ status flow_check(const struct flow *f)
     for (int a = 0; a < 2; a++)
         fits = fits && s->offset[a] >= 0 && s->offset[a] <= 1;
     if (!fits || !(s->steps == 0 ? length < 2 : fabs(length - 1) < 1e-6))
-        return fail(E_CHECKPOINT, "the checkpoint's air (%u particles) does not fit this job's (%zu at most)",
+        return fail(E_CHECKPOINT,
+                    "the checkpoint's air (%u particles) does not fit this job's box (%zu at most)",
                     (unsigned)s->n, f->slots);
     return OK;
 }

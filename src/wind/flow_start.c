@@ -1,11 +1,10 @@
-/* The first air. Irrotational flow comes to rest before the rock, parts around it and speeds up beside it as the
- * air's does; only its wake has to form. */
+/* Initial air: potential flow. It slows in front of the rock, parts around it and speeds up beside it as the real flow does;
+ * only the wake is left to form. */
 #include <math.h>
 
 #include "wind/flow_parts.h"
 
-/* Sweeps over the box for each of its cells on its longest side: successive over-relaxation then leaves less
- * than a thousandth of what it began with. */
+/* Sweeps per cell along the box's longest side: successive over-relaxation then reduces the error below a thousandth. */
 enum { SWEEPS = 4 };
 
 static void relax(struct gpu *gpu, const struct flow *f, struct flow_params k, struct gpu_buffer *source,
@@ -24,7 +23,7 @@ static void relax(struct gpu *gpu, const struct flow *f, struct flow_params k, s
 
 void flow_fill(struct gpu *gpu, struct flow *f, struct particles *p)
 {
-    /* What steps use for something else. */
+    /* Borrowed: buffers that only the steps use. */
     struct gpu_buffer *kinds = f->key, *faces = f->place, *source = f->density_pressure[1],
                       *potential = f->divergence_pressure[1];
     struct flow_params k = flow_params_of(f, p);

@@ -21,7 +21,7 @@ struct wind_at wind_at(const struct job *job, int frame)
     return w;
 }
 
-/* The wind's speed over the one at which abrasion holds. */
+/* |v| / v_ref. */
 static double gale(const struct job *job, int frame)
 {
     return wind_at(job, frame).speed / job->wind.reference_m_s;
@@ -84,7 +84,7 @@ void wind_destroy(struct gpu *gpu, struct wind *w)
     *w = (struct wind){0};
 }
 
-/* Whether the flow has to run on. */
+/* Whether rock or direction have changed enough for another run. */
 static bool is_due(const struct flow *f, const struct job_flow *o, const double direction[2], double change)
 {
     const double *last = f->state.direction;
