@@ -8,7 +8,7 @@ TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools op
 LONG_PACKAGES = libcgal-demo
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0
-DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev
+DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev codespell
 
 # As many jobs as cores, unless the user says -j. A make within make shares those of the first.
 ifeq ($(MAKELEVEL),0)
@@ -220,8 +220,8 @@ gallery: $(BUILD)/hoodoo
 format:
 	$(Q)clang-format -i $(shell find src farm render tests -name '*.[ch]' -o -name '*_shim.cpp')
 
-## lint: warnings of both compilers, format, headers that stand alone, walls between folders
-lint: $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.h
+## lint: warnings of both compilers, layout, headers that compile alone, folder boundaries, prose
+lint: $(BUILD)/hoodoo $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.h
 	$(Q)sh tests/run.sh $(BUILD) lint.sh
 
 # The sanitizers' builds are of the C. They share the shaders and the C++ with the ordinary build: half of the C++ is
@@ -263,7 +263,7 @@ install: $(BUILD)/hoodoo
 	install -D -m 644 src/cli/complete/hoodoo.bash $(DESTDIR)$(PREFIX)/share/bash-completion/completions/hoodoo
 	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/zsh/site-functions src/cli/complete/_hoodoo
 	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/fish/vendor_completions.d src/cli/complete/hoodoo.fish
-	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/hoodoo/jobs jobs/*.yaml jobs/*.png jobs/*.json jobs/README.md
+	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/hoodoo/jobs jobs/*.yaml jobs/*.png jobs/*.json jobs/README.md jobs/TUTORIAL.md
 	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/doc/hoodoo LICENSE CHANGELOG.md README.md
 
 ## clean: remove what was built (out/ stays)

@@ -1,6 +1,6 @@
 #!/bin/sh
-# lint.sh: a TAP line for each rule: both compilers' warnings, the layout, headers that stand alone, the walls between
-# folders. Needs the headers of DEV_PACKAGES in the Makefile, and build/gen.
+# lint.sh: a TAP line for each rule: warnings of both compilers, the layout, headers that compile alone, boundaries between
+# folders, and the prose of pages (prose.py). Needs DEV_PACKAGES of the Makefile, build/gen and build/hoodoo.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 flags="-std=c11 -D_GNU_SOURCE -Isrc -Ishaders -I. -Ibuild/gen -Itests -isystem /usr/include/OpenEXR -isystem /usr/include/Imath"
@@ -77,3 +77,5 @@ scripts() {
     git ls-files '*.sh' | each sh -n
 }
 rule "shell scripts parse" scripts
+
+/usr/bin/python3 tests/prose.py build/hoodoo || echo "not ok prose.py ran to its end"

@@ -47,4 +47,4 @@ for share in 1 2 8 22 43 74 94; do
     tree disk/out >part.sums
     check "$kb kB, then room: the same bytes" cmp -s whole.sums part.sums
 done
-fault "disks that fill while a run writes" $tried "exit code 4, one sentence, no half file; with room the same bytes"
+fault "disks that fill while a run writes" $tried "exit code 4, one message, no partial file; once there is space, the same bytes"

@@ -98,6 +98,6 @@ for i in range(MOMENTS):
     ok(bad == "", f"killed after {', '.join(f'{s:.3f}' for s in seconds)} s (seed {SEED}): frames that count are whole", bad)
     go_on("and run again, the same bytes")
 fault("runs killed by SIGKILL: after frames, in writes, at random moments", (LAST - FIRST + 1 if LONG else 4) + 5 + 3 * MOMENTS,
-      "frames that count are whole; the same command ends with the same bytes")
+      "every frame with a manifest is whole; the same command ends with the same bytes")
 print(f"# {killed} of {3 * MOMENTS} runs were killed before their end, {temporary} while they wrote a file")
 finish()

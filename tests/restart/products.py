@@ -140,5 +140,5 @@ healed("papers and records flipped", flip, ["job.yaml"] + [f"records/{path}.json
 code, said = hoodoo("run", "made.json", "--out", "out", "--progress", "none", "--resume", "never", "--set", "seed=4")
 code, said = verify()
 ok(code == 0 and said["products"] < 10, "another run in this folder forgets what was made of the one before", code, said)
-fault("products and their records cut, flipped or gone", damaged, "named by `verify`; the commands it gives make them anew, the same bytes")
+fault("products and their records cut, flipped or gone", damaged, "named by `verify`, whose commands make them again with the same bytes")
 finish()

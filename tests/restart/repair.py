@@ -115,5 +115,6 @@ papers("job.yaml is lost", "job.yaml", os.remove)
 papers("job.yaml was edited", "job.yaml", edit)
 papers("run.json is lost", "run.json", os.remove)
 papers("run.json is cut", "run.json", lambda path: os.truncate(path, 10))
-fault("files of frames, checkpoints and papers cut, flipped, edited or gone", damaged, "named by `verify`; `run` makes exactly these anew, the same bytes")
+fault("files of frames, checkpoints, job.yaml and run.json cut, flipped, edited or gone", damaged,
+      "named by `verify`; `run` makes exactly these again with the same bytes")
 finish()
