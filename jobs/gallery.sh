@@ -1,6 +1,6 @@
 #!/bin/sh
-# gallery.sh HOODOO [JOB...]: looks at the jobs beside it (all, or those named), and writes jobs/gallery/NAME.jpg and the page
-# jobs/GALLERY.md of their pictures and of what their first lines say.
+# gallery.sh HOODOO [JOB...]: draws the jobs in this folder (all of them, or those named) into gallery/NAME.jpg, and writes
+# GALLERY.md from all pictures and the first comment of each job.
 set -eu
 cd "$(dirname "$0")"
 hoodoo=$1
@@ -21,19 +21,21 @@ for job in ${*:-*.yaml}; do
     done
 done
 {
-    echo '# The jobs, seen'
+    echo '# Gallery of the jobs'
     echo
-    echo 'Made by `make gallery`, from `hoodoo look` and the first lines of each job. `hoodoo new NAME --like FORM` begins a job of your own with one of them;'
-    echo '`hoodoo look` draws it again at each save. Sharper pictures, with detail below the spacing, are in [`render/gallery`](../render/gallery). What each form'
-    echo 'has to show is measured by `tests/long/forms.py`.'
+    echo '`make gallery` writes this page from `hoodoo look` and the first lines of each job. To start from one of these'
+    echo 'jobs, copy it with `hoodoo new NAME --like EXAMPLE`; `hoodoo look NAME.yaml --watch` draws your copy again at each'
+    echo 'save. The pictures in [`render/gallery`](../render/gallery) are sharper, with detail below the spacing.'
+    echo '`tests/long/forms.py` measures what each form has to show.'
     for job in *.yaml; do
         name=${job%.yaml}
         printf '\n## [%s](%s)\n\n' "$name" "$job"
         for picture in gallery/"$name".jpg gallery/"$name"_[0-9].jpg; do
             [ -f "$picture" ] && printf '![%s](%s)\n' "$name" "$picture"
         done
-        # The comment's paragraphs, without commands and what editors read.
+        # The paragraphs of the first comment, without commands and the line for editors.
         printf '\n'
-        sed -n '/^#/!q; /yaml-language-server/d; s/^#  *hoodoo .*//; s/^# \{0,1\}//; p' "$job" | cat -s | sed -e :a -e '/^\n*$/{$d;N;ba' -e '}'
+        sed -n '/^#/!q; /yaml-language-server/d; s/^#  *hoodoo .*//; s/^# \{0,1\}//; p' "$job" | cat -s |
+            sed -E 's/[a-z_]+(\.[A-Za-z0-9_]+)+/`&`/g' | sed -e :a -e '/^\n*$/{$d;N;ba' -e '}'
     done
 } >GALLERY.md
