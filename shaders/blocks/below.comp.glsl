@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where blocks begin: each voxel of rock points to the one right below it if that is rock too, all others to themselves.
+// Per held voxel: initial pointer, to the solid voxel right below, else to itself.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

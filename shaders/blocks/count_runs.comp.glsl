@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many runs of deep voxels begin in each word of bits; in the word after the last, none.
+// Per word of bits: number of runs of deep voxels that begin in it; 0 in the word after the last.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Loose particles of blocks that are too small to fall as such are crumbs: nothing is left of them where they were.
+// Per loose particle of a block with fewer than `least` particles: it becomes a fragment; its viability is set
+// to 0.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

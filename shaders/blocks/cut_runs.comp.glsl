@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The deep voxels that nothing on the ground holds: their particles are due. Counts them. `list` has the words of bits that have
-// deep voxels; `born` is 0 in all others.
+// Per listed word of bits: marks in `born` the deep voxels of blocks that are not on the ground, whose
+// particles must be created, and counts them. `born` is 0 in all other words.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

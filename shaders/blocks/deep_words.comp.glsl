@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// 1 for each word of bits that has deep voxels.
+// Per word of bits: 1 if it has deep voxels.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

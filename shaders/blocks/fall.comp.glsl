@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Particles that nothing on the ground holds are taken out.
+// Per particle: sets the viability of unsupported ones to 0 and counts them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One round of joining blocks across faces. Every voxel points to its block's root; where a neighbour's root
-// is lower, the own root is hung below it. Minima of integers: the outcome, each block's lowest voxel as its
-// root, does not depend on order. Voxels are numbered upwards, so that this is a voxel on the ground if the
-// block has any. A joint parts what is beside it; what is above lies on what is below.
+// Per solid held voxel, one round of labelling: hangs its root below that of a face neighbour if that is lower.
+// Integer minima: the result, each block's lowest voxel as its root, does not depend on order. Voxels are
+// numbered upwards, so a block's root is in the first slab if the block stands on the ground. Joints separate
+// voxels beside each other; a voxel always rests on the one below.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -19,19 +19,19 @@ PARAMS(join_params)
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
 
-// Whether a joint parts v from the voxel before it, in x (0) or y (1).
+// Whether a joint separates v from the voxel before it in x (axis 0) or y (1).
 bool parts(ivec3 v, uint axis)
 {
     return k.parted != 0u && voxel_inside(v) && (LOAD_U(parted, 2u * voxel_word(v) + axis) & voxel_bit(v)) != 0u;
 }
 
-// The lower one of a root and that of the neighbour v.
+// The smaller of a root and that of the neighbour v.
 uint lower(uint least, ivec3 v)
 {
     uint s = voxel_inside(v) ? voxel_slot(v) : NOT_HELD;
     if (s == NOT_HELD)
         return least;
-    // Roots differ only across a boundary of blocks: look there before asking whether there is rock.
+    // Roots rarely differ, so compare them before reading `solid`.
     uint other = LOAD_U(root, s);
     return other < least && LOAD_U(solid, s) != 0u ? other : least;
 }

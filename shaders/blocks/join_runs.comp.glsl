@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// blocks/join for runs of deep voxels: each is joined with the runs and the solid held voxels across the faces of its voxels, here
-// in both directions at once. `list` has the words of bits that have any.
+// Per listed word of bits: blocks/join for its runs of deep voxels, with the runs and solid held voxels across
+// their faces, in both directions at once.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -26,7 +26,7 @@ void join(uint a, uint b)
     AT(counts, COUNT_CHANGED) = 1u;
 }
 
-// The run at `bit` of word i, and the held voxel that is bit `at` of word w.
+// Joins the run at `bit` of word i with the held voxel at bit `at` of word w.
 void join_held(uint i, uint bit, uint w, uint at)
 {
     uint held = LOAD_U(words, HELD_STRIDE * w);
@@ -35,7 +35,7 @@ void join_held(uint i, uint bit, uint w, uint at)
         join(run_node(i, bit), slot);
 }
 
-// What lies across the faces towards word w, which is of another row.
+// Joins the runs of word i with runs and held voxels of word w, in a neighbouring row.
 void join_row(uint i, uint own, uint w)
 {
     uint both = own & deep_word(w);
@@ -54,7 +54,7 @@ void main()
     if (THREAD >= k.n)
         return;
     uint i = LOAD_U(list, THREAD), own = deep_word(i), across = (k.nx + 31u) >> 5, slab = across * k.ny;
-    // The held voxels before and behind each run of its row.
+    // Held voxels before and after each run in its row.
     for (uint bits = own & ~(own << 1); bits != 0u; bits &= bits - 1u) {
         uint bit = bits & (~bits + 1u);
         if (bit > 1u)

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which particles nothing on the ground holds, of those of which something is left.
+// Per particle: 1 if it has viability left and is unsupported.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

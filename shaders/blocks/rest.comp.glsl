@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Rubble rests on what it lies on across gaps of up to two voxels, which no field of this resolution closes: the
-// empty voxels of such a gap count as solid.
+// Per held voxel: solid, or an empty voxel of a vertical gap of up to two below rubble. Such gaps count as
+// solid, since the surface field cannot close them at this resolution and rubble rests across them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,14 +1,14 @@
-// Deep voxels hang together in runs along x: runs are numbered in the order of all voxels, and each is a node of blocks, behind the
-// held voxels. `first` has how many runs begin before each word of bits. Needs READ_U(words), and for nodes READ_U(first) and
-// k.slots, the number of held voxels; and particles/held.glsl.
+// Runs of deep voxels along x as nodes of blocks, numbered in the order of all voxels behind the held voxels.
+// `first` counts the runs before each word of bits. Needs READ_U(words), for nodes also READ_U(first) and
+// k.slots (the number of held voxels), and particles/held.glsl.
 
-// Which bits of a word begin a run, the bit before its first one being 1 or 0.
+// Bits of a word at which runs begin; `before` is the bit that precedes the word.
 uint run_starts(uint bits, uint before)
 {
     return bits & ~(bits << 1 | before);
 }
 
-// Of the row of word i, the last bit of the word before.
+// The last bit of the word before word i in its row; 0 at the row's start.
 uint last_before(uint i)
 {
     return i % ((HELD_NX + 31u) >> 5) > 0u ? deep_word(i - 1u) >> 31 : 0u;

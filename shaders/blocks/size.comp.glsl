@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many loose particles each block has, and which block each is of: that of its voxel, or the lowest across a face
-// of it.
+// Per loose particle: its block, that of its voxel or the lowest across a face; and counts the loose particles
+// of each block.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Voxels in which the surface field is inside the rock: what counts as connected is what can be seen to be.
-// Threads thinner than a voxel hold nothing. Below the ground is more of the same.
+// Per held voxel: 1 if the surface field is inside the rock there (share >= 1/2), so that rock is connected
+// where the visible surface is. Threads thinner than a voxel hold nothing. Below z = 0 is rock.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
-// Does what stands on the ground hold a particle of this phase in this voxel? The voxel, or one across a face of
-// it, where it is not solid itself, must belong to a block that does. Deposits lie loose, grain by grain: they stay if the rock that the column
-// of deposits below them lies on stays, however thin it is; what lies on nothing is deposition's to move. Needs
-// READ_U of solid, root, words, start and phase, and particles/within.glsl.
+// Support of a particle of a given phase in a voxel. Its voxel, or if that is not solid one across a face, must
+// belong to a block on the ground. Deposits are loose: they stay as long as the rock below their column of
+// deposits stays, however thin it is; deposition moves those with nothing below. Needs READ_U of solid, root,
+// words, start and phase, and particles/within.glsl.
 
 bool stands(ivec3 v)
 {
@@ -9,11 +9,11 @@ bool stands(ivec3 v)
         return false;
     uint s = voxel_slot(v), ground = voxel_rank(ivec3(0, 0, 1));
     if (s == NOT_HELD)
-        return voxel_deep(v); // what does not stand is not left deep
+        return voxel_deep(v); // unsupported voxels are no longer deep here
     return LOAD_U(solid, s) != 0u && LOAD_U(root, s) < ground;
 }
 
-// Solid, and beside a joint perhaps: its own block is what counts.
+// A solid voxel is supported by its own block alone: its neighbours may be across a joint.
 bool has_block(ivec3 v)
 {
     uint s = voxel_slot(v);

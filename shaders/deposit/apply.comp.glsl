@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Crumbs become deposits where they have landed, jittered in their voxels as the first particles are
-// (scene/sample.c), or go. A crumb of which nothing was left begins anew, bare; one that slid keeps what is left of it. Plants
-// grow through what buries them, by its thickness.
+// Per fragment: becomes a deposit in the voxel where it has landed, jittered as the initial particles are
+// (scene/sample.c), or is removed, or keeps waiting. One whose viability was used up starts with viability 1
+// and no plants; one that slid keeps both. Plants that it buries grow through it by a share that falls with its
+// thickness.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -27,14 +28,14 @@ PARAMS(deposit_params)
 #include "shared/random.glsl"
 
 const float JITTER = 0.25;
-const float STILL_TO_COME = -1.0 / 4096.0; // the viability of a crumb that waits, at most
+const float STILL_TO_COME = -1.0 / 4096.0; // upper bound of a waiting fragment's viability
 
 float jitter(uint hash, uint axis)
 {
     return 0.5 + JITTER * (2.0 * random_float(random_hash(hash, axis, 0u, 0u)) - 1.0);
 }
 
-// What comes through to a voxel of the cover below it. Crumbs that have landed in between are not indexed yet.
+// Share of the plant cover below that grows through to a voxel. Fragments landed in between are not indexed yet.
 float cover_below(ivec3 v)
 {
     float through = k.through;

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each crumb's id, and the cell it sets out from: its own, or where that one lies in the rock, one across a face
-// that does not, the upper first; failing that, its own, and it leaves. The wind takes some of those that were rock. Its voxel is
-// free from now on.
+// Per fragment: its id and its start cell: its own, or if that is solid the first open one across a face, the
+// upper first; if there is none it leaves the domain. A hashed share of the fragments of rock leaves as dust.
+// Its voxel becomes free.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

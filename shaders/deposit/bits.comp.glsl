@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which voxels hold a particle that is not a crumb: a bit each, 32 of a column to a word.
+// Per word of 32 voxels of a column: bit set where a voxel holds a particle that is not a fragment.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

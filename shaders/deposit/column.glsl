@@ -1,5 +1,5 @@
-// Heights of columns, from their bits. Needs READ_U(bits), k.walls and particles/bits.glsl. Beyond walls lies the mirror image,
-// the domain's open sides go on as they are, and below the ground all is solid.
+// Column heights from the bits. Needs READ_U(bits), k.walls and particles/bits.glsl. Beyond walls the ground is
+// mirrored, beyond open sides it continues level, below z = 0 everything is solid.
 #include "particles/sides.glsl"
 
 uint column_word(int x, int y, int w)
@@ -24,8 +24,8 @@ uint column_bits(int x, int y, int z)
     return s == 0 ? low : (low >> s) | (column_word(x, y, w + 1) << (32 - s));
 }
 
-// The floor of column (x, y) as one who stands on z comes to it: the first free voxel upwards if z is solid,
-// else the lowest free one below; relative to z, -16 to 16.
+// The floor of column (x, y) seen from height z: the first free voxel above if z is solid, else the lowest free one below.
+// Relative to z, -16 to 16.
 int floor_near(int x, int y, int z)
 {
     uint b = column_bits(x, y, z - 16);
@@ -36,8 +36,7 @@ int floor_near(int x, int y, int z)
     return findMSB(b & 0xffffu) - 15;
 }
 
-// The lowest free voxel over the highest solid one of a cell's column, looked for from two voxels over the cell
-// (base z) down; 28 below at most.
+// The free voxel on top of a cell's column, searched from two voxels above the cell (base z) downwards, at most 28 below.
 int floor_in(int x, int y, int z)
 {
     return z + 4 - 31 + findMSB(column_bits(x, y, z + 4 - 32));

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Counts deposits, in runs of SCAN_RUN particles.
+// Per run of SCAN_RUN particles: counts its deposits.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

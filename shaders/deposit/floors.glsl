@@ -1,15 +1,15 @@
-// Where a crumb can lie in a cell. No two cells share a voxel to land in: a cell's are its own, those of the empty
-// cell above it, and those of the cell below it if that is not empty. Needs READ_U(tag) and READ_U(bits).
+// The voxels in which a fragment can land, by cell. No two cells share one: a cell has its own, those of the
+// empty cell above, and those of the cell below if that is not empty. Needs READ_U(tag) and READ_U(bits).
 
 const int NOWHERE = 0x7fffffff;
 
-// The highest voxel of the domain to land in.
+// The highest voxel in which a fragment of the cell can land.
 int ceiling(ivec3 base)
 {
     return min(base.z + 3, int(k.nz) - 1);
 }
 
-// The free voxel over each of the cell's columns, NOWHERE if a crumb cannot lie there.
+// The free voxel on top of each of the cell's columns; NOWHERE if a fragment cannot land there.
 ivec4 floors(ivec3 c, ivec3 base)
 {
     bool deep = c.z > 0 && (LOAD_U(tag, cell_index(c - ivec3(0, 0, 1))) & WATER_KIND) != WATER_EMPTY;

@@ -1,4 +1,4 @@
-// The rock as bits of columns, and the routing's cells. Needs READ_U(bits) for column(), and voxel.glsl.
+// Routing cells and voxels: 2^3 voxels to a cell, on a shifted grid. Needs voxel.glsl.
 
 ivec3 cell_of(ivec3 v)
 {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The cells in which crumbs may land: with rock under air, where nothing leaves.
+// Per cell: 1 if fragments may land in it: rock under air, not an outlet.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

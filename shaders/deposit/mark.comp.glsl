@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Crumbs: particles of which nothing is left, and deposits with nothing below them, or only such.
+// Per particle: 1 if it is a fragment: its viability is used up, or it is a deposit with nothing but deposits
+// below and these with nothing below them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -16,13 +17,13 @@ PARAMS(deposit_params)
 #include "particles/held.glsl"
 #include "particles/within.glsl"
 
-// What is in a voxel: 0 nothing, 1 deposits alone, 2 rock.
+// Content of a voxel: 0 nothing, 1 only deposits, 2 rock.
 uint inside(ivec3 v)
 {
     uvec2 in_voxel = voxel_particles(v);
     uint most = voxel_deep(v) ? 2u : 0u;
     for (uint j = in_voxel.x; j < in_voxel.y; j++)
-        if (LOAD_F(viability, j) != 0.0) // what has yet to come to rest counts as if it had not gone yet
+        if (LOAD_F(viability, j) != 0.0) // waiting fragments (viability < 0) still count
             most = max(most, LOAD_U(phase, j) == 1u ? 1u : 2u);
     return most;
 }

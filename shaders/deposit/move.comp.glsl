@@ -1,11 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where each crumb would land now: on from where it broke off, from the ground to one of the lower cells beside it, as likely as
-// it is lower, to the first cell that takes crumbs; and if that is far, along the pointers. Where more come than it takes, the
-// others look again in the next round, over the ground as it has risen: so many that come at once lie as they would if they had
-// come one after another. Those whose way ends where nothing may land have left if it is the domain's edge, else they wait. The
-// key is the cell, or the number of cells for those that wait no longer. In the last round what has eroded waits for the next
-// landing; the rest, and all if there is to be none, lands where its way ends.
+// Per fragment, one round: follows its path from where it broke off to the first cell that accepts fragments,
+// and writes that cell as the sort key (the number of cells if it no longer waits). From ground it goes to one
+// of the lower cells beside, with probability proportional to the drop; after NEAR steps it follows the
+// pointers. Where more fragments arrive than a cell accepts, the rest try again in the next round over the
+// risen ground, so that many at once settle as they would one after another. A path that ends at an outlet
+// leaves the domain. In the last round eroded fragments wait for the next landing and the others settle where
+// their path ends; if no landing follows, all do.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -30,8 +31,8 @@ PARAMS(deposit_params)
 
 const uint NEAR = 64u; // cells
 
-// The cell of the ground that lies `drop` lower (in four columns) beside the cell with this top: over rock, or
-// where a fall ends.
+// The ground cell in the neighbouring column of cells that is `drop` lower (summed over four columns) than `top`: on rock, or where
+// a fall ends.
 uint ground(ivec3 c, int top, uint drop)
 {
     c.z = (top - 1 - int(drop >> 2) + k.sz) >> 1;
@@ -67,7 +68,7 @@ uint next(uint c, uint hash)
     return to == 0xffffffffu ? LOAD_U(receiver, c) : to;
 }
 
-// Where the way of crumb i ends for now.
+// Where the path of fragment i ends in this round.
 uint way_end(uint i, uint c)
 {
     uint id = LOAD_U(crumb_id, i);

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A cell's pointer before it is doubled: itself where crumbs may land, else its receiver.
+// Per cell: initial pointer, to itself if fragments may land in it, else to its receiver (Arenite section 7,
+// before pointer jumping).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

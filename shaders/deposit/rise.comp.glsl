@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The voxels in which crumbs have landed are solid from now on. Counts those that still wait.
+// Per fragment: sets the bit of the voxel in which it has landed, and counts those that still wait.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many crumbs may land in each cell of the ground before it is unstable, by the slope half way through the
-// landing of each; 0 where it is unstable or water carries them
-// on. A hollow always takes one: there is nowhere to go from it.
+// Per ground cell: how many fragments it accepts before its slope exceeds repose, measured when each is half
+// landed. 0 where the ground is too steep or water would carry them on. A hollow always accepts one, since no
+// path leads out of it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

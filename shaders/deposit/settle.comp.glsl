@@ -1,10 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Crumbs waiting in a cell land in it, in the order of their ids, as many as there is room for: each on the
-// column that lies deepest below the mean of those around it, so that the ground gets no rougher than it is and
-// keeps its slope. In the last round all that have come land where they find a free voxel; for the others there is no place.
-//
-// One invocation a crumb; the first of each cell places them all.
+// Per fragment, the first of each cell acting for all: fragments that wait in a cell land in it in the order of
+// their ids, as many as it accepts. Each takes the column that is deepest below the mean of its neighbours, so
+// that the ground becomes no rougher and keeps its slope. In the last round all that have arrived land where
+// there is a free voxel.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -29,7 +28,7 @@ int beside(int f, int z)
     return f == NOWHERE ? 0 : clamp(f - z, -16, 16);
 }
 
-// How far column q's floor is below those of the four columns beside it, in all.
+// How far column q's floor is below those of the four columns beside it, summed.
 int depth(ivec3 base, ivec4 f, int q)
 {
     int x = q & 1, y = q >> 1, z = f[q];

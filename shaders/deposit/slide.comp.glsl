@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Of a cell's deposits that lie too steep to stay, the one on the highest column becomes a crumb. That angle is larger than the one
-// at which they come to rest, as it is for sand, so that what has landed does not slide at once; and what slides comes to rest lower.
-// It is measured around the deposit's own column, wherever the routing's cells lie, so that what lies still goes on doing so until
-// something near it changes.
+// Per ground cell: of its deposits that rest on too steep a slope, the one on the highest column becomes a
+// fragment. The angle at which deposits start to slide is larger than that at which they come to rest, as for
+// sand, so that what has landed does not slide at once. The slope is measured around the deposit's own column
+// and not in routing cells, so that a heap at rest stays at rest until something near it changes.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -24,11 +24,10 @@ PARAMS(deposit_params)
 
 const float STEEP = 0.25;         // tangent beyond that of repose at which deposits begin to slide: 8 degrees for scree at 34
 const int STEEP_REACH = 2;        // columns to each side whose heights the slope is fitted to
-const float STEEP_SQUARES = 50.0; // the sum of the squares of their distances along an axis
-const int STEEP_DROP = 3;         // voxels: beside a higher step nothing lies, and no cliff counts for more
+const float STEEP_SQUARES = 50.0; // sum of the squares of their distances along an axis
+const int STEEP_DROP = 3;         // voxels: a deposit beside a step of this height slides, and higher steps count as this
 
-// The slope's part along an offset, from the drops to both of its ends: the mean drop per step, or where one end stands on a wall,
-// that to the other.
+// Drop along an offset, from the drops to both of its ends: their mean, or where one end is up a wall only that to the other.
 float along(int a, int b, float far)
 {
     float down = float(min(max(a, b), STEEP_DROP)), up = -float(min(a, b));
@@ -36,7 +35,7 @@ float along(int a, int b, float far)
     return a > b ? drop : -drop;
 }
 
-// Does a deposit that lies under the free voxel z of a column lie too steep?
+// Whether a deposit below the free voxel z of a column is on too steep a slope.
 bool steep(int x, int y, int z)
 {
     vec2 gradient = vec2(0.0);
@@ -50,7 +49,7 @@ bool steep(int x, int y, int z)
     return length(gradient) / STEEP_SQUARES > k.repose + STEEP;
 }
 
-// The deposit on top of a column of the cell, if it lies too steep, and higher than those before.
+// Updates `found` with the deposit on top of a column of the cell if that is too steep and higher than those before.
 void look(ivec3 base, int x, int y, inout int highest, inout uint found)
 {
     int z = floor_in(base.x + x, base.y + y, base.z) - 1;

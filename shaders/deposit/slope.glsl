@@ -1,17 +1,17 @@
-// How steep the ground of a cell is, from means of heights over its four columns and over twelve on each side of
-// it, two and a half voxels off. Two measures, for each fails where the other holds:
+// Slope of the ground in a cell, from the mean heights of its four columns and of twelve columns on each side,
+// centred 2.5 voxels away. Two measures, since each fails where the other holds:
 //
-//   flank   the gradient between the sides, which a cell's own roughness does not blur: this one is held to the
-//           angle of repose. Uphill of it a wall may stand; then only the downhill side counts.
-//   tip     the upwind gradient, the root of the squares of the larger downhill difference of each axis. On the
-//           tip of a heap or on a crest the flank is flat, and spikes would grow; and it is what one crumb more in
-//           the cell changes. Plain differences instead of the root would make diamonds of cones.
+//   flank   the central gradient, which the cell's own roughness does not blur; limited to the angle of repose. Where a
+//           wall stands uphill, only the downhill side counts.
+//   tip     the upwind gradient: root of the squares of the larger downhill difference along x and y. On the tip of a heap
+//           or on a crest the flank is flat and spikes would grow; and this is what one more fragment in the cell changes.
+//           A sum of differences instead of the root would turn cones into diamonds.
 
 const float SLOPE_ARM = 2.5;                // voxels between the means
-const float SLOPE_GRAIN = 0.25 / SLOPE_ARM; // what one more particle adds to the tip
-const float SLOPE_TIP = 1.15;               // tips may be steeper by this factor; an ideal cone's is, by 1.41
+const float SLOPE_GRAIN = 0.25 / SLOPE_ARM; // increase of the tip slope by one more particle
+const float SLOPE_TIP = 1.15;               // tips may be steeper by this factor; an ideal cone's is by 1.41
 
-// The free voxel over the highest column of the cell with this base.
+// The free voxel on top of the highest column of the cell with this base.
 int cell_top(ivec3 base)
 {
     return max(max(floor_in(base.x, base.y, base.z), floor_in(base.x + 1, base.y, base.z)),
@@ -37,7 +37,7 @@ struct slope {
     float flank; // tangent
 };
 
-// Along an axis, from the drops to its two sides.
+// Drop along an axis, from the drops to its two sides.
 float across(float a, float b)
 {
     float down = max(a, b), up = -min(a, b);
@@ -53,14 +53,14 @@ slope slope_of(ivec3 base, int top)
     return slope(vec2(max(d.x, d.y), max(d.z, d.w)), length(vec2(across(d.x, d.y), across(d.z, d.w))));
 }
 
-// Is the ground stable with `more` particles more in the cell?
+// Whether the ground is stable with `more` additional particles in the cell.
 bool stable(slope s, float more, float tan_repose)
 {
     return s.flank <= tan_repose && length(max(s.tip + more * SLOPE_GRAIN, 0.0)) <= SLOPE_TIP * tan_repose;
 }
 
-// How much lower the ground is in the cells beside this one, east, west, north and south, in voxels of four
-// columns; 0 where it is not.
+// How much lower the ground is in the cells to the east, west, north and south, summed over four columns, in voxels; 0 where it
+// is not.
 uvec4 drops(ivec3 base, int top)
 {
     int own = heights(base, ivec2(2, 2), top);

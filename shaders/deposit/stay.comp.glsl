@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Deposits that slid and have found no room stay where they were, unless another has come to lie in their voxel.
+// Per fragment, in the last round: deposits that slid and have found no cell keep their old voxel, unless
+// another fragment has landed in it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

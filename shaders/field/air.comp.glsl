@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How fast the wind is over each pixel. It is met one spacing of its lattice off the surface, as it is still on the rock
-// itself.
+// Per pixel: wind speed over the surface, sampled one spacing of the air's lattice off the rock, since it is 0
+// on the rock itself.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,5 +1,5 @@
-// Calls add(voxel, weight) for a voxel and its neighbours, weighted as in the rock's share (particles/share.glsl).
-// Needs void add(ivec3 v, float weight).
+// Calls add(voxel, weight) for a voxel and its 18 face and edge neighbours with the weights of
+// particles/share.glsl. Needs void add(ivec3 v, float weight).
 
 void add_around(ivec3 v)
 {

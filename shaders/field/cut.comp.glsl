@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where the rock goes on behind a wall, files and pictures end all the same: the domain's side cuts it, plane and sharp,
-// and leaves what lies before it as it is.
+// Per sample beside a wall: cuts the rock off plane at the domain's side, although it continues beyond, and
+// leaves the inside as it is.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

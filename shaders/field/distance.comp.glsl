@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One sweep of the distance outwards from the surface: |grad phi| = 1, upwind (Rouy and Tourin 1992). Samples
-// beside the surface keep what field/front gave them.
+// Per sample, one sweep of the distance outwards from the surface: |grad phi| = 1, upwind (Rouy and Tourin
+// 1992). Samples beside the surface keep their values from field/front.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

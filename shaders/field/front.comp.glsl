@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Signed distance of the samples beside the surface, where the rock's share is 1/2: to the plane through the
-// points at which that is reached along the axes, by linear interpolation, or by extrapolation where it lies
-// beyond the next sample. All others are 3 voxels away until field/distance says more.
+// Per sample: signed distance of samples beside the surface (share = 1/2), to the plane through the points at
+// which the axes cross it, by linear interpolation, or by extrapolation if it lies beyond the next sample. All
+// others are set to 3 voxels, for field/distance to refine.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,11 +1,13 @@
-// The surface of heaps as it is shown: particles hold it by whole voxels, so each column of deposits is given a height, and what is
-// steeper than repose between two columns slides from one to the other, as in a heap of sand. A column is known by the voxel on top
-// of its deposits, or over bare rock, its head: `height` has its height there in HEAP_UNITs of a voxel, and HEAP_NONE elsewhere. Needs
-// field/lattice.glsl, particles/voxel.glsl, particles/bits.glsl and particles/sides.glsl.
+// The displayed surface of heaps. Particles store deposits by whole voxels, so each column of deposits gets a
+// height, and where the slope between two columns exceeds repose, material slides from one to the other. A
+// column is identified by its head, the voxel on top of its deposits or above bare rock. `height` holds its
+// height in that voxel in HEAP_UNITs, and HEAP_NONE elsewhere. Needs field/lattice.glsl, particles/voxel.glsl,
+// particles/bits.glsl and particles/sides.glsl.
 //
-// A heap at rest must look the same in every frame, so what shows of it depends on little else than its own columns. Heights are whole
-// numbers of a unit, so that slides end instead of fading out over the whole heap, where each grain that lands would stir all of it.
-// And bare rock counts as full voxels until they are gone, so that a heap does not creep after the rock that weathers beside it.
+// A heap at rest must look the same in every frame, so its surface depends on little but its own columns.
+// Heights are integers, so that slides end instead of fading out over the whole heap, where each grain that
+// lands would stir all of it. Bare rock counts as full voxels until these are gone, so that a heap does not
+// creep as the rock beside it weathers.
 
 const float HEAP_NONE = -1e9;
 const float HEAP_UNIT = 64.0; // to a voxel

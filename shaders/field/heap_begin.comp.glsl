@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The heads of columns: their heights, as particles have them, and how far down their deposits go.
+// Per sample: finds the heads of columns, their heights from the particles, and the depth of their deposits.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

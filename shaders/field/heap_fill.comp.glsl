@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much of each sample's voxel is filled: by deposits, up to the heights of their columns, or below 0 by rock, as it was.
+// Per sample: how much of its voxel is filled: by deposits up to their columns' heights, or as a negative
+// number by rock.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A sweep over the columns: what lies too steep between two of them slides, a part of it at a time. Each takes from one neighbour
-// what that one gives it, so that nothing is lost.
+// Per column, one sweep: part of what exceeds repose between two columns slides to the lower one. Each column
+// gathers what its neighbours give, so the volume is conserved.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which bricks are kept: those with samples FIELD_REACH or nearer both to rock and to what is not all rock. Farther off the share
-// is 0 or 1 and the distance that of one of the band's ends: the share is of neighbours, the surface lies between those, and the
-// band is 3 wide from there. Those that are not kept get their slots, for they are all outside or all inside.
+// Per brick: 1 if it is kept: if it has samples within FIELD_REACH both of rock and of what is not all rock.
+// Farther away the share is 0 or 1 and the distance is at an end of the band (3 wide). Bricks that are not kept
+// get a slot that says all outside or all inside.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

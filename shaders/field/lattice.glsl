@@ -1,5 +1,5 @@
-// The field's samples: k.fx by k.fy by k.fz of them, kept by bricks of 8^3 as particles/grids.h numbers them. Sample i of the
-// buffers is sample i % 512 of the brick list[i / 512].
+// Samples of the field: k.fx by k.fy by k.fz, stored by bricks of 8^3 (numbered as in particles/grids.h). Item
+// i of the buffers is sample i % 512 of brick list[i / 512].
 
 const uint BRICK_SAMPLES = 512u;
 

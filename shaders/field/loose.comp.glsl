@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much of each sample's voxel is filled: by deposits, or below 0 by rock. A deposit takes its room until water has taken all of
-// it: its viability is what is left of that.
+// Per sample: how much of its voxel is filled: by deposits, or as a negative number by rock. A deposit fills
+// its voxel by its viability, which only water reduces.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One ray a pixel into the distance field: where it meets the rock, the normal there, and what light does.
-// hit = (P, camera-plane depth; -1: nothing; HIT_GROUND - depth: the ground around); facing = (N, LIT_SUN + LIT_SKY). With several samples a pixel each takes
-// its own point of the sun's disc and its own direction of the sky.
+// Per pixel: marches one ray through the distance field: hit point, normal and lighting.
+// hit = (P, camera-plane depth; -1: nothing; HIT_GROUND - depth: the ground around). facing = (N, LIT_SUN +
+// LIT_SKY). With several samples per pixel each has its own point on the sun's disc and its own direction of
+// the sky.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "shared/random.glsl"

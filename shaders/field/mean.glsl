@@ -1,7 +1,8 @@
-// What kernels share that write the mean of something over the particles of a sample's voxel and its neighbours, weighted as in the
-// rock's share; 0 where there are none. Before this: the buffers words, start, list, share and mean, PARAMS(field_params), and
+// Body of kernels that compute the mean of a value over the particles of a sample's voxel and its neighbours,
+// with the weights of particles/share.glsl; 0 where there are none. Before including it, declare the buffers
+// words, start, list, share and mean and PARAMS(field_params), and define
 //   COUNTS(j)  whether particle j counts
-//   OF(j)      its number
+//   OF(j)      its value
 #include "field/lattice.glsl"
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the rock around a sample carries: means of stress, von Mises stress and viability, and the share of deposits, over the
-// particles of the sample's voxel and its neighbours, weighted as in the rock's share; 0 where there are none. Farther than
-// NEAR_REACH voxels from an empty one there need not be any: stress is 0 here (model/inside.h), and of the rest the voxel's own.
+// Per sample: means of stress, von Mises stress and viability, and the share of deposits, over the particles of
+// its voxel and the neighbours, with the weights of particles/share.glsl; 0 where there are none. Farther than
+// NEAR_REACH voxels from an empty one there may be no particles: stress is 0 here (see model/inside.h), the
+// others are the voxel's own.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

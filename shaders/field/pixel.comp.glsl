@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the particle under each pixel has in one of its fields, whatever it means: a word, as it is. 0 where there is no
-// rock.
+// Per pixel: one field of the particle under it, copied as a word; 0 where there is no rock.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

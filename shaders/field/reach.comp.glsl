@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where in each brick there is rock, and where there is not: the corners of the box of its samples of which more than 0 is rock,
-// three bits a number, and EXTENT_ANY, 0 where there are none; and of those of which less than all is. The voxels, k.nx by k.ny by
-// k.nz, begin at the field's sample k.margin.
+// Per brick: the bounding box of its samples with any rock, three bits per coordinate and EXTENT_ANY (0: none),
+// and that of its samples that are not all rock. The voxels (k.nx, k.ny, k.nz) begin at the field's sample
+// k.margin.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

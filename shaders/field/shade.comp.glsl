@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What lies under each pixel: the fields there, and the stone's colour under sun and sky. Of several samples,
-// the last of which comes first, the colour is the mean; all else is sample 0's.
-// fields = the means there (stress, von Mises, viability, deposits); color = linear RGB and alpha; ids = layer, phase and
+// Per pixel: fields at the hit point, and the stone's colour under sun and sky. With several samples, the last
+// of which comes first, the colour is their mean and the rest is that of sample 0.
+// fields = means (stress, von Mises, viability, deposits); color = linear RGB and alpha; ids = layer, phase and
 // number of the nearest particle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The rock's share of space at each sample of the field, which are the voxels' middles and a margin of air
-// around the domain.
+// Per sample: share of rock around it (particles/share.glsl). Samples are the voxels' centres and a margin of
+// air around the domain.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

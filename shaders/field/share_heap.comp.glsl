@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The rock's share of space at each sample, as field/share has it, from what fills the samples' voxels. A heap's surface
-// goes on level into rock beside it, so that it neither stirs as that weathers nor climbs at it: a neighbour that is rock counts as filled as
-// the heap's own column is at its height.
+// Per sample: share of rock as in field/share, from what fills the samples' voxels. A heap's surface continues
+// level into rock beside it, so that it neither stirs as that weathers nor climbs it: a neighbour of rock
+// counts as filled to the height of the heap's own column.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

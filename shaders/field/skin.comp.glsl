@@ -1,8 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the surface carries at each sample of the field: the mean of a value over the surface's particles (those
-// with a normal) in the sample's voxel and its neighbours, weighted as in the rock's share; 0 where there are
-// none.
+// Per sample: mean of a value over the surface particles (those with a normal) of its voxel and the neighbours,
+// with the weights of particles/share.glsl; 0 where there are none.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each kept brick's place in the list, and one more.
+// Per kept brick: its place in the list plus 1.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,4 +1,5 @@
-// The distance field between its samples. Needs READ_U(slot), READ_F(distance_field) and k.voxel, k.origin_*, k.fx...
+// Trilinear interpolation of the distance field. Needs READ_U(slot), READ_F(distance_field) and k.voxel,
+// k.origin_*, k.fx, k.fy, k.fz.
 #include "field/lattice.glsl"
 
 // x in samples from the first.

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One component of a vector that particles carry, at each sample of the field: its mean over the particles of the sample's voxel
-// and its neighbours, weighted as in the rock's share; 0 where there are none.
+// Per sample: mean of one component of a particles' vector over its voxel and the neighbours, with the weights
+// of particles/share.glsl; 0 where there are none.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The numbers of the items whose flag is set, in order; place is the flags' scan.
+// Per item: if its flag is set, writes its number to the list at the flags' exclusive prefix sum.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

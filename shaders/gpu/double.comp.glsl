@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One pass of pointer doubling: to[i] = from[from[i]]; sets changed[0] if any pointer moved.
+// Per item, one pass of pointer doubling: to[i] = from[from[i]]. Sets changed[0] if any pointer moved.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

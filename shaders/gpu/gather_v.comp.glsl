@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// to[i] = from[order[i]]
+// Per item: to[i] = from[order[i]], vec4.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

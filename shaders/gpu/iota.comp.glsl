@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// values[i] = i
+// Per item: values[i] = i.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The last step of a reduction: REDUCE_THREADS partial values to scalars[slot], by one group in a fixed tree.
+// One group: reduces REDUCE_THREADS partial values to scalars[slot] in a fixed tree.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

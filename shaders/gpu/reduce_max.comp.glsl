@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// REDUCE_THREADS partial maxima of absolute values; a NaN anywhere gives infinity.
+// Per partial value: maximum of |x| over every REDUCE_THREADS-th value. A NaN gives infinity.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

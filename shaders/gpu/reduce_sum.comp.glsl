@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// REDUCE_THREADS partial sums of floats, each over every REDUCE_THREADS-th value: the same tree on every
-// device.
+// Per partial value: sum over every REDUCE_THREADS-th value. The tree of additions is the same on every device.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Second half of a scan: each run's values become the sums of all before them. In place.
+// Per run of SCAN_RUN values, second half of an exclusive prefix sum, in place.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// First half of a scan: the sum of each run of SCAN_RUN values.
+// Per run of SCAN_RUN values, first half of a prefix sum: the run's sum.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many items have each key.
+// Per item, counting sort: counts the items of each key.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// An item's place among those of its key is the number of them with a smaller id: the same on every run,
-// whatever order the scatter took.
+// Per item: its rank among those of its key, the number of them with a smaller id. So the order does not depend
+// on that of the scatter.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each item to some place among those of its key; sort_rank puts them in order.
+// Per item: puts it into any free place of its key; sort_rank then orders them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The voxels that are rock, as bits: deep ones, and those with a particle that is neither a deposit nor falling.
+// Per word of bits: voxels that are rock: deep ones, and those with a particle that is neither a deposit nor
+// falling.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What seepage above its threshold adds to the intensity on bare rock, by the share of the voxel that it wets. The front goes back by as much
-// as that says: what the particle's bare faces would make of it (erosion/weather) is divided out.
+// Per surface particle of rock: intensity += k (q - q_c)+ times the share of its voxel that is wet. The
+// division by the bare area cancels the factor that erosion/weather applies, so that the front retreats by this
+// rate.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

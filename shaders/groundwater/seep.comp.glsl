@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much water comes out of bare rock; and rock that it wets interlocks as if it were so much weaker.
+// Per surface particle of rock: seepage q, m/yr; and wet rock's erodibility, whose interlocking threshold is
+// lowered with its strength.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "erosion/rate.glsl"

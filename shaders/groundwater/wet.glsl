@@ -1,4 +1,5 @@
-// What of a voxel is wet, by what columns.h finds of each bed in its column. Needs READ_V(wet), PARAMS(seep_params), particles/voxel.glsl.
+// The wet share of a voxel and its seepage, from what columns.h computes for each bed of its column. Needs
+// READ_V(wet), PARAMS(seep_params), particles/voxel.glsl.
 
 // The share of the voxel that is in the wet zone of a face. w: (base, top, seepage of the face, seepage of the top).
 float wet_zone(ivec3 v, vec4 w)

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where a part begins: the particles of one group in one cell.
+// Per particle: 1 if it is the first of a part, the particles of one group in one cell.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,5 +1,4 @@
-// The bodies that reach a node, in the order in which its cells have them. Needs READ_U of slot, many and
-// part_body.
+// The bodies that reach a node, in the order of its cells. Needs READ_U of slot, many and part_body.
 
 uint bodies_at(uint node, out uint bodies[MPM_BODIES])
 {

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which entries of a node, each a piece's, joints that hold keep together there: each one's first in its group.
-// Pieces whose own joint has parted them open here though others between them hold on to both: those go with one.
+// Per mixed node: groups its entries, each a piece's, by the joints that hold between them; an entry's group is
+// the first entry of it. Two pieces whose own joint has parted stay in different groups even if a third piece
+// holds on to both; the third goes with one of them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -14,8 +15,7 @@ READ_U(5, holds)
 WRITE_U(6, group)
 PARAMS(mpm_load_params)
 
-// How the joint between two pieces stands, 0: there is none; 1: it holds; 2: it has parted them. Numbers as in
-// mpm/load. Grains are with no piece.
+// State of the joint between two pieces: 0 none, 1 holds, 2 has parted them. Numbering as in mpm/load. Loose grains have no joints.
 uint joint_between(uint a, uint b)
 {
     if (a == MPM_LOOSE || b == MPM_LOOSE)

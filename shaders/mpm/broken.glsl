@@ -1,6 +1,6 @@
-// Is a particle a loose grain? At a joint that still holds its piece it is not, though it has cracked.
+// Whether a particle is a loose grain. A cracked particle at a joint that still holds its piece is not.
 
-// Of a joint that has parted two pieces; MPM_NO_JOINT has it too.
+// Bit in MPM_JOINT: the joint has parted its pieces. MPM_NO_JOINT has it set, too.
 const uint PARTED = 0x80000000u;
 
 bool is_loose(float apart, uint joint)

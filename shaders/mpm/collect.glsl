@@ -1,5 +1,5 @@
-// Grid to particles: velocity and its gradient where a particle is, in units of dx: 4 sum w v (x_i - x_p) per
-// axis. One axis after the other. Needs READ_U(reach), READ_V(velocity), mpm/grid.glsl.
+// Grid to particles: v = sum w_i v_i and its gradient times dx, 4 sum w_i v_i (x_i - x_p)^T / dx, axis by axis
+// (the affine matrix C of APIC times dx). Needs READ_U(reach), READ_V(velocity), mpm/grid.glsl.
 
 vec3 met(uint part, uint a)
 {

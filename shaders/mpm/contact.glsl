@@ -1,4 +1,4 @@
-// Contact with ground and resting rock, which bodies may leave but not enter and rub along by Coulomb's law.
+// Contact with ground and resting rock: bodies may separate but not enter, with Coulomb friction.
 
 vec3 off_wall(vec3 v, vec3 n)
 {
@@ -10,7 +10,7 @@ vec3 off_wall(vec3 v, vec3 n)
     return speed > 0.0 ? along * max(1.0 + k.friction * into / speed, 0.0) : vec3(0.0);
 }
 
-// At the domain's walls there is no friction: what lies behind them is the mirror image, which moves along.
+// No friction at the domain's walls: beyond them is the mirror image, which moves along.
 vec3 off_sides(vec3 v, ivec3 a)
 {
     if ((k.walls & WALL_X_MIN) != 0u && a.x <= 1)
@@ -24,7 +24,7 @@ vec3 off_sides(vec3 v, ivec3 a)
     return v;
 }
 
-// `wall`: the normal out of resting rock at the node, and whether there is any.
+// `wall`: normal out of resting rock at the node (xyz); 1 in w if the node is inside resting rock.
 vec3 off_walls(vec3 v, vec4 wall, uint node)
 {
     if (k.rock != 0u && wall.w > 0.0)

@@ -1,8 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Of each joint, how many particles it has and how many of them have cracked, or that it has parted two pieces
-// before; and, after those, how many whole ones
-// each piece has.
+// Per particle: counts, for each joint, its particles and those that have cracked, or flags that it has parted
+// already; and for each piece its particles that are not loose.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each node's entries, one for each body that reaches it: a mass and a velocity of their own.
+// Per node: its entries, one for each body that reaches it, with a mass and a velocity of their own.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Resting rock as single particles meet it: the bits of the voxels that it fills by more than a half.
+// Per word of voxel bits: the voxels that resting rock fills by more than half, against which single particles
+// collide (gather.comp.glsl).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

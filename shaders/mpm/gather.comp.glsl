@@ -1,7 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Grid to particles, for rock in motion: velocity, place and deformation; what breaks under tension (Rankine)
-// or slides; and the impulse of its stress, for the next step.
+// Per particle in motion, grid to particles: x += dt v, H += dt (G + G H) for the velocity gradient G, F = I +
+// H; rock breaks where the largest principal stress exceeds its strength (Rankine), broken rock yields by
+// Drucker-Prager (rock.glsl). Stores Q = G - dt 4 / (rho dx^2) tau for the next step's transfer (Hu et al.
+// 2018, eq. 29).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -33,7 +35,7 @@ bool resting_rock(vec3 x)
     return voxel_inside(v) && (LOAD_U(full, voxel_word(v)) & voxel_bit(v)) != 0u;
 }
 
-// What is left of v once axis a is stopped: nothing along it, and less across it, by friction.
+// v after a collision along axis a: 0 along it, reduced by friction across it.
 vec3 stopped(vec3 v, int a)
 {
     float into = abs(v[a]);
@@ -42,7 +44,7 @@ vec3 stopped(vec3 v, int a)
     return speed > 0.0 ? v * max(1.0 - k.friction * into / speed, 0.0) : v;
 }
 
-// The way from x by d as far as ground and resting rock let it go, axis by axis.
+// Moves x by d as far as ground, walls and resting rock allow, axis by axis, and stops v accordingly.
 vec3 go(vec3 x, vec3 d, inout vec3 v)
 {
     vec3 to = x + d;
@@ -57,7 +59,7 @@ vec3 go(vec3 x, vec3 d, inout vec3 v)
                 to = next;
         }
     }
-    for (int a = 0; a < 2; a++) { // walls, which do not rub
+    for (int a = 0; a < 2; a++) { // walls, without friction
         float end = float(a == 0 ? k.cx : k.cy) * k.dx;
         if ((k.walls & (a == 0 ? WALL_X_MIN : WALL_Y_MIN)) != 0u && to[a] < 0.0) {
             to[a] = 0.0;
@@ -91,7 +93,7 @@ void main()
 
     mat3 next = h + k.dt * (g + g * h), f = next + mat3(1.0);
     float volume = determinant(f);
-    if (volume < 0.1 || volume > 8.0) { // crushed or torn beyond what an elastic law describes
+    if (volume < 0.1 || volume > 8.0) { // outside the range of the elastic law
         loose = max(loose, 0.0);
         f = h + mat3(1.0);
     }

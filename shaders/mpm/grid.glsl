@@ -1,4 +1,4 @@
-// The lattice of nodes and base cells, and the particles' place in it. Needs mpm_params.
+// The lattice of nodes and base cells, and a particle's position in it. Needs mpm_params.
 
 uint mpm_index(ivec3 a)
 {
@@ -16,21 +16,21 @@ bool mpm_in_domain(vec3 x)
     return all(greaterThanEqual(x, vec3(0.0))) && all(lessThan(x, vec3(k.cx, k.cy, k.cz) * k.dx));
 }
 
-// In cells from node (1, 1, 1).
+// Position in cells from node (1, 1, 1).
 vec3 mpm_cells(vec3 x)
 {
     return x / k.dx + vec3(0.0, 0.0, k.lift);
 }
 
-// Where a particle lies in its 27 nodes: 1/2 to 3/2 from the first, in cells, when it was sorted; a little
-// beyond when it has moved since.
+// Position among the particle's 27 nodes, in cells from the first: 1/2 to 3/2 when it was sorted, a little outside after it has
+// moved.
 vec3 mpm_offset(vec3 x, uint home)
 {
     return mpm_cells(x) - vec3(mpm_at(home) - 1);
 }
 
-// Quadratic B-splines at the three nodes. As polynomials they sum to 1, reproduce lines and have the variance
-// 1/4 for every f, so that nothing is lost when f leaves [1/2, 3/2]; all are positive while |f - 1| < 0.86.
+// Quadratic B-spline weights of the three nodes. As polynomials they sum to 1, reproduce linear functions and have variance 1/4
+// for every f, so the transfers stay exact when f leaves [1/2, 3/2]. All are positive while |f - 1| < 0.86.
 void mpm_weights(vec3 f, out vec3 w0, out vec3 w1, out vec3 w2)
 {
     w0 = 0.5 * (1.5 - f) * (1.5 - f);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The grid's velocity in the search for equilibrium, with the ground's nodes held and those at walls along them; and the kinetic energy of
-// each node.
+// Per entry, rock at rest: grid velocity v = p / m - g dt, 0 on the ground's nodes and tangential at walls; and
+// its kinetic energy.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

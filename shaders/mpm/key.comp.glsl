@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A particle's sort key: its base cell, or the number of cells for those that have left the domain or of which
-// nothing is left; and its group in that cell: its piece, or the loose grains.
+// Per particle: sort key, its base cell, or the number of cells if it has left the domain or nothing is left of
+// it; and its group in the cell, its piece or the loose grains.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Particles of the rock become material points at rest, unstrained; they are taken out of the rock until they
-// are stored again. Deposits are broken rock from the start. Pieces are Voronoi cells of hashed points; joints,
-// the faces between them, are where rock breaks first.
+// Per listed particle of rock: becomes a material point at rest and unstrained, and its viability in the rock
+// is 0 until it is stored again. Deposits are broken from the start. Pieces are Voronoi cells of hashed points;
+// joints are the faces between them and have a lower strength.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "shared/random.glsl"
@@ -72,7 +72,7 @@ void main()
     AT(viability, j) = 0.0;
     bool loose = LOAD_U(phase, j) == PHASE_DEPOSIT;
     AT(apart, i) = loose ? 0.0 : MPM_WHOLE;
-    // Rubble has come apart where its joints were.
+    // Rubble has no weak joints left.
     AT(strength, i) = joint_of != MPM_NO_JOINT && LOAD_U(phase, j) == PHASE_ROCK ? k.joint : k.strength;
     AT(id, i) = LOAD_U(ids, j);
     AT(origin, i) = j;

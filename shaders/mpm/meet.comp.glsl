@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many bodies reach each node of the list; and which nodes more than one does.
+// Per node: number of bodies that reach it, and 1 if that is more than one.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

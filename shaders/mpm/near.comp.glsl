@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which nodes an occupied cell reaches.
+// Per node: 1 if one of the 27 cells that reach it is occupied.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -13,7 +13,7 @@ void main()
     uint i = THREAD;
     if (i >= k.n)
         return;
-    // Rows and slabs wrap around, into cells that are never occupied.
+    // Indices wrap around rows and slabs into cells that are never occupied.
     int row = int(k.cx) + 3, slab = row * (int(k.cy) + 3);
     uint any = 0u;
     for (int z = 0; z < 3; z++)

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The grid's velocity after a step, body by body: momentum over mass, gravity, ground and resting rock.
+// Per entry, rock in motion: grid velocity v = p / m - g dt, with contact with ground and resting rock.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -17,8 +17,8 @@ PARAMS(mpm_params)
 #include "mpm/sum.glsl"
 #include "mpm/contact.glsl"
 
-// Where there are pieces, what is slower than this, m/s, loses this share of its speed in a second: piles come to
-// rest instead of creeping. A third of its weight pulls a body away.
+// With pieces, velocities below STILL (m/s) decay at the rate STILLING (1/s), so that piles come to rest instead of creeping. The
+// deceleration is at most STILL STILLING = 3 m/s2: a third of its weight overcomes it.
 const float STILL = 0.06, STILLING = 50.0;
 
 void main()

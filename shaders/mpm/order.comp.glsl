@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A particle's place among those of its cell: group by group, by id in each. Those that are gone come in any order.
+// Per particle: its rank among those of its cell, by group, then by id. Particles that are gone come last, in
+// any order.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where a joint has parted two pieces, what lies along it is whole rock again, each side with its own.
+// Per particle at a joint that has just parted two pieces: becomes whole rock of its own side again.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

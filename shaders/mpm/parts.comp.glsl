@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The part of each particle; and each part's cell, body and, one after the other, first particle.
+// Per particle: the number of its part. The first particle of each part writes the part's first particle, cell
+// and body.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Kinetic damping: once the kinetic energy has passed a peak, all motion stops.
+// One group of 64, kinetic damping: if the kinetic energy has fallen since the last step it has passed a peak,
+// and all motion is stopped.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which particle of the rock has an id.
+// Per particle of the rock: enters its number into the table by id.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

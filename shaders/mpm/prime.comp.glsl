@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The stress's impulse for a frame's first step, from a state that has none in its affine velocity.
+// Per particle, before a frame's first step: adds the impulse of its stress to the affine velocity, Q = C - dt
+// 4 / (rho dx^2) tau. Between frames C is stored without it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

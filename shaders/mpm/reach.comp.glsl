@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which entry each part gives to and takes from at each of its 27 nodes; and, after those, its cell. Of more bodies
-// than a node tells apart the others go with its last.
+// Per part and each of its 27 nodes: the entry to which the part gives and from which it takes; and for index
+// 27 its cell. Bodies beyond the MPM_BODIES that a node distinguishes share the last entry.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Stress of rock at rest at its particles, tension positive but for T = -trace, and each one's elastic energy.
+// Per particle at rest: T = -tr(sigma) and von Mises stress, Pa, and elastic energy, by linear elasticity from
+// H.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -28,6 +29,6 @@ void main()
     float square = dot(e[0], e[0]) + dot(e[1], e[1]) + dot(e[2], e[2]);
     AT(stress_out, j) = -(3.0 * k.lambda + 2.0 * k.mu) * trace;
     AT(von_mises, j) = 2.0 * k.mu * sqrt(1.5 * shear);
-    // The mass over the density is the volume.
+    // times the particle's volume
     AT(energy, i) = LOAD_F(share, i) * 0.125 * k.dx * k.dx * k.dx * (0.5 * k.lambda * trace * trace + k.mu * square);
 }

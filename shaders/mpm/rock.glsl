@@ -1,8 +1,9 @@
-// What moving rock resists, from its deformation F = I + H. Whole rock: fixed corotated elasticity (Stomakhin et
-// al. 2012). Broken rock: Drucker and Prager's cone without cohesion (Klar et al. 2016) on the corotated strain.
+// Constitutive law of rock in motion, from F = I + H. Whole rock: fixed corotated elasticity (Stomakhin et al.
+// 2012; Arenite eq. 5). Broken rock: cohesionless Drucker-Prager cone (Klar et al. 2016) on the corotated
+// strain.
 
-// The rotation in f (polar decomposition) by Newton's iteration: for strains up to a third four steps reach
-// float precision (Higham 1986).
+// Rotation R of the polar decomposition f = R S, by Newton's iteration (Higham 1986): four steps reach single precision for
+// strains up to a third.
 mat3 rotation_of(mat3 f)
 {
     mat3 r = f;
@@ -13,7 +14,7 @@ mat3 rotation_of(mat3 f)
     return r;
 }
 
-// e = S - I for F = R S, made symmetric.
+// e = S - I for F = R S, symmetrised.
 mat3 strain_of(mat3 r, mat3 f)
 {
     mat3 s = transpose(r) * f;
@@ -29,15 +30,15 @@ float volume_strain(mat3 e)
     return trace + second + determinant(e);
 }
 
-// Kirchhoff stress in the body's frame: R^T tau R.
+// Kirchhoff stress in the rotated frame, R^T tau R = 2 mu (e + e^2) + lambda (J - 1) J I.
 mat3 body_stress(mat3 e)
 {
     float j = volume_strain(e);
     return 2.0 * k.mu * (e + e * e) + mat3(k.lambda * j * (1.0 + j));
 }
 
-// Kirchhoff stress as it acts: on the way back from an impact it is weaker, so that rock does not bounce like
-// rubber; and viscosity. `g` is the velocity's gradient.
+// Kirchhoff stress that acts: reduced by the rebound factor while unloading fast, so that rock does not bounce like rubber, plus
+// viscous stress. `g` is the velocity gradient.
 mat3 acting_stress(mat3 stress, mat3 g)
 {
     float power = dot(stress[0], g[0]) + dot(stress[1], g[1]) + dot(stress[2], g[2]);
@@ -46,7 +47,7 @@ mat3 acting_stress(mat3 stress, mat3 g)
     return stress * (1.0 + back * (k.rebound - 1.0)) + k.viscosity * (g + transpose(g));
 }
 
-// The largest principal value of a symmetric matrix.
+// Largest eigenvalue of a symmetric matrix.
 float most_tension(mat3 s)
 {
     float q = (s[0][0] + s[1][1] + s[2][2]) / 3.0;
@@ -58,8 +59,8 @@ float most_tension(mat3 s)
     return q + 2.0 * p * cos(acos(clamp(0.5 * determinant(d) / (p * p * p), -1.0, 1.0)) / 3.0);
 }
 
-// Broken rock's strain after it has slid as far as it must; `apart` is how much it has come apart, which it has
-// to be pressed together again before it resists.
+// Return mapping of broken rock (Klar et al. 2016): strain on the Drucker-Prager cone. `apart` is the volume strain by which it has
+// come apart; it must be compressed by as much before it resists again.
 mat3 slide(mat3 e, inout float apart)
 {
     float trace = e[0][0] + e[1][1] + e[2][2] + apart;

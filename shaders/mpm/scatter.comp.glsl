@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Particles to grid, first half: the mass and momentum that one part's particles give each of its cell's 27
-// nodes, v_p + Q_p (x_i - x_p), where Q is the affine velocity less the stress's impulse (Hu et al. 2018, eq.
+// Per part, particles to grid, first half: mass and momentum that its particles give each of their 27 nodes, m
+// w (v_p + Q_p (x_i - x_p)) with Q the affine velocity minus the impulse of the stress (Hu et al. 2018, eq.
 // 29).
 #include "shared/buffers.glsl"
 #include "shared/params.h"

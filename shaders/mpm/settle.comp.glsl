@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The phases of what has come to rest.
+// Per particle at the end of a fall: writes its phase, rubble or deposit, to the rock.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

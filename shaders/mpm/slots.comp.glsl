@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which parts each occupied cell has: the first one's number plus 1, and how many. The others' slots are 0.
+// Per part: the first of each cell writes the cell's first part plus 1 and their number. Other cells keep 0.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// Per particle: |v|.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

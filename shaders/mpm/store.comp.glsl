@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Material points back to the rock's particles: place, velocity, what is left, phase and stress. Those faster
-// than k.fastest are falling.
+// Per particle: writes position, velocity, viability, phase, T and von Mises stress back to the rock. Particles
+// faster than k.fastest get the phase of falling rock.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

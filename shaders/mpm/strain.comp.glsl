@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Grid to particles in the search for equilibrium: nothing moves, and strain is small, so that H grows by the
-// velocity's gradient and stress is linear in it. F = I + H is never formed: steps of H are below its last bit.
+// Per particle at rest, grid to particles: positions are fixed and strains small, so H += dt G and the stress
+// is linear in H. F = I + H is never formed, since increments of H are below its last bit.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

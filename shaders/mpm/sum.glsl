@@ -1,5 +1,5 @@
-// Particles to grid, second half: what the parts around a node give one of its entries. Needs READ_U of slot, many
-// and reach, READ_V(partial).
+// Particles to grid, second half: sum of the parts around a node for one of its entries. Needs READ_U of slot,
+// many and reach, READ_V(partial).
 
 vec4 entry_sum(uint entry, uint node)
 {

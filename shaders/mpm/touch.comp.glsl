@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pieces that meet at a node: those that joints hold move as one. Of the others those that approach each other
-// stop, those that slide rub, those that part are free (Bardenhagen et al. 2000). The normal comes from where their
-// mass lies. What they lose and win together is made to be nothing, also where more than two meet.
+// Per mixed node: contact between bodies (Bardenhagen et al. 2000). Pieces joined by joints that hold move as
+// one. Of the others, those that approach stop, those that slide rub, those that separate are free. The normal
+// is the gradient of the difference of their masses. The changes are made to sum to zero momentum, also where
+// more than two bodies meet.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -19,15 +20,15 @@ PARAMS(mpm_params)
 #include "mpm/grid.glsl"
 #include "mpm/contact.glsl"
 
-// Bodies touch where they fill this share of a node's room, and each that of it: flat faces stop a third of a cell
-// apart, edges do not stop short of faces.
+// Bodies are in contact where together they fill more than TOUCHING of a node's volume and each of two at least MEETING of it: flat
+// faces stop a third of a cell apart, and edges do not stop short of faces.
 const float TOUCHING = 0.75, MEETING = 0.04;
 
-// The same as in mpm/node, for what touches.
+// As in mpm/node, for bodies in contact.
 const float STILL = 0.3, STILLING = 80.0;
 
-// The mass at a node of those pieces of group g that entries from e0 to end know, less the others'. Where both have
-// some and fill the node's room, they are near.
+// At a node: mass of group g minus that of other groups, for the bodies of the entries e0 to end. Sets `near` if both fill the
+// node enough to be in contact.
 float balance(ivec3 at, uint e0, uint end, uint g, inout bool near)
 {
     if (any(lessThan(at, ivec3(0))) || any(greaterThan(at, ivec3(k.cx, k.cy, k.cz) + 2)))
@@ -56,7 +57,7 @@ void main()
     ivec3 at = mpm_at(node);
     float whole = 1e-30;
     vec3 all_of = vec3(0.0);
-    // A group's first entry stands for it: its mass is in w.
+    // A group's first entry holds its velocity, and its mass in w.
     for (uint g = e0; g < end; g++) {
         float m = 0.0;
         vec3 sum = vec3(0.0);

@@ -1,4 +1,4 @@
-// The voxels, of which a cell has eight. Needs mpm_params.
+// Voxels, eight to a cell. Needs mpm_params.
 #define HELD_NX (2u * k.cx)
 #define HELD_NY (2u * k.cy)
 #include "particles/bits.glsl"

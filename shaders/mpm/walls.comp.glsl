@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Nodes inside resting rock, all around which is rock, and the normal out of it. Its faces themselves stop single
-// particles (mpm/gather), so that bodies touch what they rest on.
+// Per node: whether it is inside resting rock, and the outward normal there. Faces of resting rock act on
+// single particles (gather.comp.glsl), so that bodies touch what they rest on.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The first of these numbers that is not finite, or beyond what it may be.
+// Per thread, over every NUMBERS_THREADS-th value: the smallest number of a value that is not finite or exceeds
+// its limit.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The first of these vectors of which a number is not finite, or beyond what it may be.
+// Per thread, over every NUMBERS_THREADS-th vector: the smallest number of a vector with a component that is
+// not finite or exceeds its limit.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,4 +1,5 @@
-// Voxels as bits: 32 of a row along x to a word, rows upwards in y and then z. Needs k.nx and k.ny, or HELD_NX and HELD_NY.
+// Voxels as bits: 32 of a row along x to a word, rows in y and then z. Needs k.nx and k.ny, or HELD_NX and
+// HELD_NY.
 
 #ifndef HELD_NX
 #define HELD_NX k.nx

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which deep voxels get their particles: those near the surface, or with k.all of them. Counts them.
+// Per word of bits: marks and counts the deep voxels whose particles must be created: those near the surface,
+// or all of them with k.all.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

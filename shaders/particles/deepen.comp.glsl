@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// These voxels are deep from now on, and no others.
+// Per word of bits: makes exactly the given voxels deep.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,5 +1,5 @@
-// Is there no particle in a voxel? Beyond an open side of the domain there is none; below the ground is more rock. Needs
-// READ_U(words) (particles/held.glsl), k.walls, particles/voxel.glsl and particles/bits.glsl.
+// Whether a voxel has no particle. Beyond an open side of the domain voxels are empty; below z = 0 there is
+// rock. Needs READ_U(words) (particles/held.glsl), k.walls, particles/voxel.glsl and particles/bits.glsl.
 #include "particles/sides.glsl"
 
 bool voxel_empty(ivec3 v)

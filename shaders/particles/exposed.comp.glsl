@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Surface particles are those with an empty voxel at a face of theirs (Arenite 5.1). Below the ground is not
-// empty.
+// Per particle: 1 if it is at the surface, with an empty voxel at one of its voxel's faces (Arenite 5.1). Below
+// z = 0 is not empty.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much of each held voxel is rock: the viability of its particles.
+// Per held voxel: fill, the viability of its particles.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

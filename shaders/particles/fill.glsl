@@ -1,4 +1,4 @@
-// How much of a voxel is rock; with GROUND_IS_ROCK, below the ground is more of the same. Needs READ_U(words), READ_F(fill),
+// Fill of a voxel. With GROUND_IS_ROCK, voxels below z = 0 are full. Needs READ_U(words), READ_F(fill),
 // k.walls, particles/voxel.glsl and particles/held.glsl.
 #include "particles/sides.glsl"
 

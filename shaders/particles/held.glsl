@@ -1,7 +1,8 @@
-// What there is of a voxel is kept only for some of them: those are held. `words` has HELD_STRIDE words for each word of bits: the
-// bits of held voxels, how many are held before them, and the bits of occupied ones; and as many more at the end. Voxels that are
-// occupied and not held are deep: they are whole rock without a particle. A held voxel's place among them, its slot, is its place in buffers of voxels; so slots ascend as voxels
-// do. Needs READ_U(words) and particles/bits.glsl.
+// Sparse storage of voxels. Only some voxels are held, that is, have items in buffers of voxels. `words` has
+// HELD_STRIDE words for each word of bits: the bits of held voxels, the number of held voxels before them, and
+// the bits of occupied ones; and HELD_STRIDE more at the end. A voxel that is occupied but not held is deep:
+// full of rock, without a particle. A held voxel's item is its slot, its rank among the held ones; slots ascend
+// as voxels do. Needs READ_U(words) and particles/bits.glsl.
 
 const uint NOT_HELD = 0xffffffffu;
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which voxels are held: those that have particles, and with k.around those around occupied ones too; never deep ones, whose bits
-// are here in place of the held ones' before. Their bits, and the number of them; of the word after the last there are none.
+// Per word of bits: the voxels to hold: those that have particles and, with k.around, those around occupied
+// ones, but no deep ones, whose bits are here in place of the held ones' until now. Writes their bits and their
+// number, 0 for the word after the last.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A particle's sort key: its voxel's slot, or the number of held voxels once nothing is left of it.
+// Per particle: sort key, the slot of its voxel, or the number of held voxels if nothing is left of it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which voxel each held one is.
+// Per word of bits: the voxel of each of its held voxels' slots.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which voxels are within k.reach of an empty one, on every axis; outside the domain all are empty. One axis after the other: x
-// reads which are occupied (particles/held.glsl), y and z what the axis before has found. Where all are near already, as they are in air, no
-// more is looked at.
+// Per word of bits, one axis: voxels within k.reach of an empty one; outside the domain all are empty. The x
+// pass reads which voxels are occupied (particles/held.glsl), the y and z passes the result of the pass before.
+// Words whose voxels are all near already, as in air, are skipped.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,11 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Normals of surface particles: the direction in which their 20 nearest neighbours spread least (Arenite 5.1,
-// after Hoppe et al. 1992), pointing away from the rock around. Neighbours are looked for in the 5^3 voxels
-// around.
+// Per surface particle: normal, the direction in which its 20 nearest neighbours spread least (Arenite 5.1,
+// after Hoppe et al. 1992), pointing away from the rock. Neighbours are searched in the 5^3 voxels around.
 //
-// The distance of the 20th neighbour is found by counting into 16 bins, then into 16 parts of the bin it
-// falls in: exact to 0.025 h^2, without a list to sort.
+// The distance of the 20th neighbour is found by counting into 16 bins, then into 16 parts of its bin: exact to
+// 0.025 h^2, without sorting.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The bits of the voxels that have particles; those of which nothing is left do not count.
+// Per particle: sets the bit of its voxel, unless nothing is left of the particle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

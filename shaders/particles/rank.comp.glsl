@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many voxels are held before each word.
+// Per word of bits: stores the number of held voxels before it, from the prefix sum.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

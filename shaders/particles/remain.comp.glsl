@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// 1 for each particle that stays: of which something is left, or that waits to come to rest, its viability being negative.
+// Per particle: 1 if it stays: if it has viability left, or waits to be deposited (viability < 0).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

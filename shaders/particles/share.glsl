@@ -1,4 +1,5 @@
-// The share of space that is rock around a voxel's middle. Needs fill_at().
+// Share of space that is rock around a voxel's centre: weighted mean of the fill of the voxel and its 18 face
+// and edge neighbours. Needs fill_at().
 
 float share_at(ivec3 v)
 {

@@ -1,5 +1,5 @@
-// What lies beyond the domain's sides. At an open one the rock ends. Behind a wall it goes on, as its own mirror image:
-// whoever looks across sees the voxels of this side. Needs k.walls and particles/bits.glsl.
+// Boundary of the domain. Beyond an open side there is no rock; beyond a wall there is the mirror image, so
+// lookups across a wall read the voxel on this side. Needs k.walls and particles/bits.glsl.
 
 // The voxel of the domain that is seen at v; v itself where there is none.
 ivec3 side_voxel(ivec3 v)

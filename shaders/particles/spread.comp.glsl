@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How much of each held voxel is rock where particles have left their voxels' middles: each is spread over the eight
-// voxels around it by trilinear weights, so that the surface does not boil while rock moves.
+// Per held voxel: fill where particles have left the centres of their voxels: each is distributed to the eight
+// voxels around it by trilinear weights, so that the surface does not flicker while rock moves.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

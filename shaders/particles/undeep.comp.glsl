@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Voxels that get their particles are not deep any more: they are not occupied until they have them.
+// Per word of bits: voxels whose particles are being created are no longer deep; they are occupied again once
+// they have them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Only deep voxels are still occupied, and none is held: their bits stand where those of held voxels did.
+// Per word of bits: only deep voxels remain occupied and none is held; their bits are stored in place of the
+// held voxels'.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

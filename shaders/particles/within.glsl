@@ -1,4 +1,4 @@
-// The particles of voxels: from x up to but not including y. start[slot] is a held voxel's first. Needs READ_U(words),
+// The particles of a voxel, as a half-open range. start[slot] is a held voxel's first. Needs READ_U(words),
 // READ_U(start), and particles/held.glsl.
 
 uvec2 voxel_particles(ivec3 v)

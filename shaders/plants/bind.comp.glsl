@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Erodibility of each particle of the surface, less what roots hold.
+// Per surface particle: erodibility *= 1 - binding c, with its cover c.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Cover thickens on deposits (logistic), stays as it is on rock, and dies where plants cannot stand: on steep
-// ground, and under rock.
+// Per surface particle with plants: logistic growth of cover on deposits, none on rock, and exponential decay
+// where plants cannot stand (stand.glsl).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

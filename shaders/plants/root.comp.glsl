@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Plants live on the surface: there are none inside, where there are no normals.
+// Per particle: clears the cover of particles inside, which have no normal.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

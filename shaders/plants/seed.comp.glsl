@@ -1,7 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Seeds that the wind brings to bare deposits, from anywhere around: each particle looks where its seeds would come from, as
-// far off as the dispersal kernel says, so that the seedlings of an area and a time do not depend on particles and frames.
+// Per bare surface deposit: a seedling with the chance that wind brings one. The particle samples the place
+// that its seed would come from, in a uniform direction at an exponentially distributed distance, and that
+// place's cover scales the chance. So seedlings per area and time depend neither on the particles nor on the
+// frames.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -22,7 +24,7 @@ PARAMS(plants_params)
 #include "plants/stand.glsl"
 #include "shared/random.glsl"
 
-// The cover on top of a column.
+// Cover of the highest voxel of a column.
 float cover_of(ivec2 column)
 {
     ivec3 v = ivec3(column, int(k.nz) - 1);

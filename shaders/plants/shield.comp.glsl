@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What wind and rain do to each particle of the surface, less what its plants keep off.
+// Per surface particle: intensity *= 1 - shelter c, with its cover c.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One voxel's step of plants over deposits: bare ground takes seedlings from a covered particle in the voxels
-// around it, from each across a face surely and from farther ones by a hash, as likely as makes the front round.
+// Per bare surface deposit, cover's advance by one voxel: a seedling if a voxel around it is covered. Seen from
+// above, neighbours along the axes always count and diagonal ones with a hashed chance that makes the front
+// round.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -22,7 +23,7 @@ PARAMS(plants_params)
 #include "plants/stand.glsl"
 #include "shared/random.glsl"
 
-const float WIDE = 0.2; // how often from across a corner, as seen from above: measured, for a round front
+const float WIDE = 0.2; // chance with which diagonal neighbours count; measured, for a round front
 
 bool covered(ivec3 v)
 {

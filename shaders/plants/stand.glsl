@@ -1,12 +1,12 @@
-// What a seedling covers of a particle, and where plants can stand: under the open sky, on ground that is not too steep. How
-// steep it is, is measured over metres, and along each axis to the gentler side, so that neither the particles' roughness, nor a
-// pit or a wall beside it counts. Needs particles/voxel.glsl and particles/empty.glsl.
+// Where plants can stand: under open sky, on ground that is not too steep. The slope is measured over metres
+// and along each axis to the gentler side, so that neither roughness nor a pit or wall beside counts. Needs
+// particles/voxel.glsl and particles/empty.glsl.
 
 const float SEEDLING = 0.02;
 const float SLOPE_REACH = 2.0; // m to each side, but no less than three voxels
 const int NOWHERE = 1 << 20;
 
-// How far the ground of a column lies above height z or below it, in voxels; much, where it is not near.
+// Distance of a column's ground from height z, above or below, in voxels, at most `most`; NOWHERE outside the domain.
 int rise(ivec2 column, int z, int most)
 {
     ivec3 v = ivec3(column, z);

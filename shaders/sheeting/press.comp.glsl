@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Sheets come off the surface where it is in tension beyond its strength: patches of it, each at times of its own, by their thickness in
-// the step. The tension is that of the face as it is, so that a sheet that frees the rock below of tension stops there.
+// Per surface particle of rock: adds the intensity by which sheets come off where the face is in tension beyond
+// its strength, patch by patch at times of their own. The tension is that of the current face, so that erosion
+// stops where a sheet has relieved it.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

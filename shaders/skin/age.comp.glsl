@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A step passes for the surface: A' = 1 - R A / depth, R being its retreat, exactly where R does not change. The retreat is that under
-// the crust that has grown half-way through the step. Water that takes deposits takes nothing of a face.
+// Per surface particle of rock: exposure age after a step, the exact solution of A' = 1 - R A / d for constant
+// retreat R. R includes the crust as it is half-way through the step. Water's erosion of deposits does not
+// count.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Rock that is bare in the first frame has been so for some time.
+// Per surface particle of rock in the first frame: age = skin.before_kyr.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

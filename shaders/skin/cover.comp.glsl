@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What was bared and is covered again before the surface was found, by a deposit that came to rest there, keeps what it took over.
+// Per particle: a particle that was bared and covered again by a deposit before the surface was computed keeps
+// the age that it took over, with a positive sign.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,5 +1,5 @@
-// What crust and damp multiply the rate of bare rock with: the crust grows with its age, but for what is damp; and weathering is fastest
-// half-way between dry and wet, where it dries and is wetted again.
+// Factor of crust and damp in the rate of bare rock (formula: src/skin/README.md). The crust grows with age,
+// but not where it is damp; weathering is fastest half-way between dry and wet.
 float crust_rate(float age, float damp)
 {
     float grown = (1.0 - exp(-age / k.crust_kyr)) * (1.0 - damp);

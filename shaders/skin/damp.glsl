@@ -1,5 +1,5 @@
-// How damp the air is on a face, 0 to 1, by the share of rock in a ball around it: half on a plane, less on ribs and edges, more in
-// hollows, which dry slowly. Needs fill_at() and k.radius.
+// Damp of the air at a face, 0 to 1, by the share of rock in a ball around it: half on a plane, less on ribs
+// and edges, more in hollows, which dry slowly. Needs fill_at() and k.radius.
 
 const int DAMP_PAIRS = 48;              // points of the ball, and those opposite: on a plane one of each is rock
 const float DRY = 0.5, WET = 0.8; // shares of rock

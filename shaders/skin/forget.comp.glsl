@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What is gone has not been bare, should it come to rest.
+// Per particle: clears the age of those whose viability is used up, in case they come to rest as deposits.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The surface has the ages that were found for it (skin/reach), and its rock weathers more slowly by the crust that has grown on it,
-// where it dries, and faster where it is damp. What brings water to a face from inside would add to its damp here.
+// Per surface particle: stores the age that skin/reach found, and multiplies its erodibility by the factor of
+// crust and damp.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

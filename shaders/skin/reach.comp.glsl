@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How long the surface has been bare, where some of it is new: 0, or negative, what it took over from what went off it. Its age is
-// that, or what reaches it through the rock from a face near by: that face's age, less by a share of 1/e for each depth. Deposits
-// take over nothing. What is found of those that have an age already is that age.
+// Per surface particle: exposure age. A particle that has an age keeps it. A new one has the larger of what it
+// took over from those eroded in front of it (stored negative) and of A exp(-z / depth) over faces of age A
+// near by, z being the distance through rock. Deposits take over nothing.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

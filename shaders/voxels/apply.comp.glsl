@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Second step: what is gone is no rock any more; its bricks are noted.
+// Per word of voxels, second step of a cycle: clears the bits of voxels that vanished, marks their bricks and
+// counts them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One round of weathered rock clinging to what stands beside it. Nothing stands less for it, so that where
-// the rounds end does not depend on their order.
+// Per voxel of the domain, one round: weathered rock (less than half left) stands if a face neighbour stands.
+// Voxels only gain support, so the final state does not depend on the order.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

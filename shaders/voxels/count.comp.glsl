@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The air in each active voxel's bubble. What it was grows by what vanished inside; a voxel that has just
-// become active counts the rock instead. Either way the bubble is a table of rows, each a run of at most 31
-// voxels: two words, shifted, masked, and their bits counted; rows come in fours, the last ones empty.
+// Per active voxel: the number of air voxels in its bubble. A known count grows by what has just vanished in
+// the bubble; for a newly active voxel the rock is counted. A bubble is a table of rows, each a run of at most
+// 31 voxels: two words, shifted and masked, and a bit count. Rows come in fours, padded with empty ones.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -17,7 +17,7 @@ PARAMS(voxels_params)
 #include "voxels/grid.glsl"
 #include "voxels/layer.glsl"
 
-// How many bits are set in one row of the bubble around voxel v.
+// Number of bits set in one row of the bubble around voxel v.
 uint run_bits(uint v, uint base, uint row)
 {
     uint at = v + LOAD_U(rows, row), there = base + (at >> 5), shift = at & 31u;

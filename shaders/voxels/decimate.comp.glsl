@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// First of the two steps: every active voxel loses its due, and those with nothing left say so. Nobody sees
-// them go before all have been asked.
+// Per active voxel, first step of a cycle: left -= dt rate, and marks it as gone if nothing is left. The rock
+// bits change only in the second step, so the update is synchronous.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

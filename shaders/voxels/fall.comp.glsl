@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Rock that does not stand is gone.
+// Per voxel of the domain: marks rock that does not stand as gone.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// All have seen what vanished: from here on nothing is newly gone.
+// Per word of voxels: clears the bits of gone voxels at the end of a cycle.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

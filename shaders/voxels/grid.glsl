@@ -1,6 +1,6 @@
-// Where a word of the bit sets lies. Needs PARAMS(voxels_params).
+// Positions of words and voxels in the bit sets. Needs PARAMS(voxels_params).
 
-// a / b, with 1 / b at hand: whole-number division is slow where it is not vectorised.
+// a / b from the reciprocal of b: integer division is slow where it is not vectorised.
 uint divide(uint a, uint b, float per_b)
 {
     uint q = uint(float(a) * per_b);
@@ -16,7 +16,7 @@ uvec3 word_place(uint i)
     return uvec3(in_slab - y * k.row, y, z + k.margin);
 }
 
-// Which of a word's bits are voxels of the domain, by its place in its row and its row's in the slab, margins counted.
+// The bits of a word that are voxels of the domain, by its index in its row and the row's in its slab, margins counted.
 uint domain_bits(uint word, uint row)
 {
     if (row < k.margin || row >= k.margin + k.ny || 32u * word >= k.nx)
@@ -25,7 +25,7 @@ uint domain_bits(uint word, uint row)
     return left < 32u ? (1u << left) - 1u : 0xffffffffu;
 }
 
-// The same word's number in a bit set; the set begins with one word of margin.
+// Index of word i of the domain's slabs in a bit set, which begins with one word of margin.
 uint word_number(uint i)
 {
     return 1u + k.margin * k.slab + i;

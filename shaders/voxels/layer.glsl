@@ -1,4 +1,4 @@
-// Which stratum a voxel is of: by its slab where beds are level, else by itself, two voxels to a word. Needs READ_U(layer_of) and
+// A voxel's stratum: by its slab where beds are level, else by voxel, two to a word. Needs READ_U(layer_of) and
 // voxels/grid.glsl.
 
 uint layer_at(uint voxel)

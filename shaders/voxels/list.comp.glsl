@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The active voxels in order; place is the scan of their numbers in each word.
+// Per word of voxels: lists its active voxels in order, at the prefix sum of their counts.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

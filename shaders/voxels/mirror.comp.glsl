@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What bubbles see behind walls: the bits of the margin around the domain's slabs are the mirror image of the domain's. Of
-// both sets, what is gone and what is rock. Between rows lies one word of margin for the end of one and the beginning of the
-// next, half for each.
+// Per word of the domain's slabs: fills the bits of the margin with the domain's mirror image behind walls, in
+// both sets (gone, rock). Between rows is one word of margin, the first half of which follows the row's end and
+// the second precedes the next row.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -10,7 +10,7 @@ WRITE_U(0, bits)
 PARAMS(voxels_params)
 #include "voxels/grid.glsl"
 
-// Behind a wall, the place in 0..n - 1 that is seen there; -1 where nothing is.
+// The coordinate in 0..n - 1 whose image is at `at`; -1 beyond an open side.
 int seen(int at, uint n, uint wall_min, uint wall_max)
 {
     int there = at;

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// When the next voxel vanishes, and the fastest rate: each thread of those it was given, the host of all.
+// Per thread, over every VOXELS_PACERS-th active voxel: time until the first vanishes, and the fastest rate.
+// The host reduces the threads' results.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

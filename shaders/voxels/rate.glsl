@@ -1,6 +1,5 @@
-// What a voxel of which `state` is known loses, 1/kyr: its layer's rate, its own factor, and what the air in
-// its bubble adds to that of a flat face (layer = rate times a, b; rate (a air - b)). Needs
-// READ_V(layers), and voxels/layer.glsl.
+// Rate of a voxel, 1/kyr: factor * max(a air - b, 0), with air the count in `state`, and a, b its layer's rate
+// times slope and level (struct bubble_rate). Needs READ_V(layers) and voxels/layer.glsl.
 
 float decimation(uint state, uint voxel)
 {

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The active voxels: rock with air in a small ball around, 32 at a time. Each row of the ball is a run of at
-// most 4 to either side.
+// Per word of voxels: the active ones, rock with air in a small ball around it, 32 voxels at a time. Each row
+// of the ball is a run of at most 4 voxels to either side.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

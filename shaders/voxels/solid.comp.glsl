@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Voxels of the domain that hold others: those of which at least half is left.
+// Per voxel of the domain: 1 if at least half of it is left, so that it can support others.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What stands: solid voxels whose block reaches the ground, and rock on the ground itself.
+// Per voxel of the domain: 1 if it is solid and its block is on the ground, or if it is rock in the lowest
+// slab.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

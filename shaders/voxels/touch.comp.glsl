@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Bricks that a bubble may reach from one where a voxel vanished: only there do air shares change.
+// Per brick: 1 if a voxel vanished within reach of a bubble; only there do air counts change.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

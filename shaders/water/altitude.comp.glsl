@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The altitude of a span's floor, in 2^-16 cells: its cell's floor and the share of rock in it, which on a
-// slope is exact to far less than a voxel. A roughness of 1/64 keeps level ground from draining by number.
-// Bare ground is 0.
+// Per span: the altitude of its floor in 2^-16 cells: the floor of its lowest cell plus that cell's share of
+// rock, which follows a slope much more finely than a voxel. A random roughness of up to 1/64 cell keeps level
+// ground from draining in the order of numbers. Bare ground is 0.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "shared/random.glsl"

@@ -1,10 +1,10 @@
-// The floors around one. Needs water/columns.glsl, READ_U(level), and k.
+// Access to the floors around a span. Needs water/columns.glsl, READ_U(level), and k.
 #define HELD_NX k.cx
 #define HELD_NY k.cy
 #include "particles/sides.glsl"
 
-// The column that is seen at a place; behind a wall it is the image of one of this side, and `flip` turns ways around as the image
-// does. NONE beyond an open side.
+// The column to read at a place: beyond a wall the mirror image, whose directions are multiplied by `flip`. NONE beyond an open
+// side.
 uint column_seen(ivec2 at, out vec2 flip)
 {
     ivec2 to = side_voxel(ivec3(at, 0)).xy;
@@ -13,8 +13,8 @@ uint column_seen(ivec2 at, out vec2 flip)
     return inside ? uint(to.y) * k.cx + uint(to.x) : NONE;
 }
 
-// The span of a column, r cells away, that is beside a place at level z: the one in which z is, or where there is rock the first above
-// it, if its floor is no higher than a bank. NONE if there is none.
+// The span of a column r cells away that faces level z: the one that contains z, or if z is in rock the first above it whose
+// floor is no higher than a bank. NONE if there is none.
 uint node_near(uint column, int z, float r)
 {
     int high = min(z + int(ceil(k.deep / k.h + r)), int(k.cz) - 1);
@@ -30,8 +30,8 @@ uint node_near(uint column, int z, float r)
     return NONE;
 }
 
-// How much of what runs over a span of water level `from` is spread as far as over one of level `to`, r cells away: a stream is as
-// wide as what it carries, where the ground is no steeper than its banks may be.
+// Weight with which the discharge of a span of water level `from` is spread to one of level `to`, r cells away: 1 - (r / radius)^2,
+// or 0 if the ground between them is steeper than a bank.
 float spread(uint from, uint to, float r, float radius)
 {
     float off = r / radius;

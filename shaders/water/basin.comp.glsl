@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The basin of every span, by the number of its pit; all that drains out has number `basins`. Marks the spans
-// that own a pass to another basin.
+// Per span: the number of the basin it drains to, that of its pit; `basins` if it drains out of the domain.
+// Flags the spans that own a pass to another basin.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Spans that wait for none give in the first round.
+// Per span: spans without donors pass their rain on in round 0.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

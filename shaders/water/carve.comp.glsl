@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A basin overflows: the receivers from its pass down to its pit are turned round. Paths of different basins
-// do not touch.
+// Per basin with a way out: reverses the receivers from its pass down to its pit, so that the basin overflows
+// across the pass. Paths of different basins do not touch.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

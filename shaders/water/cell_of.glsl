@@ -1,5 +1,5 @@
-// The place of a cell. Quotients of less than 2^16 by reciprocals, which devices without integer division do
-// many times faster; at most one off, and put right. Needs k.per_row and k.per_slab.
+// Coordinates of a cell from its number. Quotients below 2^16 by multiplication with reciprocals, corrected by
+// at most one: many times faster on devices without integer division. Needs k.per_row and k.per_slab.
 
 uint quotient(uint a, uint b, float per_b)
 {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Kind, altitude and receiver of every cell, for those who do not know of spans. See water/water.h.
+// Per cell: its kind, altitude and receiver, for callers that work with cells instead of spans (water/water.h).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "shared/random.glsl"
@@ -31,7 +31,7 @@ bool is_live(uint node)
     return LOAD_U(component, LOAD_U(basin, node)) == k.basins;
 }
 
-// Rock drains to an empty cell below or beside it, if it has one.
+// Rock drains to an empty cell below it, else to a random one of those beside it; without any it is SOLID.
 void rock(uint i, uvec3 c, uint column, out uint kind, out uint to)
 {
     kind = WATER_SOLID;

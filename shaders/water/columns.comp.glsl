@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// 32 levels of a column of cells as bits, and how many spans begin in them. See water/columns.glsl.
+// Per word of 32 levels of a column: occupied cells and floors of spans as bits, and the number of these floors
+// (columns.glsl).
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

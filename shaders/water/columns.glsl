@@ -1,6 +1,7 @@
-// Columns of cells as bits. Of cell (x, y, z), bit z % 32 of word (y cx + x) words + z / 32: `occupied` if it
-// holds particles, `floors` if it is the bottom of a span: SURF, or EMPTY on the ground. A span is a node;
-// first[word] counts the nodes before those of the word. Needs READ_U of the three, and k.
+// Columns of cells as bits. Cell (x, y, z) is bit z % 32 of word (y cx + x) words + z / 32. `occupied`: it
+// holds particles. `floors`: it is the lowest cell of a span, SURF, or EMPTY on the ground. A span of empty
+// cells with its floor is a node; first[word] counts the nodes before the word's. Needs READ_U of the three,
+// and k.
 
 const uint NONE = 0xffffffffu;
 

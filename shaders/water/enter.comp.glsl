@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where each source enters: the span its cell belongs to, or the nearest one with a way out, in cells; of
-// equally near ones the first. Spans at the domain's open sides are outlets: water enters beside them if it can.
-// Looks in ever wider squares of columns.
+// Per source: the node where its water enters: that of its cell, or the nearest with a way out, in cells; of
+// equally near ones the first. Nodes at the open sides of the domain are outlets, so they are avoided where
+// possible. Searches ever wider squares of columns.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -23,7 +23,7 @@ bool is_live(uint node)
     return LOAD_U(component, LOAD_U(basin, node)) == k.basins;
 }
 
-// The nearest live span of a column that is `across` (squared) away.
+// Updates the nearest live span with those of a column at the squared distance `across`.
 void look(uint column, uint z, uint across, inout uint best, inout uint nearest)
 {
     for (uint up = 0u; up < k.cz; up++) {

@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What running water adds to the intensity on each particle of the surface (Arenite eq. 14): shear above the threshold. Deposits it
-// takes where they would not come to rest either. Water lowers the floors it runs over, each column by as much as its shear says: what the particle's
-// other bare faces would make of that (erosion/weather) is divided out.
+// Per surface particle that is a floor: intensity += F = k_t (tau - tau_c)+ (Arenite eq. 14), the mean over the
+// stream's share of the floor and the rest. The threshold of deposits is at least carry_Pa, above which they
+// would not come to rest. Water lowers its floor by F times erodibility: the division by the bare area cancels
+// the factor that erosion/weather applies.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

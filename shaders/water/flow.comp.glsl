@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A round of rain running down the shares: a span gives once all who give to it have; whoever gives last sends it on in the next
-// round. Sums of integers do not depend on order.
+// Per span, one round of accumulation: a span passes its rain on, split by its shares, in the round after its
+// last donor has. Integer sums: the result does not depend on the order.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -27,7 +27,7 @@ void main()
         if (share[d] == 0u)
             continue;
         uint m = LOAD_U(to, 4u * i + d), more = part[d];
-        if (share[d] == most) { // the largest, of equals the first, has what is left of rounding
+        if (share[d] == most) { // the largest share, of equals the first, gets the remainder of rounding
             more += rest;
             rest = 0u;
         }

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each component of basins drains over the pass it picked. Where two picked the same, the first stays. The
-// way out of the basins between the pass and the component's old root is turned round; it stays within the
-// component, so that threads do not meet.
+// Per component of basins, one round of Boruvka: it drains over the pass it picked. Where two components picked
+// the same pass, the one with the smaller number stays. The basins' ways out between the pass and the
+// component's old root are reversed; they stay within the component, so threads do not interfere.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The lowest altitude at which each component of basins passes to another. Minima of integers: order does not
-// matter.
+// Per border span: minimum, for each component of basins, of the altitude of its passes to other components.
+// Integer minima: order does not matter.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Basins follow their component to the one it drained to, and forget its passes.
+// Per basin: moves it to the component that its own was joined to, and clears the passes.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The bottom cell of every span.
+// Per word of a column: the lowest cell of each of its spans.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

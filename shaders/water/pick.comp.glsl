@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Of the lowest passes out of each component of basins, the first by number. Minima of integers: order does not
-// matter.
+// Per border span: of each component's lowest passes, the one with the smallest number.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Spans that are pits.
+// Per span: 1 if it is a pit, its own root.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What runs over each span's floor, and how it pulls on it (Arenite eq. 14): k_f q^0.6 S^0.7, where q is the discharge of a metre's
-// width, the sum of what the streams around spread as far as here, and S the slope of the water along it, by a line
-// down to the levels of the floors below within the window. On a divide, from where rain runs both ways, it is the slope of the falls
-// around. Springs may be narrower than cells: then they pull on a share of it.
+// Per span: discharge and shear stress on its floor, tau = k_f q^0.6 S^0.7 (Arenite eq. 14). q is the discharge
+// per metre of width, summed over all streams that spread to this floor. S is the slope of the water along the
+// flow, from the water level abreast to the levels of the floors below within the window. On a divide, from
+// which rain runs in opposite directions, S is the root mean square of the falls around. A spring's stream may
+// be narrower than the cells: then it acts on a share of the floor.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -29,7 +30,7 @@ float shear(float q, float slope)
     return q > 0.0 && slope > 0.0 ? k.pull * pow(q, 0.6) * pow(slope, 0.7) : 0.0;
 }
 
-// What a place r cells away weighs in slopes: 1 - r^2 / window^2 in the mean over a cell's width, so that coarse cells see as far.
+// Weight in slopes of a place r cells away: 1 - r^2 / window^2 averaged over a cell's width, so that coarse cells see as far.
 float weight_in(float r)
 {
     float window = k.window / k.h;
@@ -37,18 +38,19 @@ float weight_in(float r)
     return dot(max(1.0 - to * to, vec3(0.0)), vec3(1.0, 4.0, 1.0) / 6.0);
 }
 
-// How much higher one level is than another, r cells away, in cells.
+// Height of the level `there` over `stands`, r cells away, in cells, limited by the steepest slope.
 float rise(uint there, uint stands, float r)
 {
     return clamp(float(int(there) - int(stands)) / 65536.0, -k.steepest * r, k.steepest * r);
 }
 
-// The slope along a way, from the water abreast down to that below it, and how far it is there in cells: what runs where
-// counts, for banks fall to all sides. Nothing is asked of the ground above: slopes run upstream as the rock goes, and a floor that hears of
-// them from there swings. Where the domain ends, it goes on as it comes; and on bare ground, where the water is gone, as it falls.
+// x: slope along the direction `way`, from the water level abreast to that downstream; y: the distance between, in cells. Places
+// weigh by their discharge, since banks fall to all sides. Nothing upstream is used: knickpoints migrate upstream, and a floor
+// that depended on its upstream neighbours would oscillate. Beyond an open side the upstream slope is continued; bare ground,
+// where discharge ends, weighs as much as the floor itself.
 vec2 downstream(uint i, ivec3 c, uint stands, vec2 way)
 {
-    vec3 abreast = vec3(0.0), below = vec3(0.0); // weights, and those of places and heights
+    vec3 abreast = vec3(0.0), below = vec3(0.0); // weight, and weighted distance and height
     vec2 flip;
     vec2 here = LOAD_V(stream, i).zw;
     int reach = int(k.window / k.h + 0.5);
@@ -88,7 +90,7 @@ void main()
     int reach = int(k.reach);
     float sheet = 0.0, springs = 0.0, narrow = 0.0, all = 0.0, wide = 0.0;
     vec2 rain = vec2(0.0), spring = vec2(0.0);
-    vec2 falls = vec2(0.0); // squares of falls, and of how far they are
+    vec2 falls = vec2(0.0); // weighted squares of falls and of distances
     for (int y = c.y - reach; y <= c.y + reach; y++)
         for (int x = c.x - reach; x <= c.x + reach; x++) {
             vec2 to = vec2(ivec2(x, y) - c.xy), flip;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Rain on the highest span of each column: as many units for each column of voxels.
+// Per column: rain on its highest span, in equal units for each column of voxels.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

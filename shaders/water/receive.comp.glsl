@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Where each span drains to at first, and the passes it owns: to the empty cells beside its floor, and of
-// those to SURF cells on its own level the ones to +x and +y. See water/water.h. The last thread is outside.
+// Per span: its initial receiver, and the passes it owns: to the empty cells beside its floor, and of the SURF
+// cells at its own level to those at +x and +y. The last invocation is the outside. Rules: water/water.h.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "shared/random.glsl"
@@ -46,8 +46,8 @@ void main()
         AT(pass, 4u * i + uint(d)) = air || d < 2 ? m : NONE;
     }
     uint to = i;
-    // Water goes each way as often as that is lower, in turns: with chances it would wander where it runs across the grid, and not
-    // where it runs along it. Crumbs spread.
+    // Water takes each direction as often as its drop says, by turns: chosen at random it would wander where it runs across the
+    // grid but not where it runs along it. Fragments are chosen at random, so that they spread.
     int turn = (fall[0] < fall[2] ? -int(c.x) : int(c.x)) + (fall[1] < fall[3] ? -int(c.y) : int(c.y));
     uint hash = k.size == 1u ? random_hash(k.random, 0u, 0u, RANDOM_RECEIVER) + WATER_TURN * uint(turn)
                              : random_hash(k.random, at, 0u, RANDOM_RECEIVER);

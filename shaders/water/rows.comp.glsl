@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which of 32 cells of a row along x have particles, as bits. Cells of two voxels a side: single voxels are such bits.
+// Per word of 32 cells of two voxels a side along x: which of them have particles, as bits. (For cells of one
+// voxel such bits exist already.)
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -34,7 +35,7 @@ void main()
     int across = int((k.vx + 31u) >> 5), first = int(2u * x >> 5);
     uvec3 low, high;
     cell_voxels(uvec3(x, row % k.cy, row / k.cy), low, high);
-    uvec3 bits = uvec3(0u); // of the 96 voxels from `first` - 1 words on
+    uvec3 bits = uvec3(0u); // the 96 voxels from word `first` - 1 on
     for (uint z = low.z; z < high.z; z++)
         for (uint y = low.y; y < high.y; y++) {
             uint line = (z * k.vy + y) * uint(across);

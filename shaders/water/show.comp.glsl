@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The discharge of each particle of the surface: of the floor it is, or of the floors beside it that it rises over. On ceilings, as
-// inside, it stays 0.
+// Per surface particle: discharge of the floor it belongs to, or of the floors beside it that it is at most
+// STEP voxels above. Stays 0 on ceilings.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,6 +1,6 @@
 // The domain's open sides, through which water leaves. Needs k.
 
-// Is a cell at them: at the first and last in x, and in y?
+// Whether a cell is at an open side: first and last in x, first and last in y.
 bvec4 open_sides(uvec3 c)
 {
     return bvec4(c.x == 0u && (k.walls & WALL_X_MIN) == 0u, c.x + 1u == k.cx && (k.walls & WALL_X_MAX) == 0u,

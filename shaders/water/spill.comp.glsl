@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The pass over which each basin overflows: its altitude, and the basin beyond. The last stands for outside.
+// Per basin: the altitude of the pass over which it overflows, and the basin beyond. The last basin is the
+// outside.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

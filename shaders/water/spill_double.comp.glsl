@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The highest pass on each basin's way out: looks twice as far in every round.
+// Per basin: maximum pass altitude on its way out, by pointer doubling.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

@@ -1,9 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How a span's rain is split between the spans beside it: by how much lower their water stands, in shares of
-// WATER_WHOLE. On a plane this is the flow along its gradient, whatever its direction to the grid. Where nothing stands lower
-// (in pits, up to their passes), all goes to the receiver. Water never gets to a higher level, and on one level it follows the
-// receivers, so that it does not run in circles. What has no way out, between walls on all sides, stays in its pits.
+// Per span: splits its rain between the four neighbours in proportion to how much lower their water level is,
+// in shares of WATER_WHOLE. On a plane this is flow along the gradient at any angle to the grid. Where no
+// neighbour is lower (in a pit, up to its pass) all goes to the receiver. Water never moves to a higher level,
+// and on one level it follows the receivers, so there are no cycles. Water without a way out, between walls on
+// all sides, stays in its pits.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -32,7 +33,7 @@ uint level_of(uint node)
     return max(LOAD_U(altitude, node), LOAD_U(spill, LOAD_U(basin, node)));
 }
 
-// Out of the domain at its open sides.
+// Direction out of the domain for a cell at its open sides, else 0.
 vec2 outward(uvec3 c)
 {
     vec4 at = vec4(open_sides(c));

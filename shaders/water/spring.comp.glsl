@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Each source runs down its receivers. Integers: order does not matter.
+// Per source: adds its discharge to all spans on its path of receivers. Integer sums: order does not matter.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

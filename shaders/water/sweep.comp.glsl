@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The crumbs' cells in which water pulls too hard for them to come to rest, by any floor in them.
+// Per surface particle that is a floor: marks its fragments' cell (WATER_SWEPT) where water pulls harder than
+// carry_Pa, so that none comes to rest there.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

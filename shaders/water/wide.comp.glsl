@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How wide the water of each span is, where its middle is, and what it is spread over: the sum of the weights of the floors around, by which what
-// each of them has of it is divided.
+// Per span: width of its stream, W = width_m Q^width_power (at least least_width_m), offset of its centre line,
+// and the normalisation 1 / sum of weights of the floors over which its discharge is spread.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -21,10 +21,12 @@ PARAMS(water_stream_params)
 #include "water/columns.glsl"
 #include "water/around.glsl"
 
-// Of a disc whose weights fall to 0 at its rim as 1 - r^2: what a line through its middle is as wide as.
+// Radius over width: a line of discs of radius R with weights 1 - r^2 / R^2 has the total weight of a strip 3 pi R / 8 wide with
+// the weight at its centre line.
 const float RADIUS = 0.84882636; // 8 / 3 pi
 
-// A spring's stream steps along the grid about the line that it follows: how far that is beside a span, by its next steps.
+// A spring's receivers zigzag on the grid about the line of its stream: offset, in cells, from a span to that line, fitted to the
+// next eight receivers.
 vec2 beside_line(uint i, ivec2 c)
 {
     const int HALF = 4;

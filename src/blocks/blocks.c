@@ -5,8 +5,8 @@ uint64_t blocks_bytes(size_t n)
     return (uint64_t)n * 12;
 }
 
-/* For so many nodes: what is in the buffers is lost where they are too small. */
-static status keep(struct gpu *gpu, struct blocks *b, size_t n)
+/* Grows the buffers to n nodes; contents are lost if they were too small. */
+static status reserve(struct gpu *gpu, struct blocks *b, size_t n)
 {
     status st = OK;
     if (b->solid && gpu_buffer_count(b->solid) >= n)
@@ -25,7 +25,7 @@ status blocks_create(struct gpu *gpu, size_t n, struct gpu_buffer *parted, struc
 {
     status st = OK;
     *b = (struct blocks){.parted = parted};
-    TRY(keep(gpu, b, n));
+    TRY(reserve(gpu, b, n));
 done:
     if (st != OK)
         blocks_destroy(gpu, b);
@@ -40,7 +40,7 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b)
     gpu_buffer_destroy(gpu, &b->first);
 }
 
-/* Pointers to roots. `runs`: NULL where there are none; `list` has the words of bits that they are in. */
+/* Labels blocks: every node points to its block's root. `runs`: NULL if there are none; `list`: words of bits that have some. */
 static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct held_voxels *h,
                    const struct runs_params *runs, size_t n_runs, struct gpu_buffer *list)
 {
@@ -79,7 +79,7 @@ status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, con
     return join(gpu, work, b, h, NULL, 0, NULL);
 }
 
-/* Numbers the runs, and lists in p->place the words of bits that have any. */
+/* Numbers the runs of deep voxels (*n) and lists in p->place the words of bits that have some. */
 static status count_runs(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct particles *p,
                          struct runs_params *k, size_t *n)
 {
@@ -107,7 +107,7 @@ done:
     return st;
 }
 
-/* Which held voxels are solid. */
+/* Fills `solid` from the surface field, and with rubble also across small gaps. */
 static void find_solid(struct gpu *gpu, struct blocks *b, struct particles *p)
 {
     const size_t n = p->held.n;
@@ -132,7 +132,7 @@ status blocks_find(struct gpu *gpu, struct gpu_work *work, struct blocks *b, str
     *n_cut = 0;
     if (p->n_deep)
         TRY(count_runs(gpu, work, b, p, &runs, &n_runs));
-    TRY(keep(gpu, b, p->held.n + n_runs));
+    TRY(reserve(gpu, b, p->held.n + n_runs));
     find_solid(gpu, b, p);
     TRY(join(gpu, work, b, &p->held, p->n_deep ? &runs : NULL, n_runs, p->place));
     if (p->n_deep == 0)
@@ -149,7 +149,7 @@ done:
 }
 
 status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, struct particles *p,
-                    size_t least, uint32_t *n_crumbs, size_t *n)
+                    size_t least, uint32_t *n_fragments, size_t *n)
 {
     status st = OK;
     struct gpu_buffer *counts = gpu_work_words(work);
@@ -164,7 +164,7 @@ status blocks_loose(struct gpu *gpu, struct gpu_work *work, struct blocks *b, st
             p->place, b->other);
     gpu_fill(gpu, counts, 0);
     GPU_RUN(gpu, blocks_crumble, p->n, k, p->place, b->other, p->flags, p->field[ROCK_viability], counts);
-    TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_crumbs, 1));
+    TRY(gpu_download(gpu, counts, COUNT_FALLEN, n_fragments, 1));
     TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, n));
     p->n_surface = 0;
 done:

@@ -11,7 +11,7 @@ static size_t bit_words(const int voxels[3])
     return (size_t)voxels[0] * (size_t)voxels[1] * (((size_t)voxels[2] + 31) / 32);
 }
 
-/* The most cells a shifted grid has. */
+/* Maximum number of cells, for any shift of the grid. */
 static size_t cells_max(const int voxels[3])
 {
     return ((size_t)voxels[0] / 2 + 1) * ((size_t)voxels[1] / 2 + 1) * ((size_t)voxels[2] / 2 + 1);
@@ -42,7 +42,7 @@ status deposit_create(struct gpu *gpu, const int voxels[3], struct deposit *d)
     TRY(gpu_buffer_create(gpu, "deposits: ground", cells, 4, &d->ground));
     TRY(gpu_buffer_create(gpu, "deposits: pointers", cells, 4, &d->pointer));
     TRY(gpu_buffer_create(gpu, "deposits: pointers (other)", cells, 4, &d->other));
-    TRY(gpu_buffer_create(gpu, "deposits: crumbs by cell", cells + 2, 4, &d->start));
+    TRY(gpu_buffer_create(gpu, "deposits: fragments by cell", cells + 2, 4, &d->start));
     TRY(gpu_buffer_create(gpu, "deposits: scratch", cells + 1, 4, &d->taken));
 done:
     if (st != OK)
@@ -50,17 +50,17 @@ done:
     return st;
 }
 
-static void destroy_crumbs(struct gpu *gpu, struct deposit *d)
+static void destroy_fragments(struct gpu *gpu, struct deposit *d)
 {
     struct gpu_buffer **all[] = {&d->id, &d->cell, &d->place, &d->key, &d->order, &d->unordered};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
-    d->n_crumbs_max = 0;
+    d->n_fragments_max = 0;
 }
 
 void deposit_destroy(struct gpu *gpu, struct deposit *d)
 {
-    destroy_crumbs(gpu, d);
+    destroy_fragments(gpu, d);
     gpu_buffer_destroy(gpu, &d->bits);
     gpu_buffer_destroy(gpu, &d->room);
     gpu_buffer_destroy(gpu, &d->ground);
@@ -71,21 +71,21 @@ void deposit_destroy(struct gpu *gpu, struct deposit *d)
     *d = (struct deposit){0};
 }
 
-/* Room for n crumbs: as many as ever came at once, and a half more. */
+/* Grows the buffers to n fragments and a half more. */
 static status reserve(struct gpu *gpu, struct deposit *d, size_t n)
 {
     status st = OK;
-    if (n <= d->n_crumbs_max)
+    if (n <= d->n_fragments_max)
         return OK;
-    destroy_crumbs(gpu, d);
+    destroy_fragments(gpu, d);
     size_t most = n + n / 2 + 1024;
-    TRY(gpu_buffer_create(gpu, "crumbs: ids", most, 4, &d->id));
-    TRY(gpu_buffer_create(gpu, "crumbs: cells", most, 4, &d->cell));
-    TRY(gpu_buffer_create(gpu, "crumbs: places", most, 4, &d->place));
-    TRY(gpu_buffer_create(gpu, "crumbs: keys", most, 4, &d->key));
-    TRY(gpu_buffer_create(gpu, "crumbs: order", most, 4, &d->order));
-    TRY(gpu_buffer_create(gpu, "crumbs: scratch", most, 4, &d->unordered));
-    d->n_crumbs_max = most;
+    TRY(gpu_buffer_create(gpu, "fragments: ids", most, 4, &d->id));
+    TRY(gpu_buffer_create(gpu, "fragments: cells", most, 4, &d->cell));
+    TRY(gpu_buffer_create(gpu, "fragments: places", most, 4, &d->place));
+    TRY(gpu_buffer_create(gpu, "fragments: keys", most, 4, &d->key));
+    TRY(gpu_buffer_create(gpu, "fragments: order", most, 4, &d->order));
+    TRY(gpu_buffer_create(gpu, "fragments: scratch", most, 4, &d->unordered));
+    d->n_fragments_max = most;
 done:
     return st;
 }
@@ -116,7 +116,7 @@ static struct deposit_params params(const struct job *job, int frame, int step,
     };
 }
 
-/* The columns' bits without the crumbs, and the cells of the ground. */
+/* Marks fragments, and computes the columns' bits without them and the list of ground cells. */
 static status begin(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
                     const struct deposit_routing *routing, struct deposit_params k, struct particles *p)
 {
@@ -134,10 +134,10 @@ done:
     return st;
 }
 
-/* A round: how much room there is, where the ways lead to, and who lands. */
+/* One round: room of the cells, paths of the fragments, and landing. */
 static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
                       const struct deposit_routing *routing, struct deposit_params k, struct particles *p,
-                      size_t n_crumbs, uint32_t *n_waiting)
+                      size_t n_fragments, uint32_t *n_waiting)
 {
     status st = OK;
     struct count_params cells = {(uint)d->n_cells};
@@ -148,7 +148,7 @@ static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
                             .order = d->order,
                             .taken = d->taken,
                             .unordered = d->unordered,
-                            .n = n_crumbs,
+                            .n = n_fragments,
                             .n_keys = d->n_cells + 1,
                             .n_ordered = d->n_cells};
     k.n = (uint)d->n_ground;
@@ -157,7 +157,7 @@ static status advance(struct gpu *gpu, struct gpu_work *work, struct deposit *d,
         GPU_RUN(gpu, deposit_point, cells.n, cells, routing->receiver, d->room, d->pointer);
         TRY(gpu_double_pointers(gpu, work, d->pointer, d->other, d->n_cells));
     }
-    k.n = (uint)n_crumbs;
+    k.n = (uint)n_fragments;
     if (k.last)
         GPU_RUN(gpu, deposit_stay, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_viability], d->place,
                 d->bits);
@@ -181,7 +181,7 @@ status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, c
     struct deposit_params k = params(job, frame, step, routing, p);
     struct gpu_buffer *counts = gpu_work_words(work);
     uint32_t gone[COUNT_WAITING + 1], waiting;
-    size_t n_crumbs;
+    size_t n_fragments;
     *out = (struct deposit_counts){0};
     d->n_cells = (size_t)k.cx * k.cy * k.cz;
     TRY(begin(gpu, work, d, routing, k, p));
@@ -191,21 +191,21 @@ status deposit_land(struct gpu *gpu, struct gpu_work *work, struct deposit *d, c
             p->held.words);
     TRY(gpu_download(gpu, counts, 0, gone, COUNT_WAITING + 1));
     out->slid = gone[COUNT_SLID];
-    TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, &n_crumbs));
-    out->crumbs = waiting = (uint32_t)n_crumbs;
-    if (n_crumbs == 0)
+    TRY(gpu_compact(gpu, work, p->flags, p->place, p->surface, p->n, &n_fragments));
+    out->fragments = waiting = (uint32_t)n_fragments;
+    if (n_fragments == 0)
         return OK;
-    TRY(reserve(gpu, d, n_crumbs));
-    k.n = (uint)n_crumbs;
+    TRY(reserve(gpu, d, n_fragments));
+    k.n = (uint)n_fragments;
     GPU_RUN(gpu, deposit_begin, k.n, k, p->surface, p->field[ROCK_P], p->field[ROCK_id], routing->tag,
             p->start, p->flags, d->id, d->cell, d->place, d->bits, p->held.words, p->field[ROCK_phase]);
     for (k.round = 0; k.round < ROUNDS && waiting > 0; k.round++) {
         k.last = k.round + 1 < ROUNDS ? 0 : last ? 2 : 1;
-        TRY(advance(gpu, work, d, routing, k, p, n_crumbs, &waiting));
+        TRY(advance(gpu, work, d, routing, k, p, n_fragments, &waiting));
     }
     out->rounds = k.round;
     gpu_fill(gpu, counts, 0);
-    k.n = (uint)n_crumbs;
+    k.n = (uint)n_fragments;
     GPU_RUN(gpu, deposit_apply, k.n, k, p->surface, d->id, d->place, p->field[ROCK_P],
             p->field[ROCK_viability], p->field[ROCK_phase], p->field[ROCK_rate_factor],
             p->field[ROCK_vegetation], p->field[ROCK_stress], p->start, p->held.words, p->flags, counts);

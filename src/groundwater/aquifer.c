@@ -7,9 +7,9 @@
 
 #include "base/memory.h"
 
-/* Water is at least so thick, m, so that the slope of its square root is a number: dry rock. */
+/* Least thickness of water, m, so that the derivative of its square root is finite in dry rock. */
 static const double THIN = 1e-15;
-/* A share of the diagonal that is added to it: what no water leaves is full then, and not without a solution. */
+/* Relative increase of the diagonal: regions without an outlet then fill up instead of making the matrix singular. */
 static const double SHIFT = 1e-10;
 static const double LINEAR = 1e-4; /* what a round's linear system leaves of its right side */
 enum { LINEAR_MOST = 200 };
@@ -53,7 +53,7 @@ void aquifer_destroy(struct aquifer *a)
     *a = (struct aquifer){0};
 }
 
-/* What flows from c towards d, m3/yr, and how that grows with b^2 / 2 there and beyond. */
+/* Flow from c towards d, m3/yr, and its derivatives with respect to b^2 / 2 in c and in its neighbour. */
 struct flow {
     double out, here, beyond;
 };
@@ -92,7 +92,7 @@ double aquifer_flow(const struct aquifer *a, size_t c, int d)
     return flow_of(a, c, d).out;
 }
 
-/* A cell's equation, and what it has left over of its recharge. */
+/* A cell's linearised balance and its residual. */
 static double balance(const struct aquifer *a, struct fivepoint *A, size_t c)
 {
     double left = a->recharge[c];
@@ -107,7 +107,7 @@ static double balance(const struct aquifer *a, struct fivepoint *A, size_t c)
     return left;
 }
 
-/* The same of all cells; full ones have no equation. Returns the sum of what is wrong, m3/yr: full cells may have water left over, others not. */
+/* Assembles all cells; full ones have no equation. Returns the sum of the residuals, m3/yr: a surplus in full cells is none. */
 static double balances(const struct aquifer *a, struct fivepoint *A, double *left)
 {
     double wrong = 0;
@@ -128,7 +128,7 @@ static double balances(const struct aquifer *a, struct fivepoint *A, double *lef
     return wrong;
 }
 
-/* Where water is thin on a steep bed, what flows grows steeply with b^2 / 2: unknowns are that times as much, so that equations are alike. */
+/* Scales the unknowns: where water is thin on a steep bed, flow grows steeply with b^2 / 2, and equations would differ by orders. */
 static void scale_up(const struct aquifer *a, struct fivepoint *A)
 {
     for (size_t c = 0; c < cells_of(a); c++) {
@@ -142,7 +142,7 @@ static void scale_up(const struct aquifer *a, struct fivepoint *A)
     }
 }
 
-/* Cells that were full, and from which more flows than into them, are not. Were there any? */
+/* Releases full cells from which more flows out than in. Returns whether there were any. */
 static bool free_some(struct aquifer *a, const double *left)
 {
     bool any = false;
@@ -154,7 +154,7 @@ static bool free_some(struct aquifer *a, const double *left)
     return any;
 }
 
-/* By the step w of b^2 / 2. Where that asks for less than nothing, an eighth of the water stays for now. */
+/* Applies the step w of b^2 / 2. Where it would become negative, an eighth of the water stays in this round. */
 static void take_step(struct aquifer *a, const double *w)
 {
     for (size_t c = 0; c < cells_of(a); c++) {

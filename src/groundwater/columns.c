@@ -8,7 +8,7 @@
 #include "geology/attitude.h"
 #include "shared/params.h"
 
-/* The wet zone of a face is looked at this far to both sides, spacings, at least. */
+/* Least distance, in spacings, over which the seepage of a face is averaged. */
 static const double LOOK = 1.5;
 
 status columns_create(const struct job *job, const int voxels[3], struct columns *c)
@@ -55,7 +55,7 @@ static bool is_rock(const struct columns *c, size_t column, int k)
            (c->rock[((size_t)k * (size_t)c->voxels[1] + j) * across + i / 32] >> i % 32 & 1) != 0;
 }
 
-/* The lowest voxel most of which is above a height. */
+/* The lowest voxel whose centre is above a height. */
 static int voxel_above(const struct columns *c, double z)
 {
     return (int)floor(z / c->job->domain.spacing_m + 0.5);
@@ -63,7 +63,7 @@ static int voxel_above(const struct columns *c, double z)
 
 /* ---- down */
 
-/* What sinks in a column comes down to voxel k; it drips where there is air on its way. */
+/* Percolates a column's water down to voxel k; it drips where it meets air. */
 static void sink(struct columns *c, size_t column, int k)
 {
     while (c->down[column] > 0 && c->from[column] > k)
@@ -73,7 +73,7 @@ static void sink(struct columns *c, size_t column, int k)
         }
 }
 
-/* Rain runs off where a bed that holds water is bare. */
+/* Recharge of a column: none where a bed that holds water is bare, since rain runs off there. */
 static void rain(struct columns *c, size_t column)
 {
     const double h = c->job->domain.spacing_m;
@@ -92,7 +92,7 @@ static void rain(struct columns *c, size_t column)
 
 /* ---- along a bed */
 
-/* Is there rock on the bed, which is there, too, within what its water wets? Its lowest voxel, or -1. */
+/* The lowest voxel of rock on the bed within the wet zone, or -1 if there is none or the bed is missing. */
 static int foot_of(const struct columns *c, const struct contact *at, size_t column)
 {
     if (isnan(at->z))
@@ -119,7 +119,7 @@ static enum aquifer_face side_of(const struct columns *c, int d)
     return job_walls(c->job) & wall[d] ? FACE_CLOSED : FACE_SIDE;
 }
 
-/* What is beyond the face of a column with water on the bed, towards d. */
+/* Kind and sill of the face towards d of a column with water on the bed. */
 static enum aquifer_face face_of(const struct columns *c, const struct contact *at, size_t column, int d,
                                  double *sill)
 {
@@ -145,7 +145,7 @@ static enum aquifer_face face_of(const struct columns *c, const struct contact *
     return is_rock(c, o, level) ? FACE_DEEP : FACE_OPEN;
 }
 
-/* What of the bed has rock on it, and the water that comes to it. */
+/* Fills the aquifer's input for a bed: columns with rock on it, and their recharge. */
 static void lay(struct columns *c, const struct contact *at)
 {
     struct aquifer *a = &c->aquifer;
@@ -178,8 +178,7 @@ static bool is_open(enum aquifer_face face)
     return face == FACE_OPEN || face == FACE_SIDE;
 }
 
-/* How long a column's open faces are: the front that runs through it, by the direction in which air is, which is that of the columns around
- * that have no rock on the bed. */
+/* Length of the front through a column, m, from the direction towards the columns around it that have no rock on the bed. */
 static double front_in(const struct columns *c, size_t column, int look)
 {
     const struct aquifer *a = &c->aquifer;
@@ -208,7 +207,8 @@ static double front_in(const struct columns *c, size_t column, int look)
     return length;
 }
 
-/* The seepage of each metre of front, in the mean over what is near: water and weather reach so far along a face, and voxels' corners have no more of it. */
+/* Seepage per metre of front, averaged over the front near by: water and weathering spread along a face, and corners of voxels must
+ * not get more. */
 static void spread(const struct columns *c, struct wet *wet, int look)
 {
     const struct aquifer *a = &c->aquifer;
@@ -230,7 +230,7 @@ static void spread(const struct columns *c, struct wet *wet, int look)
         }
 }
 
-/* Sums, and what is wet on a bed. */
+/* Adds a bed to the sums and fills its `wet`. */
 static void drain(struct columns *c, const struct contact *at, struct wet *wet)
 {
     const struct aquifer *a = &c->aquifer;

@@ -1,29 +1,29 @@
-/* Rain that sinks into rock: down each column to the first bed that holds it, along that bed to where the rock ends, out or farther
- * down. */
+/* Infiltrated rain: down each column to the first bed that holds it, along that bed to where the rock ends, then out or down to the
+ * next bed. */
 #ifndef HOODOO_COLUMNS_OF_WATER_H
 #define HOODOO_COLUMNS_OF_WATER_H
 
 #include "groundwater/aquifer.h"
 #include "groundwater/contacts.h"
 
-/* Where water goes, m3/yr. Their sum, but for the first, is the first. */
+/* Water balance, m3/yr: recharge = faces + sides + tops + ceilings + deep, up to `left`. */
 struct groundwater_sums {
-    double recharge; /* what sinks into the rock */
-    double faces;    /* comes out on beds where the rock ends, */
-    double sides;    /* the same at the domain's open sides, */
-    double tops;     /* where the water table is as high as the rock, */
-    double ceilings; /* or drips from ceilings */
-    double deep;     /* goes down where no bed holds it */
-    double left;     /* the largest share of a bed's recharge that its balance leaves open */
-    int rounds;      /* of the solver, the most for a bed */
+    double recharge; /* infiltration */
+    double faces;    /* seepage on beds where the rock ends in air */
+    double sides;    /* outflow on beds at the domain's open sides */
+    double tops;     /* outflow where the water table reaches the rock's top */
+    double ceilings; /* dripping from ceilings */
+    double deep;     /* percolation where no bed holds it */
+    double left;     /* largest residual of a bed's balance, as a share of its recharge */
+    int rounds;      /* largest number of solver rounds for a bed */
 };
 
-/* What is wet in a column, as the device reads it. */
+/* The wet zone of a bed in a column, in the device's layout. */
 struct wet {
-    float base, top; /* m: of the rock on the bed */
-    float face;      /* m/yr: out of the wet zone of its faces */
-    float over;      /* m/yr: out of its top */
-    float front;     /* how long its open faces are, in widths of a column */
+    float base, top; /* m: bottom and top of the rock on the bed */
+    float face;      /* m/yr: seepage of the wet zone of its faces */
+    float over;      /* m/yr: seepage of its top */
+    float front;     /* length of its open faces, in column widths */
     float spare[3];
 };
 
@@ -33,19 +33,19 @@ struct columns {
     struct contacts contacts;
     struct aquifer aquifer;
     struct fivepoint_solver *solver;
-    uint32_t *rock;        /* bits, a row along x in whole words: which voxels are rock */
-    double *down;          /* m3/yr: what sinks in each column, */
-    int *from;             /* from this voxel */
-    double *flow, *length; /* by column: out of faces, m3/yr, and how long these are, m */
+    uint32_t *rock;        /* voxels that are rock, as bits; rows along x begin on whole words */
+    double *down;          /* m3/yr: water that percolates down each column, */
+    int *from;             /* below this voxel */
+    double *flow, *length; /* by column: outflow of faces, m3/yr, and their length, m */
     struct wet *wet;       /* [n_beds][n_columns] */
     struct groundwater_sums sums;
 };
 
-/* The job outlives it; not its rock, which is to be filled each time. */
+/* `job` is borrowed and must outlive *out. The caller fills out->rock before each columns_find(). */
 MUST_USE status columns_create(const struct job *job, const int voxels[3], struct columns *out);
 void columns_destroy(struct columns *c);
 
-/* From `rock` to `wet` and `sums`. */
+/* Computes `wet` and `sums` from `rock`. */
 void columns_find(struct columns *c);
 
 #endif

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "geology/attitude.h"
 
-/* Columns are looked at so many times in a voxel, and a contact is then found to a millionth of that. */
+/* Samples per voxel along a column; a contact between two samples is then found by bisection to a millionth of their distance. */
 enum { LOOKS = 4, HALVINGS = 20 };
 
 double contacts_conductivity(const struct job *job, size_t stratum)
@@ -29,7 +29,7 @@ size_t contacts_beds(const struct job *job)
     return n;
 }
 
-/* Between a place that is `below` and one that is not, in the column at x. */
+/* Bisection between a height in the stratum `below` and one that is not, in the column at x. */
 static double edge_between(const struct job *job, double x[3], double low, double high, size_t below)
 {
     for (int i = 0; i < HALVINGS; i++) {
@@ -39,7 +39,7 @@ static double edge_between(const struct job *job, double x[3], double low, doubl
     return (low + high) / 2;
 }
 
-/* From the top down. */
+/* Scans a column from the top down. */
 static void look_down(const struct job *job, const int voxels[3], const size_t *bed_of, struct contacts *c,
                       size_t column, double x[3])
 {

@@ -79,7 +79,7 @@ struct fivepoint *fivepoint_matrix(struct fivepoint_solver *solver)
     return &solver->level[0].A;
 }
 
-/* The sum of what a row has of its neighbours. */
+/* Sum over a row's neighbours of entry times x. */
 static double around(const struct fivepoint *A, const double *x, size_t c)
 {
     const size_t nx = (size_t)A->n[0];
@@ -103,7 +103,7 @@ static void multiply(const struct fivepoint *A, size_t n, const double *x, doubl
 
 /* ---- multigrid */
 
-/* Two by two cells' equations, and unknowns, added. */
+/* Coarse matrix: equations and unknowns of 2 x 2 cells added. */
 static void join(const struct level *fine, struct level *coarse)
 {
     const int *n = fine->A.n;
@@ -130,7 +130,7 @@ static void sweep(struct level *l, bool back)
     }
 }
 
-/* What is left of a level's right side, four cells' sum in one. */
+/* Restricts the residual: sum over 2 x 2 cells. */
 static void restrict_rest(const struct level *fine, struct level *coarse)
 {
     const size_t nx = (size_t)fine->A.n[0], ny = (size_t)fine->A.n[1];
@@ -150,7 +150,7 @@ static void correct(struct level *fine, const struct level *coarse)
                 fine->x[c] += coarse->x[j / 2 * (size_t)coarse->A.n[0] + i / 2];
 }
 
-/* level->x from level->b: a W-cycle. */
+/* One W-cycle from x = 0: level->x approximates the solution for level->b. */
 static void cycle(struct fivepoint_solver *s, int depth)
 {
     struct level *l = &s->level[depth];

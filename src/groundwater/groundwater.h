@@ -1,7 +1,7 @@
-/* Groundwater: rain that sinks in, flows along beds that it does not pass, and seeps out above them, where it wears the face away (sapping).
- * README.md in this folder has the law.
+/* Groundwater: rain infiltrates, flows along beds of low conductivity and seeps out of faces above them, which it erodes (sapping).
+ * README.md has the laws.
  *
- * All of it follows from the shape as it is, and nothing is kept from step to step: water comes and goes within years.
+ * The flow is steady and computed from the current shape; there is no state, since water tables adapt within years.
  */
 #ifndef HOODOO_GROUNDWATER_H
 #define HOODOO_GROUNDWATER_H
@@ -16,7 +16,7 @@ struct groundwater {
     struct gpu_buffer *wet;  /* vec4 [n_beds][n_columns][2]: columns.wet */
 };
 
-/* Does the job have any? */
+/* Whether the job has recharge (groundwater.recharge_m_per_yr). */
 bool groundwater_wanted(const struct job *job);
 
 uint64_t groundwater_bytes(const struct job *job, const int voxels[3]);
@@ -24,12 +24,12 @@ MUST_USE status groundwater_create(struct gpu *gpu, const struct job *job, const
                                    struct groundwater *out);
 void groundwater_destroy(struct gpu *gpu, struct groundwater *g);
 
-/* Where it seeps out of the rock as it is: the particles' field `seepage`; and wet rock is more erodible than its stress lets it be. Needs surface,
- * stress and `layers` (struct erosion's). Waits. */
+/* Computes the particles' field `seepage`, m/yr, for the current shape, and the erodibility of wet rock, which has a lower interlocking
+ * threshold. Call after erosion_interlock(). Needs surface, stress and `layers` (struct erosion's). Waits for the device. */
 MUST_USE status groundwater_find(struct gpu *gpu, struct groundwater *g, const struct job *job, int frame,
                                  struct gpu_buffer *layers, struct particles *p);
 
-/* Adds sapping to the intensity on the surface, and water's share in it to `parts`, as water_erode() does. Records only. */
+/* Adds sapping to intensity and its share to `parts`, as water_erode() does. Records only. */
 void groundwater_sap(struct gpu *gpu, const struct groundwater *g, const struct job *job,
                      const struct particles *p, struct gpu_buffer *intensity, struct gpu_buffer *parts);
 

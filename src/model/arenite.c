@@ -95,26 +95,26 @@ static status route(struct arenite *a, int step)
                                 .cells = deposits};
     gpu_stage(a->m.gpu, "water");
     if (deposits)
-        TRY(water_route(a->m.gpu, a->m.work, &a->crumbs.ways, &how, &a->particles));
+        TRY(water_route(a->m.gpu, a->m.work, &a->fragments.routing, &how, &a->particles));
     if (!flows)
         goto done;
     how.cells = false;
     TRY(water_route(a->m.gpu, a->m.work, &a->water, &how, &a->particles));
     TRY(water_discharge(a->m.gpu, a->m.work, &a->water, job, a->m.frame, &a->particles));
     if (deposits)
-        water_sweep(a->m.gpu, &a->water, job, &a->particles, &a->crumbs);
+        water_sweep(a->m.gpu, &a->water, job, &a->particles, &a->fragments);
 done:
     return st;
 }
 
-/* Crumbs come to rest, or leave; or they wait, unless this is the last landing. */
+/* Fragments come to rest or leave; or they wait, unless this is the last landing. */
 static status land(struct arenite *a, int step, bool last, struct deposit_counts *moved)
 {
     status st = OK;
-    const struct water *ways = &a->crumbs.ways;
-    struct deposit_routing routing = {.tag = ways->tag, .receiver = ways->receiver};
-    memcpy(routing.cells, ways->cells, sizeof routing.cells);
-    memcpy(routing.shift, ways->shift, sizeof routing.shift);
+    const struct water *paths = &a->fragments.routing;
+    struct deposit_routing routing = {.tag = paths->tag, .receiver = paths->receiver};
+    memcpy(routing.cells, paths->cells, sizeof routing.cells);
+    memcpy(routing.shift, paths->shift, sizeof routing.shift);
     gpu_stage(a->m.gpu, "deposition");
     weigh(a, PROCESS_DEPOSITION, false);
     TRY(deposit_land(a->m.gpu, a->m.work, &a->deposit, a->m.job, a->m.frame, step, &routing, &a->particles,
@@ -124,7 +124,7 @@ static status land(struct arenite *a, int step, bool last, struct deposit_counts
     gpu_stage(a->m.gpu, "particles");
     if (moved->waiting)
         TRY(particles_index_waiting(a->m.gpu, a->m.work, &a->particles));
-    else if (moved->crumbs)
+    else if (moved->fragments)
         TRY(particles_index(a->m.gpu, a->m.work, &a->particles));
 done:
     return st;
@@ -139,7 +139,7 @@ static status land_all(struct arenite *a, int step, bool *changed)
     bool last = false;
     const uint64_t few = a->m.ledger.deposit / FEW_OF;
     TRY(land(a, step, last, &moved));
-    *changed = moved.crumbs > 0;
+    *changed = moved.fragments > 0;
     for (int n = 1; !last && (moved.slid > few || moved.waiting > 0); n++) {
         last = n == LANDINGS || moved.landed + moved.left == 0 || moved.slid + moved.waiting <= few;
         if (water_flows(a->m.job, a->m.frame))

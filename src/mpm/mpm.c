@@ -30,7 +30,7 @@ size_t mpm_nodes(const int voxels[3])
 
 uint64_t mpm_bytes(size_t n_max, const int voxels[3], double h, double block)
 {
-    /* An eighth of the particles is cells; a third more for those cut by the surface. */
+    /* Parts are about n_max / 8 for full cells; more are cut by the surface. */
     return (uint64_t)n_max * ((MPM_VECTORS + 1) * 16 + (MPM_WORDS + 10) * 4) +
            (uint64_t)mpm_nodes(voxels) * (16 + 9 * 4) + (uint64_t)held_words(voxels) * 4 +
            (uint64_t)n_max / 4 * (27 * 20 + 40) + mpm_pieces_bytes(voxels, h, block);

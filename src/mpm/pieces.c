@@ -1,4 +1,4 @@
-/* Pieces of jointed rock: which joints have broken, and which pieces those that have not keep together. */
+/* Pieces of jointed rock: which joints have broken, and which pieces the others hold together as bodies. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,12 +6,14 @@
 #include "base/memory.h"
 #include "mpm/internal.h"
 
-/* Share of a joint's particles that crack before all of it does; half of a joint's width in pieces, and at least in
- * particles. Slivers, pieces of fewer particles than two cells hold, stay with their neighbours. */
+/* Pieces of fewer particles, two cells' worth, stay with their neighbours. */
 enum { SLIVER = 16 };
 
-/* How a joint stands. */
+/* State of a joint: no particles, holds, has parted its pieces. */
 enum { NONE, HOLDS, PARTS };
+
+/* BRITTLE: share of cracked particles at which a joint breaks. WIDTH: half the width of a joint in piece sizes, but at least
+ * LEAST_WIDTH particle spacings. */
 static const double BRITTLE = 0.25, WIDTH = 0.1, LEAST_WIDTH = 0.75;
 
 static size_t count(const int n[3])
@@ -19,13 +21,13 @@ static size_t count(const int n[3])
     return (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
 }
 
-/* m: a piece is resolved from four cells on; smaller ones are made as large as two. */
+/* Size of pieces, m: at least two cells. (From four cells on they are resolved.) */
 static double size_of(double block, double dx)
 {
     return block > 0 ? fmax(block, 2 * dx) : 0;
 }
 
-/* Seeds of pieces on an axis `length` m long. */
+/* Number of seeds along an axis of `length` m. */
 static int seeds(double length, double size)
 {
     return (int)floor(length / size) + 3;
@@ -93,7 +95,7 @@ static uint32_t root_of(uint32_t *body, uint32_t i)
     return i;
 }
 
-/* The piece on a joint's other side, as shaders/mpm/load.comp.glsl numbers them. */
+/* The piece on the other side of a joint; numbering as in shaders/mpm/load.comp.glsl. */
 static uint32_t beyond(const int n[3], uint32_t joint)
 {
     int d = (int)(joint % MPM_JOINTS) + 1, z = (d + 12) / 25, y = (d - 25 * z + 12) / 5 - 2,

@@ -3,7 +3,7 @@
 
 #include "mpm/internal.h"
 
-enum { CHECK = 32 }; /* steps between looks at the energies */
+enum { CHECK = 32 }; /* steps between checks of the energies */
 
 static void step(struct gpu *gpu, struct gpu_work *work, struct mpm *m, const struct mpm_params *params)
 {

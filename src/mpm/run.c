@@ -1,22 +1,22 @@
-/* Rock in motion: steps through time. */
+/* Time stepping of rock in motion. */
 #include <math.h>
 
 #include "mpm/internal.h"
 
-/* Of a cell: how far particles may be expected to move, and may move at most, before they are sorted anew. At
- * the most the kernel still has positive weights (0.5 + 0.36 = 0.86). */
+/* In cells: the distance particles are expected to move, and may move at most, between sorts. At the maximum the kernel's weights
+ * are still positive (0.5 + 0.36 = 0.86). */
 static const double EXPECTED = 0.14, MOST = 0.36;
 
-/* Steps that hold before the next sort, of `left`. */
+/* Number of steps, at most `left`, before the next sort. */
 static long steps_until_sort(const struct mpm *m, double dt, long left)
 {
-    /* Speed after all `left` steps bounds that during fewer. What is not gravity's (rebounds, waves) gets as
-     * much again. */
+    /* The speed after all `left` steps bounds that during fewer. The margin covers what is not gravity's: rebounds, waves. */
     double speed = 1.5 * m->fastest + m->options.gravity * dt * (double)left + 0.1 * m->dx;
     double steps = floor(EXPECTED * m->dx / (dt * speed));
     return steps < 1 ? 1 : steps < (double)left ? (long)steps : left;
 }
 
+/* Updates speeds and bodies after a batch of steps. */
 static status look(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
 {
     status st = OK;
@@ -60,7 +60,7 @@ void mpm_step(struct gpu *gpu, struct mpm *m, const struct mpm_params *params, b
         GPU_RUN(gpu, mpm_touch, k.n, k, m->mixed, m->node_list, m->first, m->meeting, m->entry_body,
                 m->entry_group, m->mass, m->wall, m->velocity);
     k.n = (uint)m->n;
-    if (last) /* the next frame's steps may have another length: mpm_prime */
+    if (last) /* mpm_prime adds the impulse again, for the next frame's step length */
         k.push = 0;
     GPU_RUN(gpu, mpm_gather, k.n, k, m->part, m->velocity, m->vector[MPM_PLACE], m->vector[MPM_STRETCH_X],
             m->vector[MPM_STRETCH_Y], m->word[MPM_APART], m->word[MPM_STRENGTH], m->full, m->reach,
@@ -74,7 +74,7 @@ status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double sec
     status st = OK;
     const struct mpm_options *o = &m->options;
     double fastest = m->fastest + o->gravity * seconds;
-    /* A wave's limit and viscosity's: 1 / dt = c / (cfl dx) (1 + 2 viscosity). */
+    /* CFL limit of waves, viscosity and motion: dt = cfl dx / (c (1 + 2 viscosity) + v). */
     double most = o->cfl * m->dx / (mpm_wave(o) * (1 + 2 * o->viscosity) + fastest);
     long n = (long)ceil(seconds / most);
     double dt = seconds / (double)n;
@@ -90,7 +90,7 @@ status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double sec
             mpm_step(gpu, m, &k, m->steps + 1 == n);
         TRY(look(gpu, work, m));
     }
-    /* Those that left in the last steps go now. */
+    /* Drop points that left in the last steps. */
     TRY(mpm_sort(gpu, work, m));
 done:
     return st;

@@ -1,4 +1,4 @@
-/* What is left of a fall: fragments, large and small. */
+/* The end of a fall: fragments become rubble or deposits by size. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -35,12 +35,12 @@ static uint32_t root_of(uint32_t *parent, uint32_t i)
     return i;
 }
 
-/* The voxel a particle lies in, moved by `way`; false outside the domain. */
-static bool voxel_of(const struct fragments *f, double h, size_t i, const int way[3], size_t *out)
+/* The voxel at `offset` from that of particle i; false outside the domain. */
+static bool voxel_of(const struct fragments *f, double h, size_t i, const int offset[3], size_t *out)
 {
     long v[3];
     for (int a = 0; a < 3; a++) {
-        v[a] = (long)floor((double)f->place[4 * i + (size_t)a] / h) + way[a];
+        v[a] = (long)floor((double)f->place[4 * i + (size_t)a] / h) + offset[a];
         if (v[a] < 0 || v[a] >= f->voxels[a])
             return false;
     }
@@ -51,18 +51,18 @@ static bool voxel_of(const struct fragments *f, double h, size_t i, const int wa
 /* Joins each whole particle with those of its body in its voxel and in those across three of its faces. */
 static void connect(struct fragments *f, double h)
 {
-    static const int ways[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const int offsets[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     size_t v;
     for (uint32_t i = 0; i < f->n; i++) {
         f->parent[i] = i;
-        if (!is_whole(f, i) || !voxel_of(f, h, i, ways[0], &v))
+        if (!is_whole(f, i) || !voxel_of(f, h, i, offsets[0], &v))
             continue;
         f->next[i] = f->first[v];
         f->first[v] = i;
     }
     for (uint32_t i = 0; i < f->n; i++)
         for (int w = 0; w < 4 && is_whole(f, i); w++) {
-            if (!voxel_of(f, h, i, ways[w], &v))
+            if (!voxel_of(f, h, i, offsets[w], &v))
                 continue;
             for (uint32_t j = f->first[v]; j != NONE; j = f->next[j]) {
                 uint32_t a = root_of(f->parent, i), b = root_of(f->parent, j);

@@ -1,4 +1,4 @@
-/* Order: which particles each cell has, of which bodies, and which nodes they reach. */
+/* Sorting: parts of each cell, nodes that they reach, and the nodes' entries, one per body. */
 #include "mpm/internal.h"
 
 static void reorder(struct gpu *gpu, struct mpm *m, struct gpu_buffer **item)
@@ -10,7 +10,7 @@ static void reorder(struct gpu *gpu, struct mpm *m, struct gpu_buffer **item)
     *spare = old;
 }
 
-/* Room for the parts' sums; for the entries. */
+/* Grow the buffers by part, and by entry. */
 static status room_for_parts(struct gpu *gpu, struct mpm *m)
 {
     status st = OK;
@@ -65,7 +65,7 @@ done:
     return st;
 }
 
-/* The nodes that parts reach, and one entry for each body at each of them. */
+/* Lists the nodes that parts reach and creates one entry for each body at each of them. */
 static status find_entries(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
 {
     status st = OK;

@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 
-/* Voxels that cover may advance in a frame: beyond, it falls behind spread_m_per_kyr. */
+/* Voxels that cover may advance in a frame; a faster spread_m_per_kyr is cut off at this. */
 enum { SPREAD_MOST = 64 };
 
 bool plants_wanted(const struct job *job)
@@ -44,8 +44,8 @@ void plants_bind(struct gpu *gpu, const struct job *job, struct particles *p)
     GPU_RUN(gpu, plants_bind, k.n, k, p->surface, p->field[ROCK_vegetation], p->field[ROCK_erodibility]);
 }
 
-/* Whole voxels that cover advances in a frame. From the frame's number and not from a sum, so that frames add up
- * to the distance and nothing has to be remembered. */
+/* Whole voxels that cover advances in this frame. Computed from the frame's number instead of an accumulated remainder, so that
+ * frames add up to the distance without any state. */
 static int spread_steps(const struct job *job, int frame, double h)
 {
     double per_frame = job->vegetation.spread_m_per_kyr * job->clock.years_per_frame / 1000 / h;

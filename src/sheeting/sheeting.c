@@ -13,7 +13,8 @@ void sheeting_press(struct gpu *gpu, const struct job *job, double from, double 
                     struct gpu_buffer *intensity, struct gpu_buffer *parts)
 {
     const struct job_sheeting *s = &job->sheeting;
-    const double first = from * s->per_kyr, whole = floor(first); /* floats have no digits to spare */
+    const double first = from * s->per_kyr,
+                 whole = floor(first); /* subtracted below, to keep precision in floats */
     const struct sheeting_params k = {
         .n = (uint)p->n_surface,
         .seed = random_hash((uint32_t)job->seed, 0, 0, RANDOM_SHEETS),

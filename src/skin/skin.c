@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Beyond so many depths a face does not count: e^-3 is 5 %. And beyond so many voxels it is not looked for. */
+/* Reach within which faces are searched: in depths (e^-3 is 5 %), and at most in voxels. */
 static const double reach_depths = 3;
 enum { REACH_MOST = 16 };
 

@@ -1,9 +1,9 @@
-/* What becomes of rock where it meets the air: how long it has been bare, the crust that grows on it (case hardening), and the
- * damp of hollows, in which none does. README.md in this folder has the laws.
+/* Rock exposed to air: exposure age, the crust that grows with it (case hardening), and the damp of hollows, where none grows.
+ * README.md has the laws.
  *
- * The age A of a particle, its field exposed_kyr, is that of its outermost point. On a face it grows with time and is worn off with
- * what wears off; what is bared takes over from what went off it, and from faces near it. Inside it stays as it is: what has been
- * buried goes on where it was. What has come to rest as a deposit begins anew.
+ * A particle's age A, field exposed_kyr, is that of its outermost point. On a face it grows with time and falls with retreat. A
+ * particle that is bared takes over the age of those eroded in front of it, and of faces near it. Inside the rock the age stays as it
+ * is, so that what was buried continues where it was. What comes to rest as a deposit starts at 0.
  */
 #ifndef HOODOO_SKIN_H
 #define HOODOO_SKIN_H
@@ -13,7 +13,7 @@
 #include "particles/particles.h"
 
 struct skin {
-    /* float [n_max], by particle, of bare rock: what crust and damp multiply its rate with, and how damp it is, 0 to 1 */
+    /* float [n_max], by particle, of bare rock: factor of crust and damp in its rate; damp, 0 to 1 */
     struct gpu_buffer *crust, *damp;
 };
 
@@ -21,21 +21,21 @@ uint64_t skin_bytes(size_t n);
 MUST_USE status skin_create(struct gpu *gpu, size_t n_max, struct skin *out);
 void skin_destroy(struct gpu *gpu, struct skin *s);
 
-/* All particles below keep exposed_kyr. All of these record only. */
+/* The functions below need particles with the field exposed_kyr. They record only. */
 
-/* Bare rock has the age that the job begins with. Needs the surface. */
+/* Sets the age of bare rock in the first frame (skin.before_kyr). Needs the surface. */
 void skin_begin(struct gpu *gpu, const struct job *job, struct particles *p);
 
-/* What has become bare since the last time has its age, and the erodibility of bare rock is that under its crust, or in the damp. Once,
- * after all else that makes erodibility; uses the particles' spare words. Needs the surface and its normals. */
+/* Finds the age of what has become bare since the last call, and multiplies the erodibility of bare rock by the factor of crust and
+ * damp. Call once, after everything else that determines erodibility. Overwrites p's scratch buffers. Needs surface and normals. */
 void skin_find(struct gpu *gpu, struct skin *s, const struct job *job, struct particles *p);
 
-/* A step of so many kyr passes for the surface, under intensity (float [n_surface], in the order of p->surface) and erodibility,
- * before it is taken from the viability. Intensities become less by what crusts grow until the middle of the step. */
+/* Ages the surface by a step of `kyr` under intensity (float [n_surface], in the order of p->surface) and erodibility; call before
+ * erosion_weather(). Reduces intensities by the growth of crusts until the middle of the step. */
 void skin_age(struct gpu *gpu, const struct skin *s, const struct job *job, double kyr,
               struct gpu_buffer *intensity, struct particles *p);
 
-/* What has no viability left is not bare any more, and begins anew if it comes to rest. */
+/* Clears the age of particles whose viability is used up, so that they start at 0 if they come to rest. */
 void skin_forget(struct gpu *gpu, struct particles *p);
 
 #endif

@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Is a voxel at d voxels from the bubble's own in it? */
+/* Whether the bubble contains the voxel at the offset d. `radius`: in voxels. */
 static bool holds(const struct job_bubble *job, double radius, const int d[3])
 {
     double sum = 0, z = d[2] - job->offset[2] * radius;
     for (int a = 0; a < 3; a++) {
         double x = (d[a] - job->offset[a] * radius) / (job->stretch[a] * radius);
-        /* A gumdrop is round above its middle and straight below, down to its base. */
+        /* A gumdrop is round above its centre and a cylinder below, down to its base. */
         if (job->shape == BUBBLE_GUMDROP && a == 2 && x < 0)
             x = 0;
         sum += x * x;
@@ -49,13 +49,12 @@ status bubble_create(const struct job_bubble *job, double h, struct bubble *b)
     if (b->n < 2)
         return fail(
             E_USAGE,
-            "bubble: a radius of %g m holds no neighbour of its voxel at %g m: lower domain.spacing_m, or make the bubble larger",
+            "bubble: a radius of %g m contains no neighbour of its voxel at %g m: lower domain.spacing_m, or make the bubble larger",
             job->radius_m, h);
     return OK;
 }
 
-/* The share of the bubble beyond a flat face across `axis`, its own voxel lying under `depth` others; -1:
- * just outside. */
+/* Share of a bubble that is beyond a flat face across `axis`, for a voxel below `depth` others; -1: for the first voxel outside. */
 static double flat_air(const struct bubble *b, int axis, int side, int depth)
 {
     uint32_t air = 0;

@@ -1,9 +1,8 @@
-/* Bubbles: the shapes whose share of air says how fast a voxel weathers (Goblins, section 4), as tables of
- * rows.
+/* Bubbles: the neighbourhoods whose share of air determines how fast a voxel weathers (Goblins, section 4), as tables of rows.
  *
- * A bubble is a convex set of whole voxels around its own, so that along x each of its rows is one run of at
- * most 31: one masked word. Rates are scaled so that, without a threshold, a flat face retreats at
- * the speed the job gives, on the average over the ways it may look, however large its voxels.
+ * A bubble is a convex set of voxels around a voxel, so each of its rows along x is one run of at most 31 voxels: one masked word.
+ * Rates are scaled so that, without a threshold, a flat face retreats at the speed that the job gives, averaged over the six axis
+ * directions, whatever the size of the voxels.
  */
 #ifndef HOODOO_BUBBLE_H
 #define HOODOO_BUBBLE_H
@@ -21,18 +20,17 @@ struct bubble_row {
 
 struct bubble {
     int n_rows, reach; /* voxels, in y or z */
-    uint32_t n;        /* voxels in all */
+    uint32_t n;        /* voxels in total */
     struct bubble_row row[BUBBLE_ROWS_MAX];
 };
 
-/* E_USAGE: it holds no neighbour at this voxel size h, or reaches farther than BUBBLE_REACH_MAX voxels. */
+/* E_USAGE: at this voxel size h (m) it contains no neighbour, or reaches farther than BUBBLE_REACH_MAX voxels. */
 MUST_USE status bubble_create(const struct job_bubble *job, double h, struct bubble *out);
 
-/* What the number of its voxels that are air does to the rate: w = max(0, slope * air - level), in voxels of
- * retreat. Without a threshold the voxels of a skin `depth` deep below a flat face make up 1 together, on the
- * average over the six. The threshold is a share of the air on a flat face itself, between its outermost
- * voxels and the first of the air. Both are what a bubble of infinitely small voxels has, to second order, so
- * that neither shape nor speed depends on their size. */
+/* Rate as a function of the number of air voxels in the bubble: w = max(0, slope * air - level). Without a threshold, w summed
+ * over a skin of `depth` voxels below a flat face is 1, averaged over the six faces. The threshold is a share of the air count on
+ * the flat face itself, the mean of those of the outermost voxel and the first voxel of air. Both are second-order accurate in the
+ * voxel size, so that neither shape nor speed depends on it. */
 struct bubble_rate {
     double slope, level;
 };

@@ -53,7 +53,7 @@ static int skin_of(const struct job *job)
     return (int)fmin(fmax(round(skin), 1), SKIN_MAX);
 }
 
-/* How far the job's bubbles reach at most, without making them. */
+/* Upper bound of the reach of the job's bubbles in y and z, and of the skin, in voxels. */
 static int margin_of(const struct job *job)
 {
     double reach = 1;
@@ -87,7 +87,7 @@ static void add_row(struct tables *t, int64_t first, uint32_t run)
     t->rows[t->n_rows++] = run;
 }
 
-/* The skin's ball: where each row lies, in words, and how far it reaches to either side. */
+/* The skin's ball: offset of each row in words, and its reach to either side. */
 static void add_skin(struct voxels *v, struct tables *t)
 {
     struct voxels_params *g = &v->grid;
@@ -179,7 +179,7 @@ done:
 
 /* ---- start */
 
-/* A half of a number that is not negative, to the nearest; at most 65504. */
+/* Converts a non-negative number to half precision, rounded to nearest; at most 65504. */
 static uint32_t half_of(float x)
 {
     uint32_t bits;
@@ -200,7 +200,7 @@ static float half_value(uint32_t half)
     return x;
 }
 
-/* One slab of the domain, as the device has it. */
+/* Converts one slab of the domain to the device's layout. */
 static void pack_slab(const struct voxels *v, const float *share, const float *factor, uint32_t *rock,
                       float *left, uint32_t *state)
 {
@@ -245,7 +245,7 @@ done:
     return st;
 }
 
-/* What bubbles see behind walls. */
+/* Fills the margin behind walls with the mirror image. */
 static void mirror(struct gpu *gpu, struct voxels *v)
 {
     const struct voxels_params k = voxels_params(v, domain_words(&v->grid));
@@ -315,7 +315,7 @@ done:
 
 /* ---- a cycle */
 
-/* Skin, list and air, wherever a brick is touched; then no voxel is newly gone. */
+/* Updates skin, list and air counts in touched bricks. */
 static status refresh(struct gpu *gpu, struct gpu_work *work, struct voxels *v)
 {
     status st = OK;
@@ -367,7 +367,7 @@ static float float_of(uint32_t bits)
     return x;
 }
 
-/* kyr until the next voxel vanishes, and what the fastest loses in one, 1/kyr; 0 if nothing weathers. */
+/* *event: kyr until the next voxel vanishes; *fastest: largest rate, 1/kyr, 0 if nothing weathers. */
 static status pace(struct gpu *gpu, struct voxels *v, double *event, double *fastest)
 {
     status st = OK;

@@ -1,17 +1,17 @@
-/* Rock as voxels, weathering as bubbles: Goblins by Spheroidal Weathering (Beardall et al. 2007).
+/* Rock as voxels, weathered by the air in their bubbles: Goblins by Spheroidal Weathering (Beardall et al. 2007). README.md has the
+ * equations.
  *
- * Which voxels are rock is a bit each. The active ones, a skin with air within a few voxels, lose what is
- * left of them by their layer's rate, their own factor, and the air in their bubble; both bit sets and the
- * counts of air are kept up by what vanishes in each cycle, near where it vanished.
+ * A bit per voxel says whether it is rock. The active voxels, a skin with air within a few voxels, weather by their layer's rate,
+ * their own factor, and the air in their bubble. Bit sets and air counts are updated incrementally, only near voxels that vanished.
  *
- * One cycle (two steps, synchronous: nobody sees a voxel go before all have been asked):
+ * One cycle, synchronous in two steps (no voxel vanishes before all have been updated):
  *
  *   pace -> decimate -> apply -> touch -> skin -> list -> count
  *
- * Layout    a voxel's number is its bit's in the sets: words of 32 along x, one word of air between rows,
- *           `margin` rows and slabs around the domain for bubbles to reach into. Slabs below the domain are
- *           rock, unless the rock floats; behind walls lies the mirror image of the domain.
- * Same bits integers are counted, every voxel sums for itself.
+ * Layout       A voxel's number is that of its bit: words of 32 along x, one word of margin between rows, `margin` rows and slabs
+ *              around the domain for bubbles to reach into. Slabs below the domain are rock, unless the rock floats; beyond walls
+ *              lies the mirror image of the domain.
+ * Determinism  Counts are integers, and every voxel sums for itself.
  */
 #ifndef HOODOO_VOXELS_H
 #define HOODOO_VOXELS_H
@@ -25,46 +25,46 @@ struct voxels {
     int n[3];                  /* voxels of the domain */
     double h;                  /* m */
     struct voxels_params grid; /* all but n and dt */
-    size_t n_active, n_cycles; /* n_cycles: since it was made */
+    size_t n_active, n_cycles; /* n_cycles: since voxels_create() */
     int skin;                  /* voxels */
     struct gpu_buffer *bits;   /* uint [2][words]: gone in this cycle; rock */
     struct gpu_buffer *skin_bits, *touched, *gone_bricks, *place;
-    struct gpu_buffer *left;  /* float [voxels]: of each, 1 to 0 */
-    struct gpu_buffer *state; /* uint [voxels]: air in the bubble; factor of the rate, as a half */
-    struct gpu_buffer *list;  /* uint [n_active]: the active voxels, ascending; grows */
+    struct gpu_buffer *left; /* float [voxels]: share that is left, 1 to 0 */
+    struct gpu_buffer *
+        state; /* uint [voxels]: air in the bubble (low 16 bits); factor of the rate, half precision (high) */
+    struct gpu_buffer *list; /* uint [n_active]: the active voxels, ascending; grows */
     struct gpu_buffer *rows, *bubbles, *layer_of, *layers, *paces;
     struct bubble_rate *rate; /* by layer */
 };
 
-/* Bytes on the device with so many active voxels; with *words, what gpu_work_create() must be good for. */
+/* Bytes on the device with n_active active voxels. *words: number of items that gpu_work_create() must support. */
 uint64_t voxels_bytes(const struct job *job, const int n[3], size_t n_active, size_t *words);
 
-/* `share` and `factor` have a value for each voxel of the domain, (z ny + y) nx + x: what is left of it, 0
- * for air, and what its layer's rate is multiplied with. Waits. E_USAGE: a bubble does not fit the voxels. */
+/* `share` and `factor`, float [voxels of the domain] at (z ny + y) nx + x: share left (0: air), and factor of the layer's rate. Waits
+ * for the device. E_USAGE: a bubble does not fit the voxels, or there are too many voxels. */
 MUST_USE status voxels_create(struct gpu *gpu, struct gpu_work *work, const struct job *job, const int n[3],
                               const float *share, const float *factor, struct voxels *out);
 void voxels_destroy(struct gpu *gpu, struct voxels *v);
 
-/* The layers' rates as they are in this frame. */
+/* Sets the layers' rates for a frame. Call before its cycles. */
 MUST_USE status voxels_rates(struct gpu *gpu, struct voxels *v, const struct job *job, int frame);
 
-/* One cycle of at most `kyr` and at least the quantum; *passed is what it took, *n_gone how many voxels
- * vanished. Waits. */
+/* One cycle: until the next voxel vanishes, but at least `quantum` of the fastest voxel's life and at most `kyr`. *passed: its
+ * length, kyr; *n_gone: voxels that vanished. Waits for the device. E_NUMERIC if rates are not finite. */
 MUST_USE status voxels_cycle(struct gpu *gpu, struct gpu_work *work, struct voxels *v, double quantum,
                              double kyr, double *passed, uint32_t *n_gone);
 
-/* Takes out the voxels whose bits are set in the first half of `bits`, and brings skin, list and air up to
- * date: for what does not vanish by itself. *n_gone: how many they were. Waits. */
+/* Removes the voxels whose bits are set in the first half of `bits` (by voxels_fall(), for instance) and updates skin, list and air
+ * counts. *n_gone: their number. Waits for the device. */
 MUST_USE status voxels_remove(struct gpu *gpu, struct gpu_work *work, struct voxels *v, uint32_t *n_gone);
 
-/* What is left of each voxel of the domain and its factor, as voxels_create() takes them; either may be NULL.
- * Waits. */
+/* Downloads share and factor, laid out as for voxels_create(); either may be NULL. Waits for the device. */
 MUST_USE status voxels_download(struct gpu *gpu, const struct voxels *v, float *share, float *factor);
 
-/* A voxel of the domain's number in the buffers. */
+/* Index in the buffers of a voxel of the domain. */
 size_t voxels_number(const struct voxels *v, int x, int y, int z);
 
-/* The parameters of a kernel over n items. */
+/* Parameters of a kernel over n items. */
 struct voxels_params voxels_params(const struct voxels *v, size_t n);
 
 #endif

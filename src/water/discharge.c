@@ -8,10 +8,10 @@
 
 /* ---- rain */
 
-/* Of the flow, between looks at whether it has come to its end. */
+/* Rounds of accumulation between checks for its end. */
 enum { ROUNDS = 32 };
 
-/* The level at which each basin overflows, in *spill. */
+/* *spill: the level to which each basin fills, the highest pass on its path out. */
 static void find_spills(struct gpu *gpu, struct water *w, struct gpu_buffer **spill)
 {
     struct gpu_buffer **node = w->node;
@@ -26,7 +26,7 @@ static void find_spills(struct gpu *gpu, struct water *w, struct gpu_buffer **sp
     *spill = level[now];
 }
 
-/* Levels, ways and shares of all spans, and how many give to each. */
+/* Water levels, directions and shares of all spans, and the number of donors of each. */
 static void split(struct gpu *gpu, struct water *w)
 {
     struct gpu_buffer **node = w->node, *spill, *donors = node[WATER_SCRATCH + 1];
@@ -51,7 +51,8 @@ static status let_it_rain(struct gpu *gpu, struct gpu_work *work, struct water *
     gpu_fill(gpu, counts, 0);
     for (k.round = 0; k.round == changed;) {
         if (k.round > w->n_nodes)
-            return fail(E_NUMERIC, "water: the ways of %zu spans have a cycle: the device computes wrongly",
+            return fail(E_NUMERIC,
+                        "water: the flow paths of %zu spans have a cycle: the device computes wrongly",
                         w->n_nodes);
         for (int i = 0; i < ROUNDS; i++, k.round++)
             GPU_RUN(gpu, water_flow, k.n, k, w->pass, w->shares, when, waits, node[WATER_RAIN], counts);
@@ -63,8 +64,8 @@ done:
 
 /* ---- springs */
 
-/* Tells once of sources whose water enters elsewhere. */
-static status tell_entries(struct gpu *gpu, struct water *w)
+/* Warns once of sources whose water enters elsewhere. */
+static status warn_of_entries(struct gpu *gpu, struct water *w)
 {
     status st = OK;
     uint32_t *entry = NULL;
@@ -76,7 +77,7 @@ static status tell_entries(struct gpu *gpu, struct water *w)
     for (size_t i = 0; i < w->n_sources; i++)
         if (entry[2 * i + 1] > 4)
             log_warn(
-                "sources[%zu].path_m: begins inside rock; its water enters at the nearest place that is not, %.3g spacings away: begin it in the open, or give it a bed_m",
+                "sources[%zu].path_m: begins inside rock; its water enters at the nearest place outside, %.3g spacings away: begin it in the open, or give it a bed_m",
                 i, sqrt(entry[2 * i + 1]));
 done:
     free(entry);
@@ -102,19 +103,19 @@ static status let_it_spring(struct gpu *gpu, struct water *w, const struct job *
     GPU_RUN(gpu, water_enter, k.n, k, w->occupied, w->floors, w->first, node[WATER_BASIN],
             node[WATER_COMPONENT], w->source, w->entry);
     GPU_RUN(gpu, water_spring, k.n, k, w->entry, w->source, node[WATER_FINAL], node[WATER_SPRING]);
-    TRY(tell_entries(gpu, w));
+    TRY(warn_of_entries(gpu, w));
 done:
     return st;
 }
 
 /* ---- streams */
 
-/* No stream is wider than all water together. */
+/* The reach of streams is bounded by the width of one that carries all water. */
 static struct water_stream_params stream_params(const struct water *w, const struct job *job, int frame,
                                                 double h)
 {
-    enum { REACH = 16 };            /* cells, so that a wide river on a fine grid stays affordable */
-    const double disc = 0.84882636; /* as shaders/water/wide has it */
+    enum { REACH = 16 };            /* cells: bounds the cost of a wide river on a fine grid */
+    const double disc = 0.84882636; /* RADIUS of shaders/water/wide.comp.glsl */
     const struct job_rain *rain = &job->rain;
     double q = curve_at(&rain->m_per_yr, frame) * w->voxels[0] * w->voxels[1] * h * h;
     for (size_t i = 0; i < job->n_sources; i++)

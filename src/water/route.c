@@ -1,5 +1,5 @@
-/* Receivers: columns as bits, spans, pits, basins joined by their lowest passes (Boruvka), and the pits'
- * receivers turned round. */
+/* Flow routing: columns as bits, spans, pits, basins joined over their lowest passes (Boruvka), and reversed receivers from pass
+ * to pit. */
 #include <assert.h>
 
 #include "base/random.h"
@@ -38,12 +38,12 @@ struct water_params water_params(const struct water *w, size_t n)
                                  .walls = w->walls};
 }
 
-/* The spans of every column. */
+/* Finds the spans of every column and their altitudes. */
 static status find_nodes(struct gpu *gpu, struct gpu_work *work, struct water *w, const struct particles *p)
 {
     status st = OK;
     size_t n_words = w->columns * w->words;
-    struct gpu_buffer *rows = w->rows ? w->rows : p->held.words; /* which has voxels as such rows */
+    struct gpu_buffer *rows = w->rows ? w->rows : p->held.words; /* the voxels' bits are such rows already */
     struct water_params k = water_params(w, n_words);
     uint32_t n_nodes;
     gpu_fill(gpu, w->first, 0);
@@ -64,8 +64,8 @@ done:
     return st;
 }
 
-/* First receivers and passes; the basin of every span; *border: how many have passes to other basins, listed
- * in the last scratch. */
+/* Initial receivers, passes, and the basin of every span. *n_border: number of spans with passes to other basins, listed in the
+ * last scratch array. */
 static status find_basins(struct gpu *gpu, struct gpu_work *work, struct water *w, size_t *n_border)
 {
     status st = OK;
@@ -85,7 +85,7 @@ done:
     return st;
 }
 
-/* Every component of basins drains over its lowest pass, until none has one that is not drained already. */
+/* Boruvka: every component of basins drains over its lowest pass, in rounds until none without a path out has a pass left. */
 static status join_basins(struct gpu *gpu, struct gpu_work *work, struct water *w, size_t n_border)
 {
     status st = OK;
@@ -97,7 +97,8 @@ static status join_basins(struct gpu *gpu, struct gpu_work *work, struct water *
     gpu_fill(gpu, node[WATER_LOWEST], UINT32_MAX);
     gpu_fill(gpu, node[WATER_PICK], UINT32_MAX);
     for (int round = 0; changed; round++) {
-        if (round == 64) /* each at least halves the basins without a way out that have a pass */
+        if (round ==
+            64) /* each round at least halves the number of components that have a pass but no path out */
             return fail(E_NUMERIC, "water: %zu basins do not join: the device computes wrongly", w->n_basins);
         gpu_fill(gpu, counts, 0);
         GPU_RUN(gpu, water_lowest, n_border, k, border, w->pass, node[WATER_BASIN], node[WATER_COMPONENT],

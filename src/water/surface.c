@@ -1,4 +1,4 @@
-/* What water does to the particles of the surface. */
+/* Discharge, erosion and sweeping on the particles of the surface. */
 #include "water/internal.h"
 
 static struct water_surface_params surface_params(const struct water *w, const struct particles *p)
@@ -21,19 +21,19 @@ void water_show(struct gpu *gpu, struct water *w, struct particles *p)
 }
 
 void water_sweep(struct gpu *gpu, struct water *w, const struct job *job, struct particles *p,
-                 struct crumbs *crumbs)
+                 struct fragments *fragments)
 {
-    const struct water *ways = &crumbs->ways;
+    const struct water *routing = &fragments->routing;
     struct water_surface_params k = surface_params(w, p);
-    k.size = (uint)ways->size;
-    k.sx = (uint)ways->shift[0];
-    k.sy = (uint)ways->shift[1];
-    k.sz = (uint)ways->shift[2];
-    k.cx = (uint)ways->cells[0];
-    k.cy = (uint)ways->cells[1];
+    k.size = (uint)routing->size;
+    k.sx = (uint)routing->shift[0];
+    k.sy = (uint)routing->shift[1];
+    k.sz = (uint)routing->shift[2];
+    k.cx = (uint)routing->cells[0];
+    k.cy = (uint)routing->cells[1];
     k.carry = (float)job->deposition.carry_Pa;
     GPU_RUN(gpu, water_sweep, p->n_surface, k, p->surface, p->field[ROCK_P], w->occupied, w->floors, w->first,
-            w->pull, ways->tag);
+            w->pull, routing->tag);
 }
 
 void water_erode(struct gpu *gpu, struct water *w, const struct job *job, int frame, struct particles *p,

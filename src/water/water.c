@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "water/internal.h"
 
-/* The most cells, columns and words of a column there can be, whatever the shift. */
+/* Maximum numbers of cells, columns, words of a column and words of rows, for any shift. */
 struct most {
     size_t cells, columns, words, row_words;
 };
@@ -20,14 +20,14 @@ static struct most most_of(const int voxels[3], int size)
     return (struct most){n[0] * n[1] * n[2], n[0] * n[1], (n[2] + 31) / 32, (n[0] + 31) / 32 * n[1] * n[2]};
 }
 
-/* Room for as many spans as are usual: a surface that lies twice over itself, or a fine one in coarse cells. */
+/* A usual number of spans: a surface that overhangs everywhere, or a fine one in coarse cells. */
 static size_t usual_nodes(const struct most *m, int size)
 {
     size_t many = (size > 1 ? 8 : 2) * m->columns;
     return many < m->cells ? many : m->cells;
 }
 
-/* Words of a span: arrays, passes; and of streams. */
+/* Words per span: arrays and passes; and for streams. */
 enum { NODE_WORDS = WATER_NODE_ARRAYS + 4, STREAM_WORDS = 2 + 2 + 4 + 4 };
 
 uint64_t water_bytes(const int voxels[3], int size)
@@ -82,7 +82,7 @@ done:
     return st;
 }
 
-/* Spacings: the radius from which on a bed's voxels are in one piece whatever its direction. */
+/* In spacings: least radius at which the voxels of a bed are connected whatever its direction. */
 static const double BED = 1.5;
 
 static status source_voxel(const struct job *job, size_t i, const int voxels[3], double h, uint32_t out[4])
@@ -148,14 +148,15 @@ void water_destroy(struct gpu *gpu, struct water *w)
     *w = (struct water){0};
 }
 
-status crumbs_create(struct gpu *gpu, const struct job *job, const int voxels[3], double h, struct crumbs *c)
+status fragments_create(struct gpu *gpu, const struct job *job, const int voxels[3], double h,
+                        struct fragments *c)
 {
-    return water_create(gpu, job, voxels, h, 2, &c->ways);
+    return water_create(gpu, job, voxels, h, 2, &c->routing);
 }
 
-void crumbs_destroy(struct gpu *gpu, struct crumbs *c)
+void fragments_destroy(struct gpu *gpu, struct fragments *c)
 {
-    water_destroy(gpu, &c->ways);
+    water_destroy(gpu, &c->routing);
 }
 
 bool water_flows(const struct job *job, int frame)

@@ -1,4 +1,4 @@
-/* A heap of deposits without a model: rock given by voxels, crumbs dropped on it frame by frame, their ways
+/* A heap of deposits without a model: rock given by voxels, fragments dropped on it frame by frame, their ways
  * by tests/ref/routing_ref. */
 #ifndef HOODOO_TESTS_HEAP_H
 #define HOODOO_TESTS_HEAP_H
@@ -91,7 +91,7 @@ static inline void heap_box(struct heap *p, const int low[3], const int high[3])
                 heap_set(p, i++, x, y, z);
 }
 
-/* A frame: the particles with the n ids given are crumbs. In the air they are no part of the ground. What the
+/* A frame: the particles with the n ids given are fragments. In the air they are no part of the ground. What the
  * ledger says is checked. */
 static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int in_air)
 {
@@ -127,7 +127,7 @@ static inline void heap_step(struct heap *p, const uint32_t *ids, size_t n, int 
     assert_ok(gpu_upload(p->gpu, routing.receiver, 0, way.receiver, cells));
     assert_ok(deposit_land(p->gpu, p->work, &p->deposit, &p->job, p->frame, 0, &routing, &particles, true,
                            &p->last));
-    assert_int_equal(p->last.crumbs, p->last.landed + p->last.left + p->last.waiting);
+    assert_int_equal(p->last.fragments, p->last.landed + p->last.left + p->last.waiting);
     assert_ok(particles_index(p->gpu, p->work, &particles));
     p->left += p->last.left;
     p->slid += p->last.slid;

@@ -1,5 +1,5 @@
 /* Deposits: round cones at the angle of repose, without steps of the grid; over edges; the same bits. Every
- * crumb is accounted for in every frame (heap_step). */
+ * fragment is accounted for in every frame (heap_step). */
 #include "heap.h"
 #include "model_help.h"
 #include "surface.h"
@@ -15,7 +15,7 @@ static int odd_ones(int n, int k)
     return n & (1 << k) ? 1 : 0;
 }
 
-/* n crumbs fall somewhere into the box. */
+/* n fragments fall somewhere into the box. */
 static void rain_down(struct heap *p, const int low[3], const int high[3], int n)
 {
     uint32_t ids[512];
@@ -29,7 +29,7 @@ static void rain_down(struct heap *p, const int low[3], const int high[3], int n
     heap_step(p, ids, (size_t)n, 1);
 }
 
-/* Crumbs from one place onto a plain. */
+/* Fragments from one place onto a plain. */
 static struct heap pour(double repose, int frames, int per_frame, int unshifted)
 {
     const int n[3] = {64, 64, 48};
@@ -73,7 +73,7 @@ static void cones_have_the_angle_of_repose_all_round(void **state)
         int *z = heap_heights(&p);
         double axes = flank(&p, z, 0), diagonals = flank(&p, z, pi / 4);
         print_message(
-            "# repose %g: %.1f along the axes, %.1f along the diagonals (%d frames of %d crumbs; %u "
+            "# repose %g: %.1f along the axes, %.1f along the diagonals (%d frames of %d fragments; %u "
             "rounds at most; %llu slid, %llu left)\n",
             of[i].repose, axes, diagonals, of[i].frames, of[i].per_frame, p.most_rounds,
             (unsigned long long)p.slid, (unsigned long long)p.left);
@@ -183,7 +183,7 @@ static void crumbs_fall_over_an_edge_and_lie_on_what_is_below(void **state)
             first = x < first ? x : first;
         }
     }
-    print_message("# %d crumbs lie on the shelf, %d below its edge (x = 16), from x = %d on; %llu left\n",
+    print_message("# %d fragments lie on the shelf, %d below its edge (x = 16), from x = %d on; %llu left\n",
                   shelf, ground, first, (unsigned long long)p.left);
     assert_true(shelf > 300 && ground > 300 && first >= 2);
     free(solid);
@@ -275,7 +275,7 @@ static void the_wind_takes_the_fines(void **state)
         if (p.rock.phase[i] == PHASE_DEPOSIT)
             ids[n_ids++] = p.rock.id[i];
     heap_step(&p, ids, n_ids, 0);
-    print_message("# %.3f of the crumbs came to rest, of 0.72; of %zu deposits that broke off %llu left\n",
+    print_message("# %.3f of the fragments came to rest, of 0.72; of %zu deposits that broke off %llu left\n",
                   lie, n_ids, (unsigned long long)(p.left - left));
     assert_true(fabs(lie - 0.72) < 0.03); /* four standard deviations */
     assert_int_equal(p.left, left);
