@@ -1,23 +1,22 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per span, one round of accumulation: a span passes its rain on, split by its shares, in the round after its
-// last donor has. Integer sums: the result does not depend on the order.
+// Per span of the list `passing`, one round of accumulation: the span passes its rain on to its receivers, split by its shares. A
+// receiver whose last donor this was is listed for the next round. The order of a list is that of the threads, but integer sums do
+// not depend on it. There may be fewer threads than spans.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, to)
 READ_U(1, shares)
-WRITE_U(2, when)  // the round in which each gives
-WRITE_U(3, waits) // for how many spans
-WRITE_U(4, sum)
-WRITE_U(5, counts)
+READ_U(2, passing)
+WRITE_U(3, next)
+WRITE_U(4, waits)  // by span: donors that have not passed on yet
+WRITE_U(5, sum)
+WRITE_U(6, length) // of the lists, by round modulo 3: this one's, the next one's, and one to be cleared for the round after that
 PARAMS(water_params)
 
-void main()
+void pass_on(uint i)
 {
-    uint i = THREAD;
-    if (i >= k.n || AT(when, i) != k.round)
-        return;
     uint own = AT(sum, i), low_shares = LOAD_U(shares, 2u * i), high_shares = LOAD_U(shares, 2u * i + 1u);
     uvec4 share = uvec4(low_shares & 0xffffu, low_shares >> 16u, high_shares & 0xffffu, high_shares >> 16u), part, high, low;
     umulExtended(uvec4(own), share, high, low);
@@ -32,9 +31,18 @@ void main()
             rest = 0u;
         }
         atomicAdd(AT(sum, m), more);
-        if (atomicAdd(AT(waits, m), 0xffffffffu) == 1u) {
-            AT(when, m) = k.round + 1u;
-            AT(counts, COUNT_CHANGED) = k.round + 1u;
-        }
+        if (atomicAdd(AT(waits, m), 0xffffffffu) == 1u && m != k.nodes)
+            AT(next, atomicAdd(AT(length, (k.round + 1u) % 3u), 1u)) = m;
     }
+}
+
+void main()
+{
+    if (THREAD >= k.n)
+        return;
+    if (THREAD == 0u)
+        AT(length, (k.round + 2u) % 3u) = 0u;
+    uint n = AT(length, k.round % 3u);
+    for (uint i = THREAD; i < n; i += k.n)
+        pass_on(LOAD_U(passing, i));
 }

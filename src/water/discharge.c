@@ -8,8 +8,8 @@
 
 /* ---- rain */
 
-/* Rounds of accumulation between checks for its end. */
-enum { ROUNDS = 32 };
+/* Rounds of accumulation between two reads of the length of the list: at first, and at most. */
+enum { ROUNDS = 16, ROUNDS_MOST = 256, THREADS_LEAST = 1024 };
 
 /* *spill: the level to which each basin fills, the highest pass on its path out. */
 static void find_spills(struct gpu *gpu, struct water *w, struct gpu_buffer **spill)
@@ -38,25 +38,29 @@ static void split(struct gpu *gpu, struct water *w)
             donors);
 }
 
+/* A round visits only the spans that pass their rain on in it: paths over flat or porous rock are hundreds of spans long, and most
+ * rounds have few spans. */
 static status let_it_rain(struct gpu *gpu, struct gpu_work *work, struct water *w)
 {
     status st = OK;
-    struct gpu_buffer **node = w->node, *counts = gpu_work_words(work);
-    struct gpu_buffer *when = node[WATER_SCRATCH], *waits = node[WATER_SCRATCH + 1];
+    struct gpu_buffer **node = w->node, *length = gpu_work_words(work), *waits = node[WATER_SCRATCH + 1];
+    struct gpu_buffer *list[2] = {node[WATER_SCRATCH], node[WATER_NEXT]};
     struct water_params k = water_params(w, w->columns);
-    uint32_t changed = 0;
+    uint32_t passing = (uint32_t)w->n_nodes;
     GPU_RUN(gpu, water_rain, k.n, k, w->occupied, w->floors, w->first, node[WATER_RAIN]);
+    gpu_fill(gpu, length, 0);
     k.n = (uint)w->n_nodes;
-    GPU_RUN(gpu, water_begin, k.n, k, waits, when);
-    gpu_fill(gpu, counts, 0);
-    for (k.round = 0; k.round == changed;) {
+    GPU_RUN(gpu, water_begin, k.n, k, waits, list[0], length);
+    for (uint rounds = ROUNDS; passing > 0; rounds = rounds < ROUNDS_MOST ? 2 * rounds : rounds) {
         if (k.round > w->n_nodes)
             return fail(E_NUMERIC,
                         "water: the flow paths of %zu spans have a cycle: the device computes wrongly",
                         w->n_nodes);
-        for (int i = 0; i < ROUNDS; i++, k.round++)
-            GPU_RUN(gpu, water_flow, k.n, k, w->pass, w->shares, when, waits, node[WATER_RAIN], counts);
-        TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
+        k.n = passing > THREADS_LEAST ? passing : THREADS_LEAST;
+        for (uint i = 0; i < rounds; i++, k.round++)
+            GPU_RUN(gpu, water_flow, k.n, k, w->pass, w->shares, list[k.round % 2], list[(k.round + 1) % 2],
+                    waits, node[WATER_RAIN], length);
+        TRY(gpu_download(gpu, length, k.round % 3, &passing, 1));
     }
 done:
     return st;
