@@ -7,6 +7,8 @@ TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools op
 	libcgal-dev libeigen3-dev gdal-bin
 LONG_PACKAGES = libcgal-demo
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
+BENCH_PACKAGES = python3-petsc4py python3-venv
+BENCH_WHEELS = taichi==1.7.4 fastscapelib==0.3.0 pyamg
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0
 DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev codespell
 
@@ -67,6 +69,13 @@ $(BUILD)/.deps-dev: Makefile $(BUILD)/.deps-test
 deps-peers: $(BUILD)/.deps-peers
 $(BUILD)/.deps-peers: Makefile $(BUILD)/.deps-test
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(PEER_PACKAGES) && touch $@
+
+deps-bench: $(BUILD)/.deps-bench
+$(BUILD)/.deps-bench: Makefile $(BUILD)/.deps-test
+	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(BENCH_PACKAGES) && touch $@
+# It sees Debian's packages, for PETSc comes from there.
+$(BUILD)/venv-bench/.done: Makefile $(BUILD)/.deps-bench
+	$(Q)/usr/bin/python3 -m venv --system-site-packages $(@D) && $(@D)/bin/pip install --quiet $(BENCH_WHEELS) && touch $@
 
 # Pixar's USD is no Debian package; the tests alone need it.
 $(BUILD)/venv-usd/.done: Makefile $(BUILD)/.deps-peers
@@ -204,9 +213,13 @@ FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/kill
 faults: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/physics/test_numbers
 	$(Q)HOODOO_FAULTS=write sh tests/run.sh $(BUILD) $(FAULTS)
 
-## bench: speed: ratios against plain C in the same run, and a paper's own times
-bench: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BENCH_BIN)
-	$(Q)for b in $(BENCH_BIN); do $$b $(BUILD)/hoodoo || exit 1; done
+## bench: measure speed beside plain C and other programs, in one run; BENCH='--only water' for some (tests/bench/run.py -h)
+bench: $(BUILD)/hoodoo $(BUILD)/.deps-bench $(BUILD)/venv-bench/.done $(BENCH_BIN)
+	$(Q)/usr/bin/python3 tests/bench/run.py $(BUILD) $(BENCH)
+
+## bench-compare: what differs between two results of it: make bench-compare A=OLD.json B=NEW.json
+bench-compare:
+	$(Q)/usr/bin/python3 tests/bench/run.py compare $(A) $(B)
 
 ## reference: write jobs/README.md anew from the key table
 reference: $(BUILD)/tests/unit/test_job
@@ -274,7 +287,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-long deps-dev deps-peers demo test test-later test-peers test-long faults bench reference gallery format lint test-asan test-tsan test-sanitized fuzz fuzz-built install clean help
+.PHONY: all deps deps-test deps-long deps-dev deps-peers deps-bench demo test test-later test-peers test-long faults bench bench-compare reference gallery format lint test-asan test-tsan test-sanitized fuzz fuzz-built install clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -name '*.d' 2>/dev/null)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench/help.h"
+#include "bench/bench.h"
 #include "piles/piles.h"
 #include "stacks/operations.h"
 #include "stacks/stabilise.h"
@@ -43,15 +43,28 @@ static void rocks(const char *name, size_t n, double area, double paper_tile, do
     struct pile_options options = {
         .radius = 0.5, .rocks = n, .erosion = 0.25, .contacts = 1, .detail = 3, .seed = 1};
     size_t n_places;
+    double size[2] = {area, area};
+    char tile_name[64], place_name[64];
+    snprintf(tile_name, sizeof tile_name, "arches: a tile of %zu rocks, %s", n, name);
+    snprintf(place_name, sizeof place_name, "arches: rocks of the %s placed", name);
+    struct row tiled = {.name = tile_name,
+                        .unit = "CPU s",
+                        .peer = "the paper, 2009",
+                        .theirs = once(paper_tile),
+                        .at_least = 1};
+    struct row placed = {.name = place_name,
+                         .unit = "CPU s",
+                         .peer = "the paper, 2009",
+                         .theirs = once(paper_place),
+                         .at_least = 1};
     double t0 = clock_cpu_seconds();
     check(pile_tile_create(&options, &tile));
-    double t1 = clock_cpu_seconds(), size[2] = {area, area};
+    double t1 = clock_cpu_seconds();
     check(pile_place_all(&tile, size, layers, size, &place, &n_places));
-    double t2 = clock_cpu_seconds();
-    printf("arches: %-7s tile of %zu rocks %.3f s of one core (the paper: %.1f); %zu rocks placed in %.4f s "
-           "(the "
-           "paper: %.1f)\n",
-           name, tile.n, t1 - t0, paper_tile, n_places, t2 - t1, paper_place);
+    sample(&tiled.ours, t1 - t0);
+    sample(&placed.ours, clock_cpu_seconds() - t1);
+    print_row(&tiled);
+    print_row(&placed);
     free(place);
     pile_tile_destroy(&tile);
 }
@@ -85,16 +98,16 @@ static void edit(void)
     int lo[2], hi[2];
     struct stabilise options = {.table = table, .n_materials = N_TABLE};
     struct stabilised out;
-    double t0 = clock_seconds(), c0 = clock_cpu_seconds();
+    double t0 = clock_seconds();
     check(operation_apply(&s, &tools, &op, "bench", 1, lo, hi));
-    double t1 = clock_seconds(), c1 = clock_cpu_seconds();
+    double t1 = clock_seconds();
     check(stabilise(&s, &options, lo, hi, &out));
-    double t2 = clock_seconds(), c2 = clock_cpu_seconds();
-    printf("arches: a tunnel of 1200 m, open to the sky at one end, through 1000 x 750 stacks: sweep %.3f s "
-           "(%.3f of cores), stabilised "
-           "in %.3f s "
-           "(%.3f): %.3f s in all\n",
-           t1 - t0, c1 - c0, t2 - t1, c2 - c1, t2 - t0);
+    double t2 = clock_seconds();
+    print_row(&(struct row){.name = "arches: a tunnel of 1200 m swept through 1000 x 750 stacks",
+                            .unit = "s",
+                            .ours = once(t1 - t0)});
+    print_row(
+        &(struct row){.name = "arches: the same terrain stabilised", .unit = "s", .ours = once(t2 - t1)});
     stacks_destroy(&s);
 }
 

@@ -1,13 +1,11 @@
-/* Speed, as ratios within one run: bench HOODOO. Seconds are of this machine at this moment; the ratios are
- * what to compare. */
+/* The stress solver's matrix product beside plain C, and the demo's first frames with and without their files. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/version.h"
-#include "bench/help.h"
+#include "bench/bench.h"
 #include "model/model.h"
 #include "output/folder.h"
 #include "run/writer.h"
@@ -15,7 +13,7 @@
 #include "tests/ref/elastic_ref.h"
 #include "tests/ref/stress_dense.h"
 
-enum { CELLS = 128, REPEATS = 7, FRAMES = 8 };
+enum { CELLS = 128, FRAMES = 8 };
 
 /* ---- K u in plain C: rows of nodes, element by element, as the compiler vectorises it best */
 
@@ -123,7 +121,6 @@ static void matvec(void)
                     blocks[a][b][r][c] = (float)K[3 * a + r][3 * b + c];
 
     check(gpu_create(&(struct gpu_options){.device = "auto"}, &gpu));
-    printf("hoodoo %s, commit %s, on %s\n\n", hoodoo_version, hoodoo_commit, gpu_info(gpu)->name);
     check(gpu_work_create(gpu, 2 * n_nodes, &work));
     check(dense_create(gpu, work, g.cells, &lattice));
     struct gpu_buffer *d_list = buffer(gpu, place, n, 4),
@@ -138,17 +135,19 @@ static void matvec(void)
                                    .lambda = (float)g.lambda,
                                    .mu = (float)g.mu,
                                    .dx = (float)g.dx};
-    double device = INFINITY, plain = INFINITY;
-    for (int r = 0; r <= REPEATS; r++) { /* the first compiles */
+    struct row row = {
+        .name = "stress: K u on 128^3 cells", .unit = "ms", .peer = "plain C, OpenMP", .at_least = 0.4};
+    for (int r = 0; r <= BENCH_REPEATS; r++) { /* the first compiles */
         double start = clock_seconds();
         GPU_RUN(gpu, stress_matvec, n, params, d_list, lattice.run, lattice.table, d_u, lattice.fill, d_q,
                 d_product);
         check(gpu_wait(gpu));
         if (r > 0)
-            device = fmin(device, clock_seconds() - start);
+            sample(&row.ours, 1e3 * (clock_seconds() - start));
         start = clock_seconds();
         apply_in_c((const float(*)[8][3][3])blocks, g.cells, fill, split, result);
-        plain = fmin(plain, clock_seconds() - start);
+        if (r > 0)
+            sample(&row.theirs, 1e3 * (clock_seconds() - start));
     }
     check(gpu_download(gpu, d_q, 0, image, n));
     double error = 0, most = 0;
@@ -158,9 +157,8 @@ static void matvec(void)
             error = fmax(error, fabs((double)image[4 * i + c] - expected));
             most = fmax(most, fabs(expected));
         }
-    printf("K u on %d^3 cells      device %7.1f ms   plain C %7.1f ms   ratio %5.2f (goal 2.5)   differ by "
-           "%.1g\n",
-           CELLS, 1e3 * device, 1e3 * plain, device / plain, error / most);
+    print_row(&row);
+    printf("    the two differ by %.1g of the largest force\n", error / most);
     struct gpu_buffer **all[] = {&d_list, &d_u, &d_q, &d_product};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         gpu_buffer_destroy(gpu, all[i]);
@@ -180,9 +178,9 @@ static void matvec(void)
 
 /* ---- the demo */
 
-/* Seconds of the demo's first frames, start not counted, and of CPU time in all threads; `root`: written
- * there, too. */
-static double demo(const struct job *job, const char *root, int stages, double *cpu)
+/* Seconds of the demo's first frames, without the start. `root`: they are written there, too. `stages`: prints the time of
+ * each stage. */
+static double demo(const struct job *job, const char *root, bool stages)
 {
     struct gpu *gpu = NULL;
     struct model *model = NULL;
@@ -198,7 +196,7 @@ static double demo(const struct job *job, const char *root, int stages, double *
         check(folder_prepare(root));
         check(writer_create(job, 0, root, false, &writer));
     }
-    double start = clock_seconds(), cpu_start = clock_cpu_seconds();
+    const double start = clock_seconds();
     for (int f = 0; f < FRAMES; f++) {
         check(model_step(model));
         check(model_output(model, &frame));
@@ -208,8 +206,7 @@ static double demo(const struct job *job, const char *root, int stages, double *
             frame_free(&frame);
     }
     check(writer_finish(&writer));
-    double seconds = clock_seconds() - start;
-    *cpu = fmin(*cpu, clock_cpu_seconds() - cpu_start);
+    const double seconds = clock_seconds() - start;
     if (stages) {
         const struct gpu_time *times;
         size_t n = gpu_stage_times(gpu, &times);
@@ -229,27 +226,29 @@ static double demo(const struct job *job, const char *root, int stages, double *
     return seconds;
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
     struct job *job = NULL;
     char root[] = "/tmp/hoodoo-bench.XXXXXX", command[128];
-    double simulated = INFINITY, written = INFINITY, cpu_simulated = INFINITY, cpu_written = INFINITY;
-    (void)argv;
-    if (argc > 2)
-        check(fail(E_USAGE, "usage: bench [HOODOO]"));
+    struct row simulated = {.name = "demo: its first 8 frames, simulated", .unit = "s"},
+               written = {.name = "demo: its first 8 frames, simulated and written",
+                          .unit = "s",
+                          .peer = "the same, not written",
+                          .at_least = 0.87};
     matvec();
     check(job_load("jobs/demo.yaml", NULL, 0, &job));
     if (!mkdtemp(root))
         check(fail(E_OUTPUT, "%s cannot be made", root));
-    for (int r = 0; r < 3; r++) {
-        simulated = fmin(simulated, demo(job, NULL, r == 0, &cpu_simulated));
-        written = fmin(written, demo(job, root, 0, &cpu_written));
+    for (int r = 0; r < BENCH_REPEATS; r++) {
+        sample(&simulated.ours, demo(job, NULL, r == 0));
+        sample(&written.ours, demo(job, root, false));
     }
-    printf("simulate and write %6.2f s   simulate only %6.2f s   ratio %5.2f (goal 1.15); of CPU time %.2f\n",
-           written, simulated, written / simulated, cpu_written / cpu_simulated);
+    written.theirs = simulated.ours;
+    print_row(&simulated);
+    print_row(&written);
     snprintf(command, sizeof command, "rm -rf '%s'", root);
     if (system(command) != 0)
-        fprintf(stderr, "bench: %s stays\n", root);
+        fprintf(stderr, "bench: %s could not be removed\n", root);
     job_destroy(&job);
     return 0;
 }

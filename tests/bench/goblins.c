@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "bench/help.h"
+#include "bench/bench.h"
 #include "scene/scene.h"
 #include "voxels/voxels.h"
 
@@ -95,30 +95,42 @@ static struct result weather(const int n[3], int radius, double quantum)
 
 static void cube(double quantum)
 {
-    static const char *paper[] = {"", "33", "", "", "", "", "", "1891", ""};
+    static const double paper[] = {0, 33, 0, 0, 0, 0, 0, 1891, 0}; /* ms, by radius; 0: not stated */
     const int n[3] = {100, 100, 100};
-    printf("goblins: a cube of 1,000,000 voxels weathered to nothing, quantum %g\n", quantum);
-    printf("%6s %8s %12s %14s %18s %10s\n", "radius", "cycles", "most active", "ms per cycle",
-           "ms, most active", "paper, ms");
     for (int radius = 1; radius <= 8; radius++) {
-        struct result r = weather(n, radius, quantum);
-        printf("%6d %8zu %12zu %14.1f %18.1f %10s\n", radius, r.cycles, r.most_active,
-               1e3 * r.weathering / (double)r.cycles, 1e3 * r.worst, paper[radius]);
-        fflush(stdout);
+        const struct result r = weather(n, radius, quantum);
+        char name[80];
+        snprintf(name, sizeof name, "goblins: a cycle of a million voxels, bubbles of radius %d", radius);
+        struct row row = {.name = name, .unit = "ms", .ours = once(1e3 * r.worst)};
+        if (paper[radius] > 0) {
+            row.peer = "the paper, 2007";
+            row.theirs = once(paper[radius]);
+            row.at_least = 1;
+        }
+        print_row(&row);
+        printf("    %zu cycles, %zu voxels at most in one, %.1f ms on average\n", r.cycles, r.most_active,
+               1e3 * r.weathering / (double)r.cycles);
     }
 }
 
 static void column(double quantum)
 {
     const int n[3] = {224, 224, 200};
-    struct result r = weather(n, 4, quantum);
-    printf("goblins: a column of %d x %d x %d = %.1f million voxels, radius 4, quantum %g, to nothing\n",
-           n[0], n[1], n[2], n[0] * n[1] * (n[2] / 1e6), quantum);
-    printf("  set-up %.1f s, weathering %.1f s, together %.1f s (paper: 420, 333, 753 s)\n", r.set_up,
-           r.weathering, r.set_up + r.weathering);
-    printf("  %zu cycles, %.1f ms each, %.1f ms with the most active, %zu at most (paper: 4100 ms, 840000)\n",
-           r.cycles, 1e3 * r.weathering / (double)r.cycles, 1e3 * r.worst, r.most_active);
-    printf("  %.1f MB of voxels on the device (paper: 793 MB)\n", (double)r.bytes / 1e6);
+    const struct result r = weather(n, 4, quantum);
+    print_row(&(struct row){.name = "goblins: a column of ten million voxels weathered to nothing",
+                            .unit = "s",
+                            .ours = once(r.set_up + r.weathering),
+                            .peer = "the paper, 2007",
+                            .theirs = once(753),
+                            .at_least = 1});
+    print_row(&(struct row){.name = "goblins: its memory on the device",
+                            .unit = "MB",
+                            .ours = once((double)r.bytes / 1e6),
+                            .peer = "the paper, 2007",
+                            .theirs = once(793),
+                            .at_least = 1});
+    printf("    set-up %.1f s of it; %zu cycles, %.1f ms each, %.1f ms with the most active (%zu)\n",
+           r.set_up, r.cycles, 1e3 * r.weathering / (double)r.cycles, 1e3 * r.worst, r.most_active);
 }
 
 int main(int argc, char **argv)

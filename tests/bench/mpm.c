@@ -1,15 +1,14 @@
-/* One step of a million material points on 128^3 cells, particles to grid, grid, grid to particles: the device
- * against plain C with OpenMP in the same run. Rock that breaks and slides, both ways.
- * With Taichi installed, tests/bench/taichi_mpm.py times its own example at the same size. */
+/* One step of a million material points on 128^3 cells: particles to grid, grid, grid to particles, for rock that breaks and
+ * slides, on the device and in plain C. peers/taichi.py times Taichi's example at the same size. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "bench/help.h"
+#include "bench/bench.h"
 #include "mpm/internal.h"
 
-enum { CELLS = 128, SIDE = 100, REPEATS = 7 }; /* 100^3 particles: 50^3 cells of them */
+enum { CELLS = 128, SIDE = 100 }; /* 100^3 particles: 50^3 cells of them */
 
 /* ---- plain C */
 
@@ -306,38 +305,36 @@ static void compare(void)
                              .alpha = k.alpha,
                              .rebound = k.rebound};
     float(*grid)[4] = need(nodes, 16);
-    double device = INFINITY, plain = INFINITY, sorted = INFINITY, error = 0;
-    double device_cpu = INFINITY, plain_cpu = INFINITY;
-    for (int i = 0; i <= REPEATS; i++) { /* the first compiles */
-        double begin = clock_seconds(), cpu = clock_cpu_seconds();
+    struct row step = {.name = "mpm: a step of a million points",
+                       .unit = "ms",
+                       .peer = "plain C, OpenMP",
+                       .at_least = 0.62},
+               sort = {.name = "mpm: a sort of a million points", .unit = "ms"};
+    double error = 0;
+    for (int i = 0; i <= BENCH_REPEATS; i++) { /* the first compiles */
+        double begin = clock_seconds();
         mpm_step(gpu, &m, &k, false);
         check(gpu_wait(gpu));
         if (i > 0)
-            device = fmin(device, clock_seconds() - begin);
-        if (i > 0)
-            device_cpu = fmin(device_cpu, clock_cpu_seconds() - cpu);
+            sample(&step.ours, 1e3 * (clock_seconds() - begin));
         begin = clock_seconds();
-        cpu = clock_cpu_seconds();
         step_in_c(&r, p, n, start, grid);
-        plain = fmin(plain, clock_seconds() - begin);
-        plain_cpu = fmin(plain_cpu, clock_cpu_seconds() - cpu);
+        if (i > 0)
+            sample(&step.theirs, 1e3 * (clock_seconds() - begin));
     }
     check(gpu_download(gpu, m.vector[MPM_VELOCITY], 0, speed, n));
     for (size_t i = 0; i < n; i++)
         for (size_t a = 0; a < 3; a++)
             error = fmax(error, fabs((double)(speed[4 * i + a] - p[i].v[a])));
-    for (int i = 0; i < 3; i++) {
-        double begin = clock_seconds();
+    for (int i = 0; i < BENCH_REPEATS; i++) {
+        const double begin = clock_seconds();
         check(mpm_sort(gpu, work, &m));
         check(gpu_wait(gpu));
-        sorted = fmin(sorted, clock_seconds() - begin);
+        sample(&sort.ours, 1e3 * (clock_seconds() - begin));
     }
-    printf(
-        "a step of 1 M points   device %7.1f ms   plain C %7.1f ms   ratio %5.2f (goal 1.6)   after %d steps "
-        "speeds differ by %.1g m/s; a sort %.1f ms, every few steps\n",
-        1e3 * device, 1e3 * plain, device / plain, REPEATS + 1, error, 1e3 * sorted);
-    printf("    processors' time    device %7.1f ms   plain C %7.1f ms   ratio %5.2f\n", 1e3 * device_cpu,
-           1e3 * plain_cpu, device_cpu / plain_cpu);
+    print_row(&step);
+    print_row(&sort);
+    printf("    after %d steps speeds differ by %.1g m/s\n", BENCH_REPEATS + 1, error);
     static const struct {
         enum gpu_kernel kernel;
         const char *name;

@@ -1,13 +1,13 @@
-/* How soon the stress of three shapes is right, from nothing: iterations and seconds until the 95th percentile of T's
- * error is a thousandth of T's own, by multigrid, by Jacobi's diagonal and by plain C, in one run. `stress HOODOO CELLS`
- * takes that many cells across instead of 32 and 64. */
+/* Cold solves of the stress of three shapes: iterations and seconds until the 95th percentile of T's error is a thousandth of
+ * T's own 95th percentile, by multigrid, by Jacobi's diagonal and by multigrid in plain C. `stress HOODOO CELLS` takes CELLS
+ * across the domain instead of 32 and 64. With BENCH_FOLDER set, the system of the demo at 64 is left there for
+ * peers/algebraic.py. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/version.h"
-#include "bench/help.h"
+#include "bench/bench.h"
 #include "stress/elastic.h"
 #include "tests/ref/multigrid_ref.h"
 #include "tests/ref/stress_dense.h"
@@ -138,6 +138,29 @@ static int fewest(struct bench *b, bool multigrid, int step, double *seconds)
     return high;
 }
 
+/* Writes the system of equations and our solution for other solvers: the cells, the weight of a full one (N), the element
+ * matrix (double [24][24]), the cells' fill (float), the nodes' displacement (float [4]). */
+static void export_system(struct bench *b, const struct elastic_grid *g, const float *fill, double weight)
+{
+    double K[24][24];
+    char path[4096];
+    const size_t nodes = dense_nodes(g->cells);
+    float *u = need(nodes, 16);
+    snprintf(path, sizeof path, "%s/system", getenv("BENCH_FOLDER"));
+    FILE *f = fopen(path, "w");
+    if (!f)
+        check(fail(E_OUTPUT, "%s cannot be written", path));
+    check(dense_download(b->gpu, &b->e.lattice, b->e.u, true, u));
+    elastic_ref_element(g, K);
+    fprintf(f, "%d %d %d %.17g\n", g->cells[0], g->cells[1], g->cells[2], weight);
+    fwrite(K, sizeof K, 1, f);
+    fwrite(fill, sizeof *fill, b->n_cells, f);
+    fwrite(u, 16, nodes, f);
+    if (fclose(f) != 0)
+        check(fail(E_OUTPUT, "%s cannot be written", path));
+    free(u);
+}
+
 static void compare(int shape, int cells)
 {
     struct bench b = {0};
@@ -151,6 +174,7 @@ static void compare(int shape, int cells)
     check(elastic_assemble(b.gpu, b.work, &b.e, &b.p));
     const int *c = b.e.lattice.cells;
     const struct elastic_grid g = {{c[0], c[1], c[2]}, 12e9, 15e9, b.e.dx};
+    const double weight = options.density * options.gravity * pow(b.e.dx, 3);
     b.n_cells = dense_cells(c);
     float *fill = need(b.n_cells, sizeof *fill), *u = need(dense_nodes(c), 16);
     check(dense_download(b.gpu, &b.e.lattice, b.e.lattice.fill, false, fill));
@@ -158,22 +182,41 @@ static void compare(int shape, int cells)
     b.tight = need(b.n_cells, 16);
     solve(&b, true, 200, 1e-5, b.tight); /* compiles its kernels, too */
     b.p95 = p95(&b, b.tight, NULL);
-    double by_cycles, by_jacobi, taken[1024], start;
-    int cycles = fewest(&b, true, 1, &by_cycles);
-    int steps = fewest(&b, false, 16, &by_jacobi);
+    double seconds, taken[1024];
+    const int cycles = fewest(&b, true, 1, &seconds), steps = fewest(&b, false, 16, &seconds);
     struct multigrid_ref *ref = multigrid_ref_create(&g, fill);
     if (!ref)
-        check(fail(E_MEMORY, "no memory for plain C"));
-    start = clock_seconds();
-    multigrid_ref_solve(ref, 2300 * 9.81 * pow(b.e.dx, 3), cycles < 1024 ? cycles : 1024, taken, u);
-    start = clock_seconds() - start;
-    printf("%-10s %4d^3 cells, %8zu nodes: multigrid %3d iterations %7.2f s; Jacobi %5d %7.2f s, ratio %5.1f "
-           "(goal "
-           "4); plain C multigrid %6.2f s, ratio %4.2f (goal 0.7); memory %.2f of Jacobi's (goal 1.35)\n",
-           shapes[shape].name, cells, b.e.lattice.n_active, cycles, by_cycles, steps, by_jacobi,
-           by_jacobi / by_cycles, start, start / by_cycles,
-           (double)stress_taken(&b.e, true) / (double)stress_taken(&b.e, false));
-    fflush(stdout);
+        check(fail(E_MEMORY, "no memory for the multigrid in plain C"));
+    char name[4][96];
+    snprintf(name[0], sizeof name[0], "stress: %s at %d^3 cells, cold", shapes[shape].name, cells);
+    snprintf(name[1], sizeof name[1], "stress: %s at %d^3 cells, iterations", shapes[shape].name, cells);
+    snprintf(name[2], sizeof name[2], "stress: %s at %d^3 cells, memory", shapes[shape].name, cells);
+    struct row jacobi = {.name = name[0], .unit = "s", .peer = "Jacobi", .at_least = 4};
+    struct row plain = {.name = name[0], .unit = "s", .peer = "plain C multigrid, OpenMP", .at_least = 0.7};
+    for (int r = 0; r < 3; r++) {
+        sample(&jacobi.theirs, solve(&b, false, steps, 1e-12, b.stress));
+        const double start = clock_seconds();
+        multigrid_ref_solve(ref, weight, cycles < 1024 ? cycles : 1024, taken, u);
+        sample(&plain.theirs, clock_seconds() - start);
+        sample(&jacobi.ours, solve(&b, true, cycles, 1e-12, b.stress));
+    }
+    plain.ours = jacobi.ours;
+    print_row(&jacobi);
+    print_row(&plain);
+    print_row(&(struct row){.name = name[1],
+                            .unit = "",
+                            .ours = once(cycles),
+                            .peer = "Jacobi",
+                            .theirs = once(steps),
+                            .at_most = 15});
+    print_row(&(struct row){.name = name[2],
+                            .unit = "MB",
+                            .ours = once((double)stress_taken(&b.e, true) / 1e6),
+                            .peer = "Jacobi",
+                            .theirs = once((double)stress_taken(&b.e, false) / 1e6),
+                            .at_least = 1 / 1.35});
+    if (shape == 0 && cells == 64 && getenv("BENCH_FOLDER"))
+        export_system(&b, &g, fill, weight);
     multigrid_ref_destroy(ref);
     gpu_work_destroy(b.gpu, &b.work);
     elastic_destroy(b.gpu, &b.e);
@@ -191,8 +234,6 @@ int main(int argc, char **argv)
     const int all[] = {32, 64}, one[] = {argc > 2 ? atoi(argv[2]) : 0};
     if (argc > 3 || (argc > 2 && (one[0] < 8 || one[0] > 512)))
         check(fail(E_USAGE, "usage: stress [HOODOO [CELLS]]"));
-    printf("hoodoo %s, commit %s: T within %g at its 95th percentile, from nothing\n", hoodoo_version,
-           hoodoo_commit, GOAL);
     for (int s = 0; s < 3; s++)
         for (int n = 0; n < (argc > 2 ? 1 : 2); n++)
             compare(s, argc > 2 ? one[0] : all[n]);

@@ -1,17 +1,16 @@
-/* Speed of the air around the demo's rock: a step of 100,000 particles, its heaviest pass next to the same in plain
- * C, and a first average by its own estimate next to two flushes of the box with four and two iterations. Seconds
- * are of this machine at this moment; the ratios are what to compare. */
+/* The air around the demo's rock: a step of 100,000 particles, its heaviest kernel beside the same in plain C, and a first
+ * average that stops by its own estimate beside two flushes of the box with four and two iterations. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bench/help.h"
+#include "bench/bench.h"
 #include "gpu/primitives.h"
 #include "particles/particles.h"
 #include "scene/scene.h"
 #include "wind/flow.h"
 
-enum { STEPS = 12, REPEATS = 7 };
+enum { STEPS = 12 };
 static const double blows[2] = {0.8, 0.6};
 
 static void *copy(struct gpu *gpu, struct gpu_buffer *b, size_t n)
@@ -74,28 +73,31 @@ static void relax(struct gpu *gpu, const struct flow *f)
     struct twin twin = {
         n,      list, (const float(*)[4])of_step, (const float(*)[4])position, (const float(*)[4])push,
         before, after};
-    double seconds = INFINITY, plain = INFINITY, worst = 0, neighbours = 0;
+    struct row row = {.name = "wind: one relaxation of the pressure",
+                      .unit = "ms",
+                      .peer = "plain C, OpenMP",
+                      .at_least = 0.4};
+    double worst = 0, neighbours = 0;
     if (!after)
         check(fail(E_MEMORY, "no memory for %zu pressures", n));
-    for (int r = 0; r < REPEATS; r++) {
+    for (int r = 0; r < BENCH_REPEATS; r++) {
         check(gpu_upload(gpu, f->divergence_pressure[0], 0, before, n));
         double start = clock_seconds();
         GPU_RUN(gpu, wind_flow_relax, n, k, f->of_step, f->list, f->position[0], f->push,
                 f->divergence_pressure[0]);
         check(gpu_wait(gpu));
-        seconds = fmin(seconds, clock_seconds() - start);
+        sample(&row.ours, 1e3 * (clock_seconds() - start));
         start = clock_seconds();
         relax_in_c(&twin);
-        plain = fmin(plain, clock_seconds() - start);
+        sample(&row.theirs, 1e3 * (clock_seconds() - start));
     }
     device = copy(gpu, f->divergence_pressure[0], n);
     for (size_t i = 0; i < n; i++) {
         worst = fmax(worst, fabs((double)device[i] - (double)after[i]));
         neighbours += (double)of_step[i][3];
     }
-    printf(
-        "  one relaxation, %.1f neighbours each: %.2f ms; in C %.2f ms: ratio %.2f (they differ by %.1g)\n",
-        neighbours / (double)n, 1e3 * seconds, 1e3 * plain, seconds / plain, worst);
+    print_row(&row);
+    printf("    %.1f neighbours each; the two differ by %.1g\n", neighbours / (double)n, worst);
     void *memory[] = {before, after, device, list, of_step, position, push};
     for (size_t i = 0; i < sizeof memory / sizeof *memory; i++)
         free(memory[i]);
@@ -157,36 +159,40 @@ static double first_average(const char *density, const char *divergence, double 
 int main(void)
 {
     struct bench b;
-    double best = INFINITY, error[2];
+    struct row step = {.name = "wind: a step of 100,000 air particles", .unit = "ms"},
+               average = {.name = "wind: a first average",
+                          .unit = "CPU s",
+                          .peer = "two flushes of the box",
+                          .at_least = 5};
+    double error[2];
     int steps[2];
     open_air(&b, "wind.flow.spacing_m=1.8", "seed=1", "seed=1");
     struct flow *flow = &b.flow;
     check(
         flow_run(b.gpu, flow, &b.particles, blows, 4, 0)); /* compiles, and takes more iterations at first */
     gpu_times_reset(b.gpu);
-    for (int r = 0; r < 3; r++) {
-        double start = clock_seconds();
+    for (int r = 0; r < BENCH_REPEATS; r++) {
+        const double start = clock_seconds();
         check(flow_run(b.gpu, flow, &b.particles, blows, STEPS, 0));
-        best = fmin(best, (clock_seconds() - start) / STEPS);
+        sample(&step.ours, 1e3 * (clock_seconds() - start) / STEPS * 1e5 / (double)flow->state.n);
     }
-    double per = 1e5 / (double)flow->state.n;
-    printf("wind: a step of %u particles (%d + %d iterations): %.1f ms, %.1f ms per 100,000\n",
-           (unsigned)flow->state.n, flow->divergence_iterations, flow->density_iterations, 1e3 * best,
-           1e3 * best * per);
+    print_row(&step);
+    printf("    %u particles, %d + %d iterations\n", (unsigned)flow->state.n, flow->divergence_iterations,
+           flow->density_iterations);
     for (int k = 0; k < KERNELS; k++) {
         const struct gpu_time *t = gpu_kernel_time(b.gpu, (enum gpu_kernel)k);
-        if (t->ns > 3 * STEPS * 1000000ULL)
+        if (t->ns > BENCH_REPEATS * STEPS * 1000000ULL)
             printf("    %-24s %7.1f ms a step in %4.1f dispatches\n", t->name,
-                   1e-6 * (double)t->ns / (3 * STEPS), (double)t->dispatches / (3 * STEPS));
+                   1e-6 * (double)t->ns / (BENCH_REPEATS * STEPS),
+                   (double)t->dispatches / (BENCH_REPEATS * STEPS));
     }
     relax(b.gpu, flow);
     close_air(&b);
-    double flushed = first_average("wind.flow.density_iterations=4", "wind.flow.divergence_iterations=2", 0,
-                                   &steps[0], &error[0]);
-    double settled = first_average("seed=1", "seed=1", 0.05, &steps[1], &error[1]);
-    printf("  a first average: %d steps, %.2f s of CPU, settled to %.3f; two flushes: %d, %.2f s, %.3f: "
-           "ratio %.2f "
-           "(goal 0.2)\n",
-           steps[1], settled, error[1], steps[0], flushed, error[0], settled / flushed);
+    average.theirs = once(first_average("wind.flow.density_iterations=4", "wind.flow.divergence_iterations=2",
+                                        0, &steps[0], &error[0]));
+    average.ours = once(first_average("seed=1", "seed=1", 0.05, &steps[1], &error[1]));
+    print_row(&average);
+    printf("    %d steps, settled to %.3f; the flushes %d steps, %.3f\n", steps[1], error[1], steps[0],
+           error[0]);
     return 0;
 }
