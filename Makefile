@@ -110,7 +110,7 @@ $(BUILD)/hoodoo-read-mesh: $(BUILD)/src/read_mesh.o $(BUILD)/libhoodoo.a
 	@echo "link $@"
 	$(Q)$(CXX) $(OPT) -o $@ $^ -lassimp -lxxhash -lseccomp
 
-VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,vdb/bytes vdb/points vdb/volumes scene/mesh_sdf scene/function) \
+VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,vdb/bytes vdb/points vdb/volumes meshinput/sdf shape/function) \
 	$(patsubst %,$(BUILD)/src/%.o,base/hash base/memory base/status base/text base/version job/values particles/rock)
 $(VDB_OBJ): private PIC = -fPIC
 $(VDB_OBJ): src/vdb.map

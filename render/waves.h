@@ -2,7 +2,7 @@
 #ifndef HOODOO_WAVES_H
 #define HOODOO_WAVES_H
 
-#include "scene/noise.h"
+#include "shape/noise.h"
 
 enum { WAVES = 10 };
 

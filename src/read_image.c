@@ -1,9 +1,9 @@
-/* hoodoo-read-image: one image for hoodoo (scene/image.h). */
+/* hoodoo-read-image: one image for hoodoo (image/image.h). */
 #include <string.h>
 
 #include "base/begin.h"
+#include "image/serve.h"
 #include "reader/translate.h"
-#include "scene/image_serve.h"
 
 int main(int argc, char **argv)
 {

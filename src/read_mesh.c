@@ -1,6 +1,6 @@
-/* hoodoo-read-mesh: one glTF mesh for hoodoo (scene/mesh_serve.h). */
+/* hoodoo-read-mesh: one glTF mesh for hoodoo (meshinput/serve.h). */
 #include "base/begin.h"
-#include "scene/mesh_serve.h"
+#include "meshinput/serve.h"
 
 int main(int argc, char **argv)
 {

@@ -54,12 +54,12 @@ rule "numbers in names and whole paths are made in src/base/path.c alone" none g
 rule "what a model is is asked of job_model()" none git grep -nE 'model *[!=]=|[!=]= *MODEL_' -- '*.c' '*.h'
 rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*.h'
 
-# A folder may include those of lower rank, and itself. One that is not named here is a process, a solver or what makes files: 3.
+# A folder may include folders of lower rank, and itself. A folder that is not named here is a process, a solver or writes files: 4.
 rank() {
     case $1 in
-    base) echo 0 ;; gpu | job | mesh | reader) echo 1 ;; particles | stacks | geology) echo 2 ;;
-    usd | checkpoint) echo 4 ;; frame) echo 5 ;; model) echo 6 ;; run) echo 7 ;; farm) echo 8 ;; render) echo 9 ;;
-    look | selftest) echo 10 ;; cli) echo 11 ;; *) echo 3 ;;
+    base) echo 0 ;; gpu | job | mesh | reader) echo 1 ;; particles | stacks | geology | image | meshinput) echo 2 ;; shape) echo 3 ;;
+    usd | checkpoint) echo 5 ;; frame) echo 6 ;; model) echo 7 ;; run) echo 8 ;; farm) echo 9 ;; render) echo 10 ;;
+    look | selftest) echo 11 ;; cli) echo 12 ;; *) echo 4 ;;
     esac
 }
 includes() {

@@ -5,7 +5,7 @@
 
 #include "base/vector.h"
 #include "job/table.h"
-#include "scene/placement.h"
+#include "shape/placement.h"
 #include "wind/wind.h"
 
 struct ink {

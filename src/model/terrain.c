@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "scene/image.h"
+#include "image/image.h"
 #include "scene/scene.h"
 #include "stacks/along.h"
 

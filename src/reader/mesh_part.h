@@ -1,4 +1,4 @@
-/* Meshes as their readers answer them: hoodoo-read-mesh (glTF: scene/mesh_import_shim.cpp) and hoodoo-read (the surfaces of
+/* Meshes as their readers answer them: hoodoo-read-mesh (glTF: meshinput/import_shim.cpp) and hoodoo-read (the surfaces of
  * OpenVDB grids: vdb/shape_shim.cpp).
  *
  * mesh FORMAT          struct mesh_part, its corners double[n_vertices][3], its triangles uint32[n_triangles][3]

@@ -5,9 +5,9 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "scene/noise.h"
 #include "scene/projection.h"
 #include "scene/scene.h"
+#include "shape/noise.h"
 
 /* Where one entry paints. */
 struct place {

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
-#include "scene/image.h"
+#include "image/image.h"
 
 /* The first rock behind the picture is kept in cells of a spacing, at most this many a side. */
 #define MOST_CELLS 8192.0

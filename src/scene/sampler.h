@@ -6,9 +6,9 @@
 #include "job/job.h"
 #include "particles/rock.h"
 #include "scene/coverage.h"
-#include "scene/noise.h"
 #include "scene/paint.h"
 #include "scene/scene.h"
+#include "shape/noise.h"
 
 struct sampler {
     const struct job *job;

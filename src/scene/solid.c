@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "scene/scene.h"
-#include "scene/shape.h"
+#include "shape/shape.h"
 
 struct solid {
     enum job_node_kind kind;

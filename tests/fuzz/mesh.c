@@ -1,7 +1,7 @@
 /* A mesh in any of the formats that are read without a library, told by its content or its name: the first byte chooses the name. */
 #include "fuzz/fuzz.h"
 
-#include "scene/meshfile.h"
+#include "meshinput/mesh.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
 {

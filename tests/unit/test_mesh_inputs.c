@@ -1,7 +1,7 @@
 /* Meshes that other programs got wrong in public (tests/inputs/README.md has the rows), volumes of OpenVDB, and formulas: what rock
  * each of them is. */
 #include "effort.h"
-#include "scene/meshfile.h"
+#include "meshinput/mesh.h"
 #include "scene_help.h"
 
 enum { SIDE = 16 }; /* voxels of the domain, of half a metre */

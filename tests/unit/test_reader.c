@@ -14,10 +14,10 @@
 
 #include "base/clock.h"
 #include "effort.h"
+#include "image/image.h"
+#include "image/parts.h"
 #include "reader/reader.h"
 #include "reader/serve.h"
-#include "scene/image.h"
-#include "scene/image_parts.h"
 
 enum { SIDE = 1000 };
 

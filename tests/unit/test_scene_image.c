@@ -1,9 +1,9 @@
 /* Heightfields and the images they come from: a ramp is a wedge, and hostile images cost an error message. */
 #include "effort.h"
-#include "scene/heightfield.h"
-#include "scene/image.h"
-#include "scene/image_rows.h"
+#include "image/image.h"
+#include "image/rows.h"
 #include "scene_help.h"
+#include "shape/heightfield.h"
 
 /* Binary PGM of 8 or 16 bits, top row first. */
 static char *write_pgm(const char *name, int width, int height, int maximum, int (*value)(int x, int y))

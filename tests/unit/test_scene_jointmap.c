@@ -1,6 +1,6 @@
 /* Joint maps: straight columns where the image is not black, as high as it is grey if the job says so. */
-#include "scene/jointmap.h"
 #include "scene_help.h"
+#include "shape/jointmap.h"
 
 enum { SIZE = 64 };
 

@@ -1,8 +1,8 @@
 /* Mesh files: every encoding of one mesh gives the same rock, as the shape it stands for; broken and hostile
  * files are refused with their place, and never crash. */
 #include "effort.h"
-#include "scene/meshedges.h"
-#include "scene/winding.h"
+#include "meshinput/edges.h"
+#include "meshinput/winding.h"
 #include "scene_help.h"
 
 /* ---- a ball of quads and triangles, and a cube */

@@ -1,7 +1,7 @@
 /* Randomness: hashes look random, noise has the statistics and the independence it promises. */
 #include "base/random.h"
-#include "scene/noise.h"
 #include "scene_help.h"
+#include "shape/noise.h"
 
 static void hashes_look_random(void **state)
 {

@@ -1,0 +1,58 @@
+#include "meshinput/sdf.h"
+
+#include <stdatomic.h>
+
+#include "base/library.h"
+#include "meshinput/sdf_make.h"
+
+/* Set before there is any distance field. */
+static _Atomic(sdf_at_function *) at;
+static _Atomic(sdf_destroy_function *) destroy;
+static _Atomic(sdf_gap_function *) gap;
+
+status vdb_sdf_create(const struct sdf_question *question, struct vdb_sdf **out)
+{
+    status st = OK;
+    sdf_make_function *make = NULL;
+    sdf_at_function *found_at = NULL;
+    sdf_destroy_function *found_destroy = NULL;
+    sdf_gap_function *found_gap = NULL;
+    TRY(library_find("sdf_make", &make));
+    TRY(library_find("sdf_at", &found_at));
+    TRY(library_find("sdf_destroy", &found_destroy));
+    TRY(library_find("sdf_gap", &found_gap));
+    atomic_store(&at, found_at);
+    atomic_store(&destroy, found_destroy);
+    atomic_store(&gap, found_gap);
+    TRY(library_said(make(question, out)));
+done:
+    return st;
+}
+
+void vdb_sdf_destroy(struct vdb_sdf **sdf)
+{
+    sdf_destroy_function *call = atomic_load(&destroy);
+    if (*sdf && call)
+        call(sdf);
+}
+
+double vdb_sdf_at(const struct vdb_sdf *sdf, const double x[3])
+{
+    return atomic_load_explicit(&at, memory_order_relaxed)(sdf, x);
+}
+
+struct sdf_gap vdb_sdf_gap(const struct vdb_sdf *sdf)
+{
+    return atomic_load(&gap)(sdf);
+}
+
+status vdb_sdf_caps(const struct vdb_sdf *sdf, struct sdf_caps *out)
+{
+    status st = OK;
+    sdf_caps_function *caps = NULL;
+    *out = (struct sdf_caps){0};
+    TRY(library_find("sdf_caps", &caps));
+    TRY(library_said(caps(sdf, out)));
+done:
+    return st;
+}

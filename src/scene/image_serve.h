@@ -1,8 +1,0 @@
-/* Pictures in their reader: what is asked and answered is in image_parts.h. */
-#ifndef HOODOO_IMAGE_SERVE_H
-#define HOODOO_IMAGE_SERVE_H
-
-/* The main() of hoodoo-read-image. */
-int image_serve_main(int argc, char **argv);
-
-#endif

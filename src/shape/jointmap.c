@@ -1,0 +1,144 @@
+#include "shape/jointmap.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "image/image.h"
+
+/* Nearer than this many pixels the outline may be anywhere: between the middles of two pixels that differ (at
+ * most sqrt(2) from either), and a point is not at its pixel's middle. */
+static const double FUZZ = 2.2;
+
+struct jointmap {
+    size_t width, height;
+    double min[3], max[3];
+    double dx, dy;    /* m, a pixel */
+    double steepness; /* sqrt(1 + the largest slope of the tops squared) */
+    float *rock;      /* 1 or 0, bottom row first */
+    float *top;       /* m; of black pixels, as the nearest that is not */
+    float *away;      /* pixels to the nearest that differs, the larger of both axes' */
+};
+
+/* One sweep of distances and tops from the four neighbours already passed. */
+static void sweep(struct jointmap *m, const float *rock, bool back)
+{
+    for (size_t s = 0; s < m->width * m->height; s++) {
+        size_t i = back ? m->width * m->height - 1 - s : s;
+        long x = (long)(i % m->width), y = (long)(i / m->width), d = back ? 1 : -1;
+        const long near[4][2] = {{d, 0}, {-1, d}, {0, d}, {1, d}};
+        for (int k = 0; k < 4; k++) {
+            long u = x + near[k][0], w = y + near[k][1];
+            if (u < 0 || w < 0 || u >= (long)m->width || w >= (long)m->height)
+                continue;
+            size_t j = (size_t)w * m->width + (size_t)u;
+            float through = rock[j] != rock[i] ? 1 : m->away[j] + 1;
+            if (through < m->away[i]) {
+                m->away[i] = through;
+                if (rock[i] == 0)
+                    m->top[i] = m->top[j];
+            }
+        }
+    }
+}
+
+static status read_pixels(struct jointmap *m, const struct job_jointmap *job, const float *value)
+{
+    size_t n_rock = 0;
+    double slope = 0;
+    for (size_t y = 0; y < m->height; y++)
+        for (size_t x = 0; x < m->width; x++) {
+            double v = value[(m->height - 1 - y) * m->width + x];
+            size_t i = y * m->width + x;
+            if (!(fabs(v) <= 1e6))
+                return fail(E_INPUT, "%s: pixel (%zu, %zu) from the top left holds %g", job->file, x,
+                            m->height - 1 - y, v);
+            m->rock[i] = v > job->black;
+            m->top[i] = (float)(job->reach ? m->min[2] + fmin(v, 1) * (m->max[2] - m->min[2]) : m->max[2]);
+            m->away[i] = 1e9f;
+            n_rock += v > job->black;
+        }
+    if (n_rock == 0)
+        return fail(E_USAGE, "%s: no pixel is above jointmap.black (%g): there is no rock", job->file,
+                    job->black);
+    for (int round = 0; round < 2; round++) {
+        sweep(m, m->rock, false);
+        sweep(m, m->rock, true);
+    }
+    for (size_t i = 0; i + m->width < m->width * m->height; i++)
+        slope = fmax(slope, fabs((double)(m->top[i + m->width] - m->top[i])) / m->dy);
+    for (size_t i = 0; i + 1 < m->width * m->height; i++)
+        if ((i + 1) % m->width)
+            slope = fmax(slope, fabs((double)(m->top[i + 1] - m->top[i])) / m->dx);
+    m->steepness = sqrt(1 + 2 * slope * slope);
+    return OK;
+}
+
+status jointmap_create(const struct job_jointmap *job, struct jointmap **out)
+{
+    status st = OK;
+    struct jointmap *m = NULL;
+    struct image image = {0};
+    const struct image_wish wish = IMAGE_WISH(job);
+    TRY(memory_alloc(1, sizeof *m, "a joint map", &m));
+    TRY(image_read(&wish, &image));
+    m->width = image.width;
+    m->height = image.height;
+    for (int a = 0; a < 3; a++) {
+        m->min[a] = job->min_m[a];
+        m->max[a] = job->max_m[a];
+    }
+    m->dx = (m->max[0] - m->min[0]) / (double)m->width;
+    m->dy = (m->max[1] - m->min[1]) / (double)m->height;
+    TRY(memory_alloc(m->width * m->height, sizeof *m->rock, "a joint map", &m->rock));
+    TRY(memory_alloc(m->width * m->height, sizeof *m->top, "a joint map", &m->top));
+    TRY(memory_alloc(m->width * m->height, sizeof *m->away, "a joint map", &m->away));
+    TRY(read_pixels(m, job, image.value));
+    *out = m;
+    m = NULL;
+done:
+    image_free(&image);
+    jointmap_destroy(&m);
+    return st;
+}
+
+void jointmap_destroy(struct jointmap **map)
+{
+    if (!*map)
+        return;
+    free((*map)->rock);
+    free((*map)->top);
+    free((*map)->away);
+    free(*map);
+    *map = NULL;
+}
+
+static double clamp(double x, double low, double high)
+{
+    return fmin(fmax(x, low), high);
+}
+
+static double bilinear(const struct jointmap *m, const float *field, double px, double py)
+{
+    double x = clamp(px - 0.5, 0, (double)(m->width - 1)), y = clamp(py - 0.5, 0, (double)(m->height - 1));
+    size_t i = (size_t)x, j = (size_t)y;
+    size_t right = i + 1 < m->width ? 1 : 0, up = j + 1 < m->height ? m->width : 0;
+    const float *f = field + j * m->width + i;
+    double u = x - (double)i, v = y - (double)j;
+    double bottom = (double)f[0] + u * (double)(f[right] - f[0]);
+    return bottom + v * ((double)f[up] + u * (double)(f[up + right] - f[up]) - bottom);
+}
+
+double jointmap_distance(const struct jointmap *m, const double x[3])
+{
+    double px = clamp((x[0] - m->min[0]) / m->dx, 0, (double)m->width);
+    double py = clamp((x[1] - m->min[1]) / m->dy, 0, (double)m->height);
+    size_t i = px < (double)m->width ? (size_t)px : m->width - 1;
+    size_t j = py < (double)m->height ? (size_t)py : m->height - 1;
+    double sure = fmax((double)m->away[j * m->width + i] - FUZZ, 0) * fmin(m->dx, m->dy);
+    double d = bilinear(m, m->rock, px, py) >= 0.5 ? -fmax(sure, 1e-9) : fmax(sure, 1e-9);
+    d = fmax(d, (x[2] - bilinear(m, m->top, px, py)) / m->steepness);
+    d = fmax(d, m->min[2] - x[2]);
+    d = fmax(d, fmax(m->min[0] - x[0], x[0] - m->max[0]));
+    return fmax(d, fmax(m->min[1] - x[1], x[1] - m->max[1]));
+}
