@@ -12,7 +12,7 @@
 void html_text(struct text *t, const char *value)
 {
     for (const unsigned char *p = (const unsigned char *)value; *p;) {
-        const size_t n = utf8_length(p, 4); /* the NUL ends it */
+        const size_t n = utf8_length(p, 4); /* a NUL ends the text */
         if (*p == '&')
             text_add(t, "&amp;");
         else if (*p == '<')
@@ -35,7 +35,7 @@ void html_text(struct text *t, const char *value)
 
 const char *html_number(double value, char out[48])
 {
-    static const char thin[] = "\xe2\x80\xaf"; /* does not break lines */
+    static const char thin[] = "\xe2\x80\xaf"; /* a no-break space */
     char digits[40];
     const double size = fabs(value);
     if (!isfinite(value)) {
@@ -50,7 +50,7 @@ const char *html_number(double value, char out[48])
         snprintf(digits, sizeof digits, "%.0f", value);
     } else {
         snprintf(digits, sizeof digits, "%.*f", size >= 10 ? 1 : size >= 1 ? 2 : size >= 0.1 ? 3 : 4, value);
-        /* Zeros after the point say nothing. */
+        /* Remove trailing zeros after the decimal point. */
         char *end = digits + strlen(digits);
         while (end[-1] == '0')
             *--end = '\0';
@@ -77,7 +77,7 @@ const char *html_number(double value, char out[48])
 enum { WIDTH = 540, HEIGHT = 290, LEFT = 76, RIGHT = 18, TOP = 14, BOTTOM = 50 };
 
 struct axis {
-    double low, high, step; /* step: between ticks */
+    double low, high, step; /* step: distance between ticks */
     int from, to;           /* px */
 };
 
@@ -86,7 +86,7 @@ static double at(const struct axis *a, double value)
     return a->from + (value - a->low) / (a->high - a->low) * (a->to - a->from);
 }
 
-/* Steps of 1, 2 or 5 times a power of ten. With `widen`, the ends are ticks too. */
+/* The step is 1, 2 or 5 times a power of ten. With `widen`, the axis is extended to a tick at both ends. */
 static void set_axis(struct axis *a, double low, double high, int ticks, bool widen)
 {
     if (!(high > low)) {
@@ -173,7 +173,7 @@ static void add_area(struct text *t, const struct chart *c, const struct axis *x
     text_add(t, "\"/>\n");
 }
 
-/* Values that are not numbers break the line. */
+/* A NaN interrupts the line. */
 static void add_line(struct text *t, const struct chart *c, const struct axis *x, const struct axis *y,
                      size_t s)
 {
@@ -188,7 +188,7 @@ static void add_line(struct text *t, const struct chart *c, const struct axis *x
     text_add(t, "\"/>\n");
 }
 
-/* A pointer anywhere over a frame's column shows its values. */
+/* Hovering anywhere in a frame's column shows its values. */
 static void add_values(struct text *t, const struct chart *c, const struct axis *x, const struct axis *y)
 {
     char number[48];

@@ -1,4 +1,4 @@
-/* Charts as inline SVG: axes with units, no script. Colours are told apart by lightness too. */
+/* Charts as inline SVG with axes and units, without scripts. Series differ in lightness as well as in hue. */
 #ifndef HOODOO_CHART_H
 #define HOODOO_CHART_H
 
@@ -7,16 +7,16 @@
 
 #include "base/text.h"
 
-/* Adds `value` with HTML's special characters escaped, control characters as spaces, and bytes that are not
- * UTF-8 as U+FFFD: fit for text and for attributes in double quotes. */
+/* Adds `value`, escaped for HTML text and for attributes in double quotes: special characters become entities,
+ * control characters become spaces, and bytes that are not UTF-8 become U+FFFD. */
 void html_text(struct text *t, const char *value);
 
-/* "12.3", "0.0041", "61 200": three figures at least, thin spaces between thousands. Returns out. */
+/* "12.3", "0.0041", "61 200": at least three significant figures, thin spaces between thousands. Returns out. */
 const char *html_number(double value, char out[48]);
 
 struct series {
     const char *name, *color;
-    const double *y; /* [n], with the chart's x */
+    const double *y; /* [n], one for each x of the chart */
 };
 
 struct chart {
@@ -25,17 +25,17 @@ struct chart {
     const double *x;                       /* ascending */
     size_t n_series;
     const struct series *series;
-    bool stacked;   /* areas on one another, instead of lines */
-    bool from_zero; /* the y axis holds 0 */
+    bool stacked;   /* stacked areas instead of lines */
+    bool from_zero; /* the y axis includes 0 */
 };
 void chart_lines(const struct chart *c, struct text *t);
 
-/* A value to point at, such as a threshold. */
+/* A labelled x value, such as a threshold. */
 struct mark {
     double x;
     char name[80];
 };
-/* Bars of n equal bins between low and high; marks are dashed lines. */
+/* n equal bins between low and high; marks are drawn as dashed lines. */
 struct histogram {
     const char *title, *x_label, *y_label;
     double low, high;
@@ -46,7 +46,7 @@ struct histogram {
 };
 void chart_histogram(const struct histogram *h, struct text *t);
 
-/* Named bars, one under the other; `note` stands at each bar's end. */
+/* Horizontal bars with names, one below the other; `note` is printed at the end of the bar. */
 struct row {
     char name[96], note[96];
     const char *color;

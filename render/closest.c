@@ -1,17 +1,18 @@
-/* Particles are sorted by cells as wide as the reach, so that those near a point are in its cell and the 26
- * around it. */
+/* Particles are sorted into cells as wide as the reach, so all candidates for a point are in its cell and the
+ * 26 cells around it. */
 #include "render/closest.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 
 struct cells {
     double low[3], width;
     int64_t n[3];
-    uint32_t *start; /* [cells + 1]: of each cell's particles in `order` */
+    uint32_t *start; /* [cells + 1]: where each cell's particles begin in `order` */
     uint32_t *order;
 };
 
@@ -39,7 +40,7 @@ static status sort(struct cells *c, const float *particle, size_t n, double reac
         for (int k = 0; k < 3; k++) {
             double x = (double)particle[4 * i + (size_t)k];
             if (!isfinite(x))
-                return fail(E_INPUT, "particle %zu is nowhere", i);
+                return fail(E_INPUT, "the position of particle %zu is not finite", i);
             c->low[k] = fmin(c->low[k], x);
             high[k] = fmax(high[k], x);
         }
@@ -48,13 +49,16 @@ static status sort(struct cells *c, const float *particle, size_t n, double reac
     for (int k = 0; k < 3; k++)
         cells *= floor((high[k] - c->low[k]) / reach) + 1;
     if (cells > CELLS_MAX || n >= UINT32_MAX)
-        return fail(E_INPUT, "%zu particles over %g cells of %g m: they are too far apart", n, cells, reach);
+        return fail(
+            E_INPUT,
+            "%zu particles span %g cells of %g m, which is too many: are some of them far away from the rest?",
+            n, cells, reach);
     for (int k = 0; k < 3; k++)
         c->n[k] = (int64_t)floor((high[k] - c->low[k]) / reach) + 1;
     size_t n_cells = (size_t)cells;
     TRY(memory_alloc(n_cells + 2, sizeof *c->start, "cells", &c->start));
     TRY(memory_alloc(n, sizeof *c->order, "cells", &c->order));
-    /* Counted one place further on, so that filling moves each start to where it belongs. */
+    /* Counts are stored one place further on, so that filling the cells moves each start to its place. */
     for (size_t i = 0; i < n; i++)
         c->start[cell_of(c, particle + 4 * i) + 2]++;
     for (size_t i = 2; i < n_cells + 2; i++)
@@ -97,8 +101,9 @@ status closest_values(const float *point, size_t n_points, const float *particle
 {
     status st = OK;
     struct cells c = {0};
+    memset(out, 0, n_points * sizeof *out);
     if (n_particles == 0)
-        goto done; /* out is 0 then */
+        goto done;
     TRY(sort(&c, particle, n_particles, reach));
     for (size_t i = 0; i < n_points; i++)
         out[i] = value_near(&c, point + 3 * i, particle, value);

@@ -15,7 +15,7 @@ static void add_rgb(struct text *out, const double rgb[3], double scale)
 
 void daylight_begin(const struct light *light, struct text *out)
 {
-    /* What comes from everywhere, in hollows too: half of the ground's light, and a little of the sky's. */
+    /* Light without direction, which reaches hollows too: half of the ground's light and a little of the sky's. */
     double ambient[3];
     for (int i = 0; i < 3; i++)
         ambient[i] = 0.42 * light->bounce_rgb[i] + 0.10 * light->sky_rgb[i];
@@ -24,7 +24,7 @@ void daylight_begin(const struct light *light, struct text *out)
     text_add(out, ";\n");
 }
 
-/* Even over the upper half. */
+/* Evenly distributed over the upper hemisphere. */
 static void direction_of(int i, int n, double d[3])
 {
     double z = (i + 0.5) / n, turn = i * 2.39996322972865, level = sqrt(1 - z * z);
@@ -33,7 +33,7 @@ static void direction_of(int i, int n, double d[3])
     d[2] = z;
 }
 
-/* Every piece of the sky goes to the nearest light. */
+/* Each patch of the sky is assigned to the nearest light. */
 static void gather(const struct sky *sky, int n, double rgb[MOST_LIGHTS][3])
 {
     enum { PIECES = 600 };
@@ -60,7 +60,7 @@ static void add_sun(const struct light *light, const struct view *view, bool sof
 {
     if (!(light->sun[2] > 0))
         return;
-    double far = 50 * view->span, radius = far * tan(0.53 * PI / 180); /* haze widens it twice */
+    double far = 50 * view->span, radius = far * tan(0.53 * PI / 180); /* haze doubles its width */
     text_add(out, "// the sun\nlight_source {\n    Center + %.6g * <%.8f, %.8f, %.8f>\n    color ", far,
              light->sun[0], light->sun[1], light->sun[2]);
     add_rgb(out, light->sun_rgb, DAYLIGHT_SCALE);
@@ -87,7 +87,7 @@ static void add_sky(const struct light *light, struct text *out)
                                      {-0.9692660, 1.8760108, 0.0415560},
                                      {0.0556434, -0.2040259, 1.0572252}};
     const struct sky *s = &light->sky;
-    /* Beside the sun it is brighter than this, and white in any view. */
+    /* Next to the sun the sky is brighter than this, but white in any picture. */
     const double brightest =
         8 * fmax(fmax(light->sky_rgb[0], light->sky_rgb[1]), fmax(light->sky_rgb[2], 1e-6));
     double theta = PI / 2 - s->lift, level = fmax(hypot(s->sun[0], s->sun[1]), 1e-9);
@@ -116,7 +116,7 @@ static void add_sky(const struct light *light, struct text *out)
             "            [1 function { Sky_%s(x, y, z) } color_map { [0 rgb 0] [1 rgb <%g, %g, %g>] }]\n",
             channel[i], i == 0 ? 3 * brightest * DAYLIGHT_SCALE : 0,
             i == 1 ? 3 * brightest * DAYLIGHT_SCALE : 0, i == 2 ? 3 * brightest * DAYLIGHT_SCALE : 0);
-    /* Thin high cloud, drawn out sideways: sunlight and sky on ice. */
+    /* Thin high cloud, stretched sideways and lit by sun and sky. */
     double cloud[3];
     for (int i = 0; i < 3; i++)
         cloud[i] = (0.28 * light->sun_rgb[i] + light->sky_rgb[i]) * DAYLIGHT_SCALE;
@@ -128,7 +128,7 @@ static void add_sky(const struct light *light, struct text *out)
         cloud[0], cloud[1], cloud[2], cloud[0], cloud[1], cloud[2]);
 }
 
-/* By the kilometre, thinning out with height: the horizon is a veil, not a line. */
+/* Kilometres of haze, thinner with height, so that the horizon is soft. */
 static void add_haze(const struct light *light, struct text *out)
 {
     enum { AROUND = 12 };
@@ -158,7 +158,7 @@ void daylight_write(const struct light *light, const struct view *view, int n, b
         text_add(out, "light_source { Center + %.6g * <%.5f, %.5f, %.5f> color ", 50 * view->span, d[0], d[1],
                  d[2]);
         add_rgb(out, rgb[i], DAYLIGHT_SCALE);
-        /* A single light low in the sky would throw a long shadow, which a whole sky never does. */
+        /* A single light low in the sky would cast a long shadow, which an entire sky does not. */
         text_add(out, " parallel point_at Center%s }\n", n < 12 && d[2] < 0.6 ? " shadowless" : "");
     }
     for (int k = 0; k < 3; k++)

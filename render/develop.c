@@ -7,7 +7,7 @@
 double develop_view(double x)
 {
     static const double n = 1.3, grey = 0.18, white = 4;
-    /* s^n, so that grey stays when white is 1. Two steps of a fixed point are enough for doubles' eyes. */
+    /* s^n for which grey is unchanged and white is 1. Two iterations converge to more than picture accuracy. */
     double s = pow(grey, n) * (1 / grey - 1), top = 1;
     for (int i = 0; i < 8; i++) {
         top = pow(white, n) / (pow(white, n) + s);
@@ -29,7 +29,7 @@ void develop_color(const double linear[3], double exposure, unsigned char rgb[3]
         rgb[c] = srgb(develop_view(exposure * linear[c]));
 }
 
-/* The next number of a header, behind blanks and comments; 0 if there is none. */
+/* The next number of a header, after blanks and comments; 0 if there is none. */
 static size_t header_number(const unsigned char *bytes, size_t n, size_t *at)
 {
     size_t value = 0;
@@ -48,12 +48,12 @@ status develop_ppm(void *bytes, size_t *n, double white, double exposure)
     size_t read = 2, width = header_number(at, *n, &read), height = header_number(at, *n, &read);
     if (*n < 2 || at[0] != 'P' || at[1] != '6' || width < 1 || height < 1 ||
         header_number(at, *n, &read) != 65535)
-        return fail(E_INPUT, "no linear picture of 16 bits");
+        return fail(E_INPUT, "not a 16-bit PPM (P6)");
     const unsigned char *from = at + read + 1;
     size_t values = 3 * width * height;
     if (*n < read + 1 + 2 * values)
-        return fail(E_INPUT, "the picture is cut short");
-    /* By the root, dark tones have as many steps as light ones. */
+        return fail(E_INPUT, "the picture is truncated");
+    /* The table is indexed by the square root, so that dark tones have as many steps as light ones. */
     for (int i = 0; i < 4096; i++)
         table[i] = srgb(develop_view(white * exposure * pow((i + 0.5) / 4096, 2)));
     size_t put = (size_t)sprintf((char *)at, "P6\n%zu %zu\n255\n", width, height);

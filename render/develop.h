@@ -1,8 +1,8 @@
-/* The view of a preview: scene-linear light as a picture to look at.
+/* Tone mapping of previews: scene-linear radiance to sRGB.
  *
- * Curve    Per channel, the response of Naka and Rushton (1966), x^n / (x^n + s^n): straight over most of its length, dark tones
- *          drawn in, highlights that go white softly. n is 1.3, mid grey (0.18) stays, and 4 is white. Then sRGB.
- * EXR      rgba of pictures is scene-linear: the same curve shows it as previews are shown.
+ * Curve    Per channel, the response of Naka and Rushton (1966), x^n / (x^n + s^n), with n = 1.3. It is nearly straight in the middle,
+ *          compresses dark tones and rolls off highlights. Mid grey (0.18) is unchanged and 4 maps to white. sRGB encoding follows.
+ * EXR      The layer rgba is scene-linear; this curve makes it look like the previews.
  */
 #ifndef HOODOO_DEVELOP_H
 #define HOODOO_DEVELOP_H
@@ -11,14 +11,14 @@
 
 #include "base/status.h"
 
-/* The curve alone: 0..1, linear. */
+/* The curve alone, without sRGB encoding: linear radiance to 0..1. */
 double develop_view(double linear);
 
-/* Of a colour, after `exposure`: as the picture has it, sRGB. */
+/* A colour as the picture shows it: multiplied by `exposure`, through the curve, sRGB-encoded. */
 void develop_color(const double linear[3], double exposure, unsigned char rgb[3]);
 
-/* A linear 16-bit PPM (P6), whose 65535 is scene-linear `white`, becomes one of 8 bits in sRGB; *n changes with it. Light is
- * multiplied by `exposure` before. In place. E_INPUT: it is none, or cut short. */
+/* Converts a linear 16-bit PPM (P6), whose 65535 means scene-linear `white`, to an 8-bit sRGB PPM. Radiance is multiplied by
+ * `exposure` first. In place; *n is the size in bytes before and after. E_INPUT: not such a picture, or truncated. */
 MUST_USE status develop_ppm(void *bytes, size_t *n, double white, double exposure);
 
 #endif

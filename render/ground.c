@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "shared/params.h"
 
-static const double FAR = 25000; /* m: the horizon is nearer */
+static const double FAR = 25000; /* m: farther away than the visible horizon */
 
 enum { APRON_NODES = 4 };
 
@@ -48,8 +48,8 @@ static void put_triangle(struct ground *g, const struct vdb_mesh *m, const uint3
         }
 }
 
-/* Surfaces end a little within the box, and at a wall they are rounded off although the rock goes on: the outermost nodes are as those a node
- * or two within. */
+/* Surfaces end slightly inside the box, and at a wall they are rounded although the rock continues. So the outermost nodes take the heights
+ * of nodes one or two further in. */
 static void fill_edges(struct ground *g)
 {
     int low[2] = {g->walls & WALL_X_MIN ? 2 : 1, g->walls & WALL_Y_MIN ? 2 : 1},
@@ -67,7 +67,7 @@ static void fill_edges(struct ground *g)
         }
 }
 
-/* Against the foot: as high as half the rock there, at most `most`, and down to nothing over a few nodes. */
+/* The apron at the foot of the rock: half as high as the rock there but at most `most`, and falling to 0 over a few nodes. */
 static void find_apron(struct ground *g, double most)
 {
     for (int j = 0; j < g->ny; j++)
@@ -142,7 +142,7 @@ double ground_at(const struct ground *g, double x, double y, double finest)
            cy = fmin(fmax(y, 0), size[1]), relief = 0;
     if (away <= 0)
         return sampled(g, g->apron, x, y);
-    /* How far it is outside walls, and outside open sides. */
+    /* The distances of a place beyond walls and beyond open sides. */
     double walled = hypot(x < 0 && g->walls & WALL_X_MIN         ? -x
                           : x > size[0] && g->walls & WALL_X_MAX ? x - size[0]
                                                                  : 0,
@@ -164,7 +164,7 @@ double ground_at(const struct ground *g, double x, double y, double finest)
                       wave_at(&g->waves, i, at);
     }
     double most = 0.8 * g->view.slope * away;
-    /* Valleys as they are, hills flattened to stay below. */
+    /* Hills are flattened to stay below the line of sight; valleys are unchanged. */
     relief = relief > 0 && most > 0 ? most * tanh(relief / most) : relief > 0 ? 0 : relief;
     return height + relief;
 }
@@ -216,14 +216,14 @@ static void add_patch(struct text *out, const struct patch *p, bool closed)
     text_add(out, "}\n}\n");
 }
 
-/* How far the box's outline is from its middle. */
+/* The distance from the middle of the box to its outline in a direction. */
 static double outline(const struct view *v, double c, double s)
 {
     return fmin(fabs(c) > 1e-9 ? 0.5 * v->size[0] / fabs(c) : INFINITY,
                 fabs(s) > 1e-9 ? 0.5 * v->size[1] / fabs(s) : INFINITY);
 }
 
-/* The grid's height over the box. Beside a wall it rises to just below the rock, whose own surface is rounded off there. */
+/* The height of the grid inside the box. Next to a wall it rises to just below the rock, whose own surface is rounded there. */
 static double floor_at(const struct ground *g, int i, int j)
 {
     double apron = (double)g->apron[j * g->nx + i], top = (double)g->top[j * g->nx + i];
@@ -239,8 +239,9 @@ status ground_write(const struct ground *g, int turns, struct text *out)
     status st = OK;
     const double *size = g->view.size, grow = 2 * 3.14159265358979 / turns, edge = fmin(g->dx, g->dy),
                  first = fmax(0.25 * fmin(size[0], size[1]) * grow, 0.61 * edge),
-                 start = -0.6 *
-                         edge; /* the first ring lies just below the grid's edge, so that there is no gap */
+                 start =
+                     -0.6 *
+                     edge; /* the first ring is just below the edge of the grid, so that there is no gap */
     struct patch box = {.nx = g->nx, .ny = g->ny}, rings = {.nx = turns};
     for (double away = start, step = first; away < FAR; rings.ny++) {
         away += step;

@@ -1,12 +1,12 @@
-/* The ground around and below the rock, to the horizon.
+/* The ground around and below the rock, up to the horizon.
  *
- * Within the box   It is level, and rises a little against the foot of the rock, which it joins without a gap.
- * Beyond a wall    It is as high as the rock at the wall, so that plateaus and cliffs run on out of the picture.
- * Beyond an open side   Sand leans against what ends there.
- * Farther out      Waves of 0.5 m to 500 m, by the metre, which begin away from the box and stay below every camera's line of sight
- *                  to it.
+ * Within the box        Level; it rises slightly towards the foot of the rock and joins it without a gap.
+ * Beyond a wall         As high as the rock at the wall, so that plateaus and cliffs continue beyond the domain.
+ * Beyond an open side   Sand is heaped against rock that ends there.
+ * Farther out           Waves of 0.5 m to 500 m, fixed in the world. They begin at some distance from the box and stay below the line
+ *                       of sight of every camera to it.
  *
- * It depends on the frame only where rock stands or ends: what lies more than a few spacings from a change stays.
+ * The ground depends on the frame only near rock: it changes within a few spacings of a change of the rock, and nowhere else.
  */
 #ifndef HOODOO_GROUND_H
 #define HOODOO_GROUND_H
@@ -21,24 +21,24 @@ struct ground {
     unsigned walls; /* WALL_* */
     int nx, ny;     /* nodes over the box */
     double dx, dy;  /* m */
-    float *top;     /* [ny][nx] m: the rock's highest point, 0 where there is none */
-    float *apron;   /* [ny][nx] m */
-    double lean;    /* m: how high sand lies against what ends at an open side */
+    float *top;     /* [ny][nx] m: the highest point of the rock, 0 without rock */
+    float *apron;   /* [ny][nx] m: rise towards the foot of the rock */
+    double lean;    /* m: height of the sand against rock that ends at an open side */
     struct waves waves;
 };
 
-/* `mesh` is the frame's rock. E_MEMORY. */
+/* `mesh` is the surface of the frame's rock. Release with ground_free(). E_MEMORY. */
 MUST_USE status ground_make(const struct job *job, const struct view *view, const struct vdb_mesh *mesh,
                             struct ground *out);
 void ground_free(struct ground *g);
 
-/* Its height; `finest` is the shortest wave wanted (m). */
+/* The height of the ground (m) with waves down to the length `finest` (m). */
 double ground_at(const struct ground *g, double x, double y, double finest);
 
-/* The rock's highest point over a place in the box; 0 where there is none, and outside. */
+/* The highest point of the rock above a place in the box (m); 0 without rock, and outside the box. */
 double ground_top(const struct ground *g, double x, double y);
 
-/* Adds it as the meshes Ground_Near and Ground_Far; `turns` are the directions in which it is sampled. */
+/* Adds the ground as the meshes Ground_Near and Ground_Far; `turns` is the number of directions in which it is sampled. */
 MUST_USE status ground_write(const struct ground *g, int turns, struct text *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* report.html, style.css, script.js and look.html beside this, embedded: lines, the last NULL. */
+/* report.html, style.css, script.js and look.html of this folder, embedded as lines; the last line is NULL. */
 #ifndef HOODOO_PAGE_PARTS_H
 #define HOODOO_PAGE_PARTS_H
 

@@ -20,13 +20,13 @@
 #include "render/refine.h"
 #include "render/slate.h"
 
-/* More shows as flat facets in raking light. */
+/* Larger values show as flat facets in raking light. */
 static const double ADAPTIVITY = 0.03;
 
-/* A mesh with more is cut no finer. */
+/* Meshes with more triangles are not refined further. */
 enum { MOST_TRIANGLES = 1500000 };
 
-/* One picture under way. Temporary files are its own. Paths are relative to root. */
+/* A picture in progress, with its temporary files. Paths are relative to root. */
 struct picture {
     struct preview *preview;
     struct picture *next;
@@ -34,7 +34,7 @@ struct picture {
     char what[64], tag[PNG_TAG];
     struct preview_recipe made;
     struct path path;
-    struct path rendered, drawn, bar, scene; /* "": none to remove */
+    struct path rendered, drawn, bar, scene; /* temporary files; "": none */
     struct slate slate;
     struct slate_command command;
 };
@@ -69,8 +69,8 @@ status preview_recipe(const struct preview *p, const char *only, const char *mor
     return frame == ALL_FRAMES ? OK : recipe_of_frame(&out->recipe, p->job->name, frame);
 }
 
-/* Is root/`path` there, whole, of the frame that is there, and as it is asked for (a draft is no preview)? Which options said so does
- * not matter. */
+/* *done: root/`path` exists, is undamaged, was made from the present frame, and has the same options in its tag. The arguments in its
+ * record may differ, since different arguments can mean the same options. */
 static status done_as_asked(const struct preview_recipe *made, const char *path, const char *tag, bool *done)
 {
     status st = OK;
@@ -100,7 +100,7 @@ bool picture_has_slate(const struct preview *p, const char *path)
 
 /* ---- the scene */
 
-/* A still has the camera's shape, no larger than the preset's; an orbit, which is nobody's camera's, the preset's. */
+/* A still has the shape of its camera, at most as large as the preset; views of an orbit have the size of the preset. */
 static void size_of(const struct preview *p, const struct job_camera *camera, bool turntable, int *width,
                     int *height)
 {
@@ -129,7 +129,7 @@ static const struct job_camera *chosen_camera(const struct preview *p)
     return p->job->n_cameras ? &p->job->cameras[0] : NULL;
 }
 
-/* All that decides what the picture looks like, but for the frame. view < 0: a still. */
+/* All options that determine the picture, apart from the frame, as text. view < 0: a still. */
 static void tag_of(const struct preview *p, int width, int height, int view, int views, char out[PNG_TAG])
 {
     static const char *const presets[] = {CHOICE_LIST(PRESET_CHOICE)};
@@ -145,8 +145,8 @@ static void tag_of(const struct preview *p, int width, int height, int view, int
         snprintf(out + n, PNG_TAG - (size_t)n, "; view=%d/%d", view, views);
 }
 
-/* The job's camera, with the picture's own shape: its film keeps its width. */
-static struct camera shaped(const struct job_camera *camera, int frame, int width, int height)
+/* The job's camera with the resolution of the picture; the width of its film stays the same. */
+static struct camera camera_with_shape(const struct job_camera *camera, int frame, int width, int height)
 {
     struct job_camera own = *camera;
     own.resolution[0] = width;
@@ -154,14 +154,14 @@ static struct camera shaped(const struct job_camera *camera, int frame, int widt
     return camera_of(&own, frame);
 }
 
-/* Where the orbit begins: the job's camera's azimuth. */
+/* The azimuth at which the orbit begins: that of the job's camera. */
 static double orbit_start(const struct preview *p, int frame)
 {
     const struct job_camera *own = chosen_camera(p);
     return own ? curve_at(&own->orbit.azimuth_deg, frame) : -55;
 }
 
-/* What only particles have, at the vertices: of the closest one. */
+/* Values that only points have: each vertex takes that of the closest particle. */
 static status read_from_points(const struct preview *p, int frame, struct vdb_mesh *mesh)
 {
     status st = OK;
@@ -172,7 +172,7 @@ static status read_from_points(const struct preview *p, int frame, struct vdb_me
     TRY(vdb_points_read(path.text, &rock));
     const float *const field = rock.field[value_field[p->show]];
     if (!field) {
-        st = fail(E_INPUT, "%s: its points have no %s", path.text, value_table[p->show].name);
+        st = fail(E_INPUT, "%s: the points have no field %s", path.text, value_table[p->show].name);
         goto done;
     }
     TRY(memory_alloc(mesh->n_vertices + 1, sizeof *value, "values", &value));
@@ -213,20 +213,20 @@ static struct camera camera_for(const struct preview *p, int frame, int view, in
 {
     const struct job_camera *own = chosen_camera(p);
     if (views) {
-        /* It sets off slowly, and comes to rest where it began. */
+        /* The orbit eases in and out. */
         double t = (double)view / views, eased = t - 0.6 * sin(2 * M_PI * t) / (2 * M_PI);
         return view_orbit(p->job, orbit_start(p, frame) + 360 * eased, width, height);
     }
-    return own ? shaped(own, frame, width, height) : view_orbit(p->job, -55, width, height);
+    return own ? camera_with_shape(own, frame, width, height) : view_orbit(p->job, -55, width, height);
 }
 
-/* As near as the camera comes in any frame: detail is the same in all of them. */
+/* The pixel size is the smallest in any frame, so that detail is the same in all frames. */
 static struct view view_for(const struct preview *p, const struct camera *camera, size_t n)
 {
     const struct job_camera *own = chosen_camera(p);
     struct view view = view_of(p->job, camera, n);
     for (int f = p->job->frames.first; own && n == 1 && f <= p->job->frames.last; f++) {
-        const struct camera then = shaped(own, f, camera->width, camera->height);
+        const struct camera then = camera_with_shape(own, f, camera->width, camera->height);
         view.pixel = fmin(view.pixel, view_pixel(&view, &then));
     }
     return view;
@@ -286,7 +286,7 @@ done:
 
 status picture_data_range(const struct preview *p, const int *frames, size_t n, struct show_range *out)
 {
-    enum { EACH = 200000 }; /* values of a frame: more tell nothing more */
+    enum { EACH = 200000 }; /* values per frame, enough for the range */
     status st = OK;
     struct vdb_mesh mesh = {0};
     float *values = NULL;
@@ -307,9 +307,9 @@ done:
     return st;
 }
 
-/* ---- POV-Ray, then what is burnt in */
+/* ---- POV-Ray, then strip and legend */
 
-static void forget(const struct preview *p, struct path *path)
+static void remove_temporary(const struct preview *p, struct path *path)
 {
     struct path full;
     if (*path->text && path_join(&full, p->root, path->text) == OK)
@@ -317,7 +317,7 @@ static void forget(const struct preview *p, struct path *path)
     path->text[0] = '\0';
 }
 
-/* Takes it off the list and away, with all it has left. */
+/* Removes the picture from the list, deletes its temporary files and frees it. */
 static void picture_end(struct picture *picture)
 {
     struct preview *p = picture->preview;
@@ -326,10 +326,10 @@ static void picture_end(struct picture *picture)
         at = &(*at)->next;
     if (*at)
         *at = picture->next;
-    forget(p, &picture->rendered);
-    forget(p, &picture->drawn);
-    forget(p, &picture->bar);
-    forget(p, &picture->scene);
+    remove_temporary(p, &picture->rendered);
+    remove_temporary(p, &picture->drawn);
+    remove_temporary(p, &picture->bar);
+    remove_temporary(p, &picture->scene);
     free(picture);
 }
 
@@ -339,7 +339,7 @@ void pictures_end(struct preview *p)
         picture_end(p->under_way);
 }
 
-/* Moves a finished picture to its name, if it is whole. */
+/* Moves a finished picture to its name if it is complete. */
 static status picture_drawn(void *user)
 {
     struct picture *picture = user;
@@ -361,8 +361,8 @@ done:
     return st;
 }
 
-/* Light as it comes from POV-Ray becomes a picture to look at. */
-static status develop(const struct picture *picture)
+/* Tone-maps the linear picture that POV-Ray has written. */
+static status tone_map(const struct picture *picture)
 {
     enum { LARGEST = 1 << 30 };
     const struct preview *p = picture->preview;
@@ -382,7 +382,7 @@ done:
     return st;
 }
 
-/* POV-Ray has made it: now how it is seen, the strip and the legend. */
+/* POV-Ray is done: tone mapping, the strip and the legend follow. */
 static status picture_rendered(void *user)
 {
     struct picture *picture = user;
@@ -390,7 +390,7 @@ static status picture_rendered(void *user)
     status st = OK;
     struct path full;
     if (p->show == VALUE_NONE)
-        TRY(develop(picture));
+        TRY(tone_map(picture));
     TRY(atomic_file_temporary(picture->path.text, "", &picture->drawn));
     if (p->show != VALUE_NONE && slate_draws(&picture->slate)) {
         TRY(atomic_file_temporary(picture->path.text, ".ppm", &picture->bar));
@@ -404,7 +404,7 @@ done:
     return st;
 }
 
-static status start(struct preview *p, struct picture *picture, const char *scene, int view)
+static status start_povray(struct preview *p, struct picture *picture, const char *scene, int view)
 {
     status st = OK;
     struct path in, out;
@@ -415,8 +415,7 @@ static status start(struct preview *p, struct picture *picture, const char *scen
     snprintf(h, sizeof h, "+H%d", picture->slate.height);
     snprintf(declare, sizeof declare, "Declare=View=%d", view);
     const bool fine = p->preset == PRESET_FINAL, light = p->show == VALUE_NONE;
-    /* One thread each: reading the mesh takes one anyway, so several pictures side by side use the cores
-     * better. */
+    /* POV-Ray parses the mesh in one thread, so several single-threaded pictures at a time use the cores better. */
     const char *const argv[] = {"povray",
                                 in.text,
                                 out.text,
@@ -449,7 +448,7 @@ static void describe(const struct preview *p, int frame, const char *seen_from, 
     slate_describe(p->job, frame, camera, p->show, p->range, p->no_slate ? NULL : right, s);
 }
 
-/* On the list of those under way; picture_end() takes it off. */
+/* Adds a picture to the list of pictures in progress; picture_end() removes it. */
 static status new_picture(struct preview *p, int frame, const char *what, const struct path *path, int width,
                           int height, const struct preview_recipe *made, struct picture **out)
 {
@@ -466,11 +465,11 @@ static status new_picture(struct preview *p, int frame, const char *what, const 
     (*out)->path = *path;
     (*out)->made = *made;
     (*out)->made.recipe.word = (*out)->made.word;
-    /* POV-Ray appends to a name what its format ends in, and nobody waits for PPM. */
+    /* The name ends in .ppm, since POV-Ray appends the suffix of its format to other names. */
     return atomic_file_temporary(path->text, ".ppm", &(*out)->rendered);
 }
 
-/* Scenes that stay are named like their picture; others have names of their own. */
+/* A scene that is kept is named after its picture; others are temporary files. */
 static status scene_path(const struct preview *p, enum folder_file kind, int frame, struct path *out)
 {
     const status st = folder_name(out, p->job->name, kind, frame, picture_part(p));
@@ -503,7 +502,7 @@ status picture_still(struct preview *p, int frame)
         picture->scene = scene;
     const struct camera camera = camera_for(p, frame, 0, 0, width, height);
     describe(p, frame, own ? own->name : "", &camera, &picture->slate);
-    TRY(start(p, picture, scene.text, 0));
+    TRY(start_povray(p, picture, scene.text, 0));
 done:
     return st;
 }
@@ -532,15 +531,15 @@ status picture_orbit(struct preview *p, int frame, int views, struct frame_range
         snprintf(what, sizeof what, "view %d of frame %d", view, frame);
         TRY(new_picture(p, frame, what, &path, width, height, &made, &picture));
         snprintf(picture->tag, sizeof picture->tag, "%s", tag);
-        snprintf(number, sizeof number, "view %03d", view); /* as its file is called */
+        snprintf(number, sizeof number, "view %03d", view); /* as in the file name */
         const struct camera camera = camera_for(p, frame, view, views, width, height);
         describe(p, frame, number, &camera, &picture->slate);
-        TRY(start(p, picture, scene.text, view));
+        TRY(start_povray(p, picture, scene.text, view));
         progress_note(p->progress, (size_t)k, range_count(which), what);
     }
     TRY(children_wait(&p->children));
 done:
     if (!p->keep_scenes)
-        forget(p, &scene);
+        remove_temporary(p, &scene);
     return st;
 }

@@ -1,10 +1,8 @@
-/* Pictures of frames, through POV-Ray: each whole under its name, or absent.
+/* Pictures of frames, rendered by POV-Ray. A picture appears complete under its name, or not at all.
  *
- * Done once     A picture holds what was asked for (size, care, camera, colours, slate) as text in the file. It is made again
- *               when that differs, when it is not what its record says (output/product.h) or was made of another frame than
- *               is there, and else left as it is.
- * Side by side  Any number of processes may make different pictures of one folder: what is not finished has
- *               names of its own.
+ * Reuse         The PNG file records its options (size, preset, camera, colours, slate) as text. A picture is made again only if its
+ *               options differ, if it does not match its record (output/product.h), or if its frame has changed.
+ * Concurrency   Any number of processes may make different pictures in the same folder; temporary files have unique names.
  */
 #ifndef HOODOO_PICTURE_H
 #define HOODOO_PICTURE_H
@@ -19,64 +17,64 @@
 #include "output/product.h"
 #include "render/povray.h"
 
-/* Where what this and the turntable run comes from. */
+/* The Debian packages of the programs that this and turntable.h run. */
 #define PICTURE_PACKAGES "povray, ffmpeg and openimageio-tools"
 
 enum { PREVIEW_OPTIONS = 16 };
 
-/* What is asked for. */
+/* What to make. */
 struct preview {
     const char *root;
     const struct job *job;
     struct children children;
-    struct progress *progress; /* told of every picture that is begun */
+    struct progress *progress; /* updated when a picture is begun */
     enum preset preset;
-    int width, height;  /* 0: the preset's */
-    const char *camera; /* of the job, or NULL: its first, or an orbit if it has none */
+    int width, height;  /* px; 0: those of the preset */
+    const char *camera; /* a camera of the job; NULL: its first, or an orbit view if it has none */
     bool keep_scenes;
     bool no_slate;
     bool figure; /* a person stands in the scene */
-    /* The options that decide what is made, as words of the command, and --frames of the sheet (NULL: all). */
+    /* The command-line arguments that determine the pictures, and --frames for the sheet (NULL: all frames). */
     const char *option[PREVIEW_OPTIONS];
     size_t n_options;
     const char *sheet_frames;
     enum value_id show;        /* VALUE_NONE: the rock as it looks */
-    struct show_range range;   /* of what is shown */
-    struct picture *under_way; /* pictures that are being made */
+    struct show_range range;   /* of the shown value */
+    struct picture *under_way; /* list of pictures in progress */
 };
 
-/* How a part of it is made: `preview --only=PART` with these options. `more` is one more word, or NULL. The recipe points into
- * itself. */
+/* The command that makes one part: `preview --only=PART` with the options of the preview. The struct points into itself, so it must
+ * not be copied. */
 struct preview_recipe {
     struct recipe recipe;
     const char *word[PREVIEW_OPTIONS + 3];
 };
-/* Of a frame, or of ALL_FRAMES. E_MEMORY. */
+/* For one frame or ALL_FRAMES. `only` is the argument --only=PART, `more` a further argument or NULL. E_MEMORY. */
 MUST_USE status preview_recipe(const struct preview *p, const char *only, const char *more, int frame,
                                struct preview_recipe *out);
 
-/* preview/NAME.FRAME.png, or NAME.stress.FRAME.png. Starts it (children_wait() ends it), or skips it if it is
- * there as asked for. */
+/* Starts preview/NAME.FRAME.png, or NAME.stress.FRAME.png; children_wait() waits for it. Does nothing if the picture exists with the
+ * same options. */
 MUST_USE status picture_still(struct preview *p, int frame);
 
-/* turntable/NAME.FRAME.000.png and so on: those of `views` of a full orbit that `which` holds. Waits. */
+/* Makes the views in `which` of a full orbit of `views` pictures, turntable/NAME.FRAME.000.png and so on, and waits for them. */
 MUST_USE status picture_orbit(struct preview *p, int frame, int views, struct frame_range which);
 
-/* Removes what pictures that did not come about have left. After children_end(). */
+/* Removes the temporary files of unfinished pictures. Call after children_end(). */
 void pictures_end(struct preview *p);
 
-/* The range of what p->show shows on these frames' surfaces together. */
+/* The common range of the shown value on the surfaces of n frames, without outliers (show_data_range()). */
 MUST_USE status picture_data_range(const struct preview *p, const int *frames, size_t n,
                                    struct show_range *out);
 
-/* Their paths, relative to root. E_OUTPUT if they are too long. */
+/* Paths of a still and of a view, relative to root. E_OUTPUT: too long. */
 MUST_USE status picture_still_path(const struct preview *p, int frame, struct path *out);
 MUST_USE status picture_view_path(const struct preview *p, int frame, int view, struct path *out);
 
-/* What the names of files have after the job's (folder_name()): the value that is shown, or NULL. */
+/* The part of file names after the job's name (folder_name()): the shown value, or NULL. */
 const char *picture_part(const struct preview *p);
 
-/* Does the picture at root/`path` say itself what it shows? */
+/* Does the picture at root/`path` have a strip with name, frame and age? */
 bool picture_has_slate(const struct preview *p, const char *path);
 
 #endif

@@ -6,7 +6,7 @@
 #include "base/vector.h"
 #include "geology/attitude.h"
 
-/* Places as they were before the faults from the youngest to the f-th moved them: functions Before_f_0, _1, _2 of the place. */
+/* Declares Before_f_0, _1, _2: the coordinates of a place before the faults from the youngest to the f-th moved it. */
 static void add_fault(const struct job *job, size_t f, struct text *out)
 {
     const struct job_fault *fault = &job->attitude.faults[f];
@@ -33,7 +33,7 @@ static void add_fault(const struct job *job, size_t f, struct text *out)
             i, at[i], f, fault->throw_m * down[i]);
 }
 
-/* The height of the pile as the beds above the u-th unconformity count, from the same above the one over it: function Laid_u. */
+/* Declares Laid_u: the height in the pile of beds below the u-th unconformity, from that of the beds above it. */
 static void add_unconformity(const struct job *job, size_t u, char at[3][32], struct text *out)
 {
     const struct job_unconformity *old = &job->attitude.unconformities[u];
@@ -47,7 +47,7 @@ static void add_unconformity(const struct job *job, size_t u, char at[3][32], st
         u + 1);
 }
 
-/* What beds span in the box: at its corners, and folds' crests and older beds beyond. */
+/* The range of the pile inside the box: at its corners, extended by the crests of folds and by older beds. */
 static void find_span(const struct job *job, double span[2])
 {
     span[0] = INFINITY;
@@ -104,7 +104,7 @@ void pile_write(const struct job *job, struct text *out)
     for (size_t u = a->n_unconformities; u-- > 0;)
         add_unconformity(job, u, at, out);
     text_add(out, "#declare Pile = function(x, y, z) { Laid_0(x, y, z) }\n");
-    /* Axes of the tilted beds: rows of the matrix are where x, y and z come to lie. */
+    /* Axes of the tilted beds: the rows of the matrix are the images of x, y and z. */
     const double aside[3] = {fabs(up[0]) < 0.9, !(fabs(up[0]) < 0.9), 0};
     cross3(up, aside, across);
     double length = sqrt(dot3(across, across));

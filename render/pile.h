@@ -1,5 +1,6 @@
-/* How beds lie (geology/attitude.h), as scene text: the function Pile, a place's height in the pile of beds (m), the transformation Lie, by
- * which level laminae come to lie like them but for folds and faults, and Bottom and Height, what the job's box spans of the pile. */
+/* The attitude of beds (geology/attitude.h) as scene text. Declares the function Pile, which gives the height of a place within the pile of
+ * beds (m); the transformation Lie, which tilts level laminae like the beds, without folds and faults; and Bottom and Height, the range of
+ * the pile inside the job's box. */
 #ifndef HOODOO_PILE_H
 #define HOODOO_PILE_H
 

@@ -14,7 +14,7 @@ struct source {
     size_t left;
 };
 
-/* What is under way, so that a failure anywhere can end it. */
+/* All resources, so that a failure anywhere can release them. */
 struct copy {
     struct source from;
     struct text to;
@@ -65,7 +65,7 @@ static bool begin(struct copy *c)
     return c->write && c->info;
 }
 
-/* What was written becomes the caller's, if all went well. */
+/* Passes ownership of the written bytes to the caller on success. */
 static status end(struct copy *c, status st, void **out, size_t *n_out)
 {
     png_destroy_read_struct(&c->read, &c->info, NULL);
@@ -77,7 +77,7 @@ static status end(struct copy *c, status st, void **out, size_t *n_out)
     return st;
 }
 
-/* False: it cannot be read, or there is no memory. Between setjmp() and its return nothing but *c changes. */
+/* False: it cannot be read, or there is no memory. Between setjmp() and longjmp() only *c changes. */
 static bool read_picture(struct copy *c)
 {
     if (setjmp(png_jmpbuf(c->read)))

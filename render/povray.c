@@ -1,9 +1,8 @@
-/* Scene text. POV-Ray's mesh2 wants vertices, then normals, then faces.
+/* Scene text. POV-Ray's mesh2 lists vertices, then normals, then faces.
  *
- * Handedness   POV-Ray calls itself left-handed, but a camera given by its four vectors has no handedness: a
- *              ray goes through location + direction + u right + v up. So data and cameras keep the
- *              simulator's axes, nothing is mirrored, and what stands at +x in the scene stands at +x in the
- *              simulator.
+ * Handedness   POV-Ray is left-handed by convention, but a camera given by its four vectors has no handedness: a ray
+ *              goes through location + direction + u right + v up. So data and cameras keep the axes of the simulator,
+ *              and nothing is mirrored.
  */
 #include "render/povray.h"
 
@@ -55,7 +54,7 @@ static bool is_terrain(const struct scene *s)
     return job_model(s->job)->terrain;
 }
 
-/* terrain.inc's textures: quarters of sand, then of the axes. */
+/* The textures of terrain.inc, indexed by quarters of sand and of the axes. */
 enum { QUARTERS = 4, AXIS_SHARES = 15 };
 
 static void add_textures(struct text *out)
@@ -66,7 +65,7 @@ static void add_textures(struct text *out)
             text_add(out, ",\ntexture { Ground[%d][%d] }", sand, axes);
 }
 
-/* Shares of the axes by the normal, to the power of 8 (Arches 6), and of sand in what shows. */
+/* Weights of the axes are |n|^8, normalised (Arches, section 6); the share of sand is that in the visible material. */
 static int texture_of(const struct vdb_mesh *m, uint32_t vertex)
 {
     const float *n = m->normal + 3 * (size_t)vertex;
@@ -85,7 +84,7 @@ static int texture_of(const struct vdb_mesh *m, uint32_t vertex)
     return (share > QUARTERS ? QUARTERS : share) * AXIS_SHARES + before + y;
 }
 
-/* Which texture of the list a vertex has: rock, scree, or what lies under plants. */
+/* The texture of a vertex: rock, scree, or the ground under plants. */
 static int ground_of(const struct vdb_mesh *m, size_t vertex)
 {
     if (m->value[SCENE_VEGETATION * m->n_vertices + vertex] > 0.3F)
@@ -93,15 +92,15 @@ static int ground_of(const struct vdb_mesh *m, size_t vertex)
     return m->value[SCENE_DEPOSIT * m->n_vertices + vertex] > 0.5F ? 1 : 0;
 }
 
-/* A vertex's value is where it stands on the bar, as a texture coordinate: what is blended between vertices is
- * the value, not its colour. */
+/* The position of the value on the colour bar is the vertex's texture coordinate, so that POV-Ray interpolates values
+ * between vertices and not colours. */
 static void add_heat(struct text *out, const struct scene *s)
 {
     const struct vdb_mesh *m = s->mesh;
     text_add(out, "}\nuv_vectors { %zu", m->n_vertices);
     for (size_t i = 0; i < m->n_vertices; i++) {
         double t = show_position(s->show, s->range, (double)m->value[i] * value_table[s->show].legend.scale);
-        /* A gradient begins again at 1. */
+        /* A gradient repeats at 1. */
         text_add(out, ",\n<%.4f,0>", 0.001 + 0.998 * t);
     }
     text_add(out, "}\nface_indices { %zu", m->n_triangles);
@@ -128,7 +127,7 @@ static void add_heat_colors(struct text *out, const struct scene *s)
     text_add(out, "        }\n    }\n    finish { Even }\n}\n");
 }
 
-/* Few digits: reading the mesh takes most of a small picture's time. */
+/* Few digits, since parsing the mesh takes most of the time of a small picture. */
 static void add_mesh(struct text *out, const struct scene *s)
 {
     const struct vdb_mesh *m = s->mesh;
@@ -168,7 +167,7 @@ static void add_mesh(struct text *out, const struct scene *s)
     text_add(out, "}\n%s}\n\n", bare ? "texture { Sandstone }\n" : "");
 }
 
-/* Every shape of rock that is used, once; then where they lie. */
+/* Each shape that is used, once; then the placed rocks. */
 static status add_rocks(struct text *out, const struct scene *s)
 {
     const struct pile_tile *tile = s->rocks.tile;
@@ -192,8 +191,8 @@ static status add_rocks(struct text *out, const struct scene *s)
     }
     for (size_t i = 0; i < at->n; i++) {
         if (at->layer[i] >= tile->n)
-            return fail(E_INPUT, "frame %d: rock %zu is of shape %u, and there are %zu", s->frame, i,
-                        (unsigned)at->layer[i], tile->n);
+            return fail(E_INPUT, "frame %d: rock %zu has shape %u, but the tile has only %zu shapes",
+                        s->frame, i, (unsigned)at->layer[i], tile->n);
         text_add(out, "object { Rock_%u texture { Rubble } translate <%.*f,%.*f,%.*f> }\n",
                  (unsigned)at->layer[i], digits, (double)at->P[4 * i], digits, (double)at->P[4 * i + 1],
                  digits, (double)at->P[4 * i + 2]);
@@ -250,7 +249,7 @@ static void add_head(struct text *out, const struct scene *s)
         s->view.size[0], s->view.size[1], s->view.size[2], s->view.span, s->view.pixel);
 }
 
-/* Sand is what the lowest bed crumbles to, bleached; stones are of all beds. */
+/* Sand has the bleached colour of the lowest bed; stones have the colours of all beds. */
 static void add_colors(struct text *out, const struct scene *s)
 {
     static const double dune[3] = {0.58, 0.42, 0.285};
@@ -279,7 +278,7 @@ static status add_looks(struct text *out, const struct scene *s)
     status st = OK;
     const struct light light = light_of(s->job, s->frame);
     static const int lights[] = {3, 6, 20}, most_turns[] = {120, 240, 480};
-    /* Rings of triangles a few pixels wide. */
+    /* Rings whose triangles are a few pixels wide. */
     int turns = (int)fmin(fmax(s->camera->width / 4.0, 60), most_turns[s->preset]);
     struct ground ground = {0};
     TRY(ground_make(s->job, &s->view, s->mesh, &ground));
@@ -316,7 +315,7 @@ done:
 int scene_cuts(const struct scene *s)
 {
     static const int most[] = {2, 3, 4};
-    /* Edges of a pixel and a half show all there is. */
+    /* Edges of 1.5 pixels show all the detail. */
     double wanted = ceil(log2(fmax(s->job->domain.spacing_m / (1.5 * s->view.pixel), 1)));
     return is_terrain(s) || s->show != VALUE_NONE ? 0 : (int)fmin(wanted, most[s->preset]);
 }
@@ -325,7 +324,7 @@ status scene_write(const struct scene *s, struct text *out)
 {
     status st = OK;
     if (s->mesh->n_triangles == 0)
-        return fail(E_INPUT, "frame %d: no rock is left, there is nothing to show", s->frame);
+        return fail(E_INPUT, "frame %d: no rock is left to show", s->frame);
     add_head(out, s);
     add_part(out, scene_camera);
     if (s->show != VALUE_NONE) {

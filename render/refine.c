@@ -9,10 +9,10 @@
 #include "geology/attitude.h"
 #include "render/waves.h"
 
-/* ---- cutting: a triangle into four, by the middles of its edges */
+/* ---- subdivision: a triangle into four, at the midpoints of its edges */
 
 struct edges {
-    uint64_t *key; /* both ends; 0: free */
+    uint64_t *key; /* both ends of the edge; 0: free slot */
     uint32_t *middle;
     size_t mask;
 };
@@ -48,7 +48,7 @@ static status cut(struct vdb_mesh *m, size_t n_values)
 {
     status st = OK;
     struct edges e = {.mask = 1};
-    /* A closed surface has three edges for two triangles. */
+    /* A closed surface has three edges per two triangles. */
     size_t n = m->n_vertices, most = n + 3 * m->n_triangles;
     struct vdb_mesh fine = {.n_triangles = 4 * m->n_triangles};
     while (e.mask + 1 < 4 * m->n_triangles)
@@ -87,7 +87,7 @@ done:
     return st;
 }
 
-/* ---- moving */
+/* ---- displacement */
 
 struct detail {
     const struct job *job;
@@ -100,28 +100,28 @@ static double chance(int64_t a, uint32_t b)
     return 2 * (double)random_float(random_hash((uint32_t)a, b, 77, 0)) - 1;
 }
 
-/* Beds of about this thickness: each juts out or falls back by a number of its own. */
+/* Beds of about this thickness, each of which stands out or recedes by a random amount. */
 static double bed(double z, double thick, uint32_t use)
 {
     double t = z / thick, f = t - floor(t);
     int64_t i = (int64_t)floor(t);
-    /* Bed planes lie irregularly. */
+    /* Bedding planes are irregular. */
     double plane = 0.5 + 0.3 * chance(i, use + 50);
     return chance(i, use) + (chance(i + 1, use) - chance(i, use)) * ramp(plane - 0.09, plane + 0.09, f);
 }
 
-/* How much of waves of this length is to be added: not what the simulation has itself, nor what the mesh cannot show. */
+/* Amplitude of waves of this length: 0 for waves that the simulation resolves itself, and for waves that the mesh cannot show. */
 static double wanted(const struct detail *d, double length)
 {
     return ramp(1, 2, length / d->shortest) * (1 - ramp(1, 2.5, length / d->longest));
 }
 
-/* Upright joints, each a furrow where the wall crosses it. */
+/* Upright joints, each a furrow in the wall that it crosses. */
 static double joint(const struct detail *d, double x, double y, double turn, double apart, uint32_t use)
 {
     double along = (cos(turn) * x + sin(turn) * y) / apart, i = floor(along), f = along - i,
            at = 0.5 + 0.35 * chance((int64_t)i, use), width = fmax(0.06 * apart, 0.7 * d->shortest) / apart;
-    if (chance((int64_t)i, use + 1) < -0.2) /* not every one has opened */
+    if (chance((int64_t)i, use + 1) < -0.2) /* not every joint is open */
         return 0;
     return -exp(-pow((f - at) / width, 2));
 }
@@ -151,7 +151,7 @@ static double moved(const struct detail *d, const double x[3], const double n[3]
     return d->most * tanh(sum / d->most);
 }
 
-/* From the triangles, each by its area. */
+/* Vertex normals, weighted by the areas of the triangles. */
 static void find_normals(struct vdb_mesh *m)
 {
     memset(m->normal, 0, 3 * m->n_vertices * sizeof(float));

@@ -1,6 +1,6 @@
-/* Detail below the spacing: the mesh's triangles are cut finer, and their corners moved along the normals by a function of the place in
- * metres and of how steep the rock is there. Walls have ledges by beds, and joints; roofs and floors have none; loose rock is lumpy.
- * Nothing is moved farther than 0.4 spacings, so that nothing crosses, and where the rock stays its detail does. */
+/* Detail below the spacing. Triangles are subdivided, and vertices are moved along their normals by a function of position in metres and of
+ * steepness. Walls get ledges along beds, and joints; roofs and floors stay smooth; loose rock becomes lumpy. No vertex moves by more than
+ * 0.4 spacings, so that the surface does not cross itself, and detail stays in place as long as the rock does. */
 #ifndef HOODOO_REFINE_H
 #define HOODOO_REFINE_H
 
@@ -8,12 +8,12 @@
 #include "vdb/vdb.h"
 
 struct refine {
-    const struct job *job; /* its beds */
-    double spacing;        /* m, of the particles */
-    int times;             /* each cuts a triangle into four */
-    size_t n_values;       /* of the mesh */
-    int loose;             /* the value that says loose rock, or -1 */
-    size_t most;           /* triangles: it stops cutting before there are more */
+    const struct job *job; /* for its beds */
+    double spacing;        /* m, between particles */
+    int times;             /* number of subdivisions; each divides a triangle into four */
+    size_t n_values;       /* per vertex of the mesh */
+    int loose;             /* index of the value that is the share of loose rock, or -1 */
+    size_t most;           /* upper limit of triangles */
 };
 
 /* In place. E_MEMORY. */

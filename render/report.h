@@ -1,8 +1,7 @@
-/* What `hoodoo report` knows of a folder, and the parts that find and show it.
+/* The data that `hoodoo report` gathers from an output folder, and the functions that gather and show it.
  *
- * Calling sequence   report_gather(), report_pictures(), report_page(), report_free(). Whatever of a folder is
- *                    missing or damaged is left out, with a sentence in `note`: only what stops the page
- *                    itself is an error.
+ * Calling sequence   report_gather(), report_pictures(), report_page(), report_free(). Missing or damaged parts of a
+ *                    folder are omitted with a sentence in `notes`; only failures to make the page itself are errors.
  */
 #ifndef HOODOO_REPORT_H
 #define HOODOO_REPORT_H
@@ -15,20 +14,20 @@
 struct report_frame {
     struct manifest manifest;
     bool damaged;
-    char what[512];     /* what is wrong with it */
-    struct path source; /* a picture of it, relative to root, or "": its still, or else its AOVs */
+    char what[512];     /* description of the damage */
+    struct path source; /* path of a picture relative to root: the still, else the AOVs; "": none */
     bool has_volumes;
-    bool pictured, thumb; /* report/frame.1001.jpg, report/thumb.1001.jpg are there */
+    bool pictured, thumb; /* report/frame.1001.jpg and report/thumb.1001.jpg exist */
 };
 
 enum { STRESS_BINS = 48 };
 
-/* Of one kind of sample in the last frame that has them. */
+/* Distribution of stress over one kind of sample, in the last frame that has them. */
 struct report_stress {
     int frame;
     const char *what;          /* "particles", "surface particles", "voxels" */
     size_t n;                  /* 0: unknown */
-    double low, high;          /* MPa: of the bins; the outermost hold what lies beyond */
+    double low, high;          /* MPa: range of the bins; the outermost bins include values beyond it */
     double share[STRESS_BINS]; /* % */
 };
 
@@ -42,38 +41,38 @@ struct report {
     struct job *job;
     struct frame_range frames;
     size_t n_frames, n_sound, n_damaged, n_missing;
-    struct report_frame *frame; /* those with a manifest, ascending */
+    struct report_frame *frame; /* frames with a manifest, ascending */
     int *checkpoint;            /* newest first */
     size_t n_checkpoints;
-    uint64_t disk; /* bytes of all frames' files */
+    uint64_t disk; /* bytes in the files of all frames */
     struct json *run;
-    struct json **timing; /* lines of log/timing.jsonl */
+    struct json **timing; /* one per line of log/timing.jsonl */
     size_t n_timing;
     struct report_stress stress;
-    struct report_layer *layer; /* [job->n_strata], NULL if the points do not tell */
+    struct report_layer *layer; /* [job->n_strata]; NULL: unknown from the points */
     int layers_from, layers_to;
-    bool stills; /* at least one comes from `hoodoo preview` */
+    bool stills; /* at least one picture comes from `hoodoo preview` */
     bool video;  /* report/turntable.mp4 */
-    int n_views; /* report/view.000.jpg and on */
+    int n_views; /* of report/view.000.jpg and following */
     int turntable_frame;
     char *log;         /* the end of log/run.log, or NULL */
-    struct text notes; /* sentences, one a line */
+    struct text notes; /* sentences, one per line */
 };
 
-/* How a page and its pictures are made. */
+/* The command that makes a page and its pictures, for their records. */
 struct recipe report_recipe(const char *root);
 
-/* "kind of a note": added as a line. */
+/* Adds a formatted line to the notes. */
 void report_note(struct report *r, const char *format, ...) PRINTF_LIKE(2, 3);
 
-/* From the folder's files. E_INPUT: it is no output folder. */
+/* Fills *out from the files of the folder. E_INPUT: not an output folder. E_MEMORY. */
 MUST_USE status report_gather(const char *root, struct report *out);
 
-/* Makes report/ with the pictures the page shows, through oiiotool where they need converting. STOPPED as
- * children.h has it. */
+/* Creates report/ with the pictures of the page; oiiotool converts them. A picture that fails becomes a note. E_OUTPUT;
+ * STOPPED as in children.h. */
 MUST_USE status report_pictures(struct report *r);
 
-/* The page, whole. E_MEMORY. */
+/* *out: the complete HTML page. E_MEMORY. */
 MUST_USE status report_page(const struct report *r, struct text *out);
 
 void report_free(struct report *r);

@@ -1,4 +1,4 @@
-/* What each process took of the rock, frame by frame, as the manifests have it. */
+/* The volume that each process removed per frame, from change_m3 of the manifests. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,14 +8,14 @@
 #include "job/job.h"
 #include "render/report_page.h"
 
-/* From below, in the order in which they are stacked. */
+/* In stacking order, from below. */
 #define PROCESS(constant, word, models, stacked, color, legend, meaning) [stacked] = PROCESS_##constant,
 static const enum process order[] = {JOB_PROCESSES(PROCESS)};
 #undef PROCESS
 _Static_assert(sizeof order / sizeof *order == PROCESSES, "each process has a curve of its own");
 
 struct budget_curves {
-    size_t n; /* sound frames that have one */
+    size_t n; /* sound frames whose manifest has a budget */
     double *time, *rate[PROCESSES], taken[PROCESSES], added[PROCESSES];
 };
 
@@ -46,7 +46,7 @@ static void fill(const struct report *r, const struct page_clock *clock, struct 
     }
 }
 
-/* Nothing is said where nothing was taken or added. */
+/* Empty where nothing was removed or added. */
 static struct phrase phrase_volume(double m3)
 {
     return m3 > 0 ? phrase_number(m3) : phrase("%s", "");

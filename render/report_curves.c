@@ -1,4 +1,4 @@
-/* What the manifests say over time, and what the last frame's files say of stress and layers. */
+/* Curves over time from manifests, and stress and layers from the files of the last frame. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 #include "job/palette.h"
 #include "render/report_page.h"
 
-/* Told apart by lightness as well as by hue. */
+/* Different in lightness as well as in hue. */
 static const char ROCK[] = "#a9491f", DEPOSIT[] = "#e8bd52", FALLEN[] = "#2f5f8a", LEFT[] = "#d9d3ca";
 
 enum column { TIME, VOLUME, RATE, STRESS, N_ROCK, N_DEPOSIT, N_FALLEN, N_LEFT, N_COLUMNS };
@@ -126,7 +126,7 @@ static void add_stress(const struct report *r, struct text *t)
         least = fmin(least, at);
         most = fmax(most, at);
     }
-    /* Other models weather alike under any load. */
+    /* In other models, load does not affect weathering. */
     const double ends[] = {least, most};
     for (size_t i = 0; job_model(r->job)->interlocks && i < (most > least ? 2 : 1); i++)
         if (ends[i] > s->low && ends[i] < s->high) {
@@ -179,7 +179,7 @@ static void add_layers(const struct report *r, struct text *t)
     char color[MOST_LAYERS][8], title[160], number[48], low[48], high[48];
     size_t n = 0;
     const struct job *job = r->job;
-    /* Top down, as they lie. */
+    /* From the top down, as in the rock. */
     for (size_t i = job->n_strata; i-- > 0 && n < MOST_LAYERS;) {
         const struct report_layer *l = &r->layer[i];
         float rgb[3];
@@ -204,7 +204,7 @@ static void add_layers(const struct report *r, struct text *t)
     chart_rows(title, "share of the layer's rock at the start", row, n, 1, t);
 }
 
-/* Either may be unknown: the frames' files are missing, or the model has no stress. */
+/* Either may be unknown, if files are missing or the model has no stress. */
 static void add_rock(const struct report *r, const struct columns *c, struct text *t)
 {
     double most = 0;

@@ -30,7 +30,7 @@ void report_note(struct report *r, const char *format, ...)
 
 /* ---- frames */
 
-/* A path to hand to other programs: nothing in it means something to them. */
+/* Is the path safe to pass to other programs, that is, without characters that are special to them? */
 static bool is_plain(const char *path)
 {
     return *path != '-' &&
@@ -61,7 +61,7 @@ static void find_field_picture(const struct report *r, struct report_frame *f)
     }
 }
 
-/* Stills if two frames have them, or else the run's own pictures: of one kind, so that they compare. */
+/* Stills if at least two frames have them, otherwise the pictures of the run: all of one kind, so that they can be compared. */
 static void find_sources(struct report *r)
 {
     size_t n_stills = 0, n_others = 0;
@@ -89,7 +89,7 @@ static status add_frame(struct report *r, int frame)
     f->damaged = st != OK || *bad;
     if (f->damaged)
         snprintf(f->what, sizeof f->what, "%.500s", status_message());
-    f->manifest.frame = frame; /* also where the manifest cannot be read */
+    f->manifest.frame = frame; /* set even if the manifest cannot be read */
     r->n_damaged += f->damaged;
     r->n_sound += !f->damaged;
     for (size_t i = 0; i < f->manifest.n_files; i++)
@@ -123,7 +123,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sorts the values, Pa. Their bins hold all but the outermost half percents, and 0. */
+/* `value`: Pa, sorted in place. The range of the bins includes 0 and all values except the outermost half percent at each end. */
 static void fill_bins(struct report_stress *s, float *value, size_t n)
 {
     if (n == 0)
@@ -189,7 +189,7 @@ done:
     return st;
 }
 
-/* Into r->stress from the frame's points, or else its volumes; layers too, if the points are all there. */
+/* Fills r->stress from the frame's points or else from its volumes; also the layers, if the points are those of all the rock. */
 static status read_points(struct report *r, const struct report_frame *f, bool start)
 {
     status st = OK;
@@ -235,16 +235,16 @@ static status find_values(struct report *r)
         report_note(r, "No stresses and layers: %s", status_message());
         st = OK;
     }
-    if (first == last || r->layers_from != r->frames.first) { /* nothing to compare with */
+    if (first == last || r->layers_from != r->frames.first) { /* there is nothing to compare with */
         free(r->layer);
         r->layer = NULL;
     }
     return st;
 }
 
-/* ---- papers */
+/* ---- run.json and logs */
 
-/* A file of log/ in *bytes, which is NULL where it cannot be read: the page is whole without it. E_MEMORY. */
+/* *bytes: a file of log/, or NULL if it cannot be read, since the page can do without it. E_MEMORY. */
 static status read_log_file(const struct report *r, const char *name, char **bytes, size_t *n)
 {
     struct path path;
@@ -271,7 +271,7 @@ static status read_timing(struct report *r)
             continue;
         st = json_read(NULL, line, length, &json);
         if (st != OK && st != E_MEMORY) {
-            st = OK; /* a line cut short: the machine died while it was written */
+            st = OK; /* a truncated line, as a crash of the machine leaves it */
             continue;
         }
         TRY(st);

@@ -1,4 +1,4 @@
-/* What the report's page says of a run: its head, its troubles and its pictures. */
+/* The page of a run: head, problems and pictures. */
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 
 enum { MOST_TROUBLES = 12 };
 
-/* ---- words and members */
+/* ---- texts and members */
 
 struct phrase phrase(const char *format, ...)
 {
@@ -133,7 +133,7 @@ static void add_tiles(const struct report *r, struct text *t)
     json_end_array(t);
 }
 
-/* ---- troubles */
+/* ---- problems */
 
 static void add_missing(const struct report *r, struct text *t)
 {

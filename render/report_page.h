@@ -1,35 +1,34 @@
-/* The data of the report's page, which report.html shows: each part writes its members of a JSON object, escaped by
- * the template, with texts as people read them. */
+/* The data of the report's page, a JSON object that report.html shows. Each function writes some members of the object, formatted for
+ * readers; the template escapes them. */
 #ifndef HOODOO_REPORT_PAGE_H
 #define HOODOO_REPORT_PAGE_H
 
 #include "render/chart.h"
 #include "render/report.h"
 
-/* "erosion": rates, budget and ledger of two sound frames at least; and "rock": stress and layers, of one. */
+/* "erosion": rates, budget and ledger, from at least two sound frames; "rock": stress and layers, from one. */
 void page_curves(const struct report *r, struct text *t);
 void page_rock(const struct report *r, struct text *t);
 
-/* The time axis: years, thousands of them, or seconds of a shot. */
+/* The time axis: years, thousands of years, or seconds of a shot. */
 struct page_clock {
-    const char *label, *rate; /* "time, kyr"; what rates are per: "kyr" */
-    double unit;              /* of the axis, in years or seconds */
-    double per;               /* of a rate's time, in the axis' */
+    const char *label, *rate; /* "time, kyr"; denominator of rates: "kyr" */
+    double unit;              /* unit of the axis, in years or seconds */
+    double per;               /* time unit of rates, in units of the axis */
     bool shot;
 };
 struct page_clock page_clock(const struct report *r);
-/* Where a frame is on it. */
+/* Position of a frame on the axis. */
 double page_time(const struct report *r, const struct page_clock *clock, int frame);
 
-/* "budget": what each process took, and how fast, where manifests tell. */
+/* "budget": the volume that each process removed, and its rate, from manifests that contain them. */
 void page_budget(const struct report *r, const struct page_clock *clock, struct text *t);
 /* "timing", "provenance", and "files", "checkpoints" and "every_frame". */
 void page_timing(const struct report *r, struct text *t);
 void page_provenance(const struct report *r, struct text *t);
 void page_files(const struct report *r, struct text *t);
 
-/* Texts as people read them: as printf writes them, "12.3", "1.2 MB", "1.20 kyr". Used as phrase(...).text in the
- * statement that calls it. */
+/* Formatted texts: as by printf, "12.3", "1.2 MB", "1.20 kyr". Use as phrase(...).text within the statement that calls the function. */
 struct phrase {
     char text[160];
 };
@@ -38,22 +37,22 @@ struct phrase phrase_number(double value);
 struct phrase phrase_bytes(uint64_t bytes);
 struct phrase phrase_age(double years);
 
-/* Members of the object that stands open: names and texts in turns; "" is none. PAGE_ROW: of an object of their own. */
+/* Adds members to the open object: `pairs` alternates names and texts; members whose text is "" are omitted. PAGE_ROW adds them as an
+ * object of their own. */
 #define PAGE_MEMBERS(t, ...) page_members(t, (const char *const[]){__VA_ARGS__, NULL})
 #define PAGE_ROW(t, key, ...) (json_object(t, key), PAGE_MEMBERS(t, __VA_ARGS__), json_end_object(t))
 void page_members(struct text *t, const char *const *pairs);
 
-/* A chart, whose text is freed. */
+/* Adds a chart as a member and frees its text. */
 void page_chart(struct text *t, const char *key, struct text *svg);
 
-/* A list of `text`'s lines, which is written on and as it was afterwards; NULL has none. */
+/* Adds the lines of `text` as a list; NULL: an empty one. `text` is modified meanwhile and then restored. */
 void page_lines(struct text *t, const char *key, char *text);
 
-/* A member that a file should have; 0 if it is no number. */
+/* The number in a member of an object; 0 if it is missing or not a number. */
 double page_number(const struct json *object, const char *key);
 
-/* `t` is an object that stands open, with "run" or "sweep" in it. Closes it, adds the page of it to `out` and frees
- * it. E_MEMORY. */
+/* `t` is an open object with a member "run" or "sweep". Closes the object, adds the page made from it to `out`, and frees `t`. E_MEMORY. */
 MUST_USE status page_fill(const char *name, struct text *t, struct text *out);
 
 #endif

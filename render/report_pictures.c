@@ -1,4 +1,4 @@
-/* The page's own pictures: small, in one folder with it, so that report/ can be moved or mailed as it is. */
+/* The pictures of the page: small copies in report/, so that the folder can be moved or mailed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,9 +11,9 @@
 #include "base/memory.h"
 #include "render/report.h"
 
-enum { CONTACT = 24 /* thumbs at most */, MAX_VIEWS = 72, LARGEST_VIDEO = 1 << 30 };
+enum { CONTACT = 24 /* upper limit of thumbnails */, MAX_VIEWS = 72, LARGEST_VIDEO = 1 << 30 };
 
-/* One conversion under way. */
+/* A conversion in progress. */
 struct conversion {
     struct recipe recipe;
     struct path source, temporary, path; /* relative to root */
@@ -26,7 +26,7 @@ struct recipe report_recipe(const char *root)
     return (struct recipe){.root = root, .word = command, .n_words = 1, .frame = ALL_FRAMES};
 }
 
-/* Of what is made of root/`source`. */
+/* The recipe of a picture that is made from root/`source`. */
 static status recipe_of(const struct report *r, const char *source, struct recipe *out)
 {
     status st = OK;
@@ -47,7 +47,7 @@ static status converted(void *user)
     return st;
 }
 
-/* Pictures are an extra: what fails is said in a note, and the rest goes on. */
+/* Pictures are optional: a failure becomes a note, and the report continues. */
 static status forgive(struct report *r, status st)
 {
     if (st != E_OUTPUT && st != E_INPUT)
@@ -57,7 +57,7 @@ static status forgive(struct report *r, status st)
     return OK;
 }
 
-/* Starts making report/... of `c->source`, at most `width` px wide (0: as it is); *c->made tells. */
+/* Starts converting c->source to report/..., at most `width` px wide (0: unchanged). Sets *c->made on success. */
 static status convert(struct report *r, struct children *children, struct conversion *c, int width)
 {
     status st = OK;
@@ -75,7 +75,7 @@ static status convert(struct report *r, struct children *children, struct conver
     argv[k++] = "--threads";
     argv[k++] = "1";
     argv[k++] = c->source.text;
-    if (linear) { /* a picture of the fields: nothing behind the rock */
+    if (linear) { /* an AOV picture: without a background */
         static const char *const steps[] = {
             "--subimage", "0",      "--ch",    "R,G,B,A", "--colorconvert",   "linear", "sRGB",
             "--dup",      "--mulc", "0,0,0,0", "--addc",  "0.85,0.83,0.79,1", "--over"};
@@ -109,7 +109,7 @@ static status wait_all(struct report *r, struct children *children)
 
 /* ---- the turntable */
 
-/* The frame of the newest orbit in turntable/. */
+/* Finds the frame of the newest orbit in turntable/. */
 static status find_orbit(const struct report *r, int *frame, bool *found)
 {
     int *frames = NULL;
@@ -122,7 +122,7 @@ static status find_orbit(const struct report *r, int *frame, bool *found)
     return st;
 }
 
-/* A copy: a link would not survive the mail. */
+/* Copied, since a link would break when the folder is mailed. */
 static status copy_video(struct report *r)
 {
     status st = OK;
@@ -158,7 +158,7 @@ static status make_views(struct report *r, struct children *children)
     if (!found)
         return OK;
     TRY(memory_alloc(MAX_VIEWS, sizeof *c, "pictures", &c));
-    /* A video needs one picture: what is seen before it plays. */
+    /* A video needs one picture, which is shown until it plays. */
     for (; n < (r->video ? 1 : MAX_VIEWS); n++) {
         c[n].made = &made[n];
         TRY(folder_view(&c[n].source, r->name, NULL, r->turntable_frame, n));
@@ -194,7 +194,7 @@ static status make_stills(struct report *r, struct children *children)
     const size_t n_thumbs = n < CONTACT ? n : CONTACT;
     for (size_t i = 0; i < n_thumbs + 2 && n > 0; i++) {
         const bool thumb = i < n_thumbs;
-        /* Evenly, the first and the last among them; then these two in full. */
+        /* Evenly spaced thumbnails that include the first and the last frame; then these two at full size. */
         const size_t which = !thumb         ? (i == n_thumbs ? 0 : n - 1)
                              : n_thumbs > 1 ? i * (n - 1) / (n_thumbs - 1)
                                             : 0;

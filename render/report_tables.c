@@ -102,7 +102,7 @@ static void add_inputs(const struct json *inputs, struct text *t)
     json_end_object(t);
 }
 
-/* Who made the frames before, if the run was continued by another build or on another device. */
+/* Builds and devices that made earlier frames, if the run was continued by others. */
 static void add_makers(const struct json *continued, struct text *t)
 {
     if (!continued || continued->kind != JSON_ARRAY)
@@ -152,7 +152,7 @@ static void add_checkpoints(const struct report *r, struct text *t)
     json_array(t, "checkpoints");
     for (size_t i = 0; i < r->n_checkpoints; i++) {
         if (folder_name(&path, r->name, FILE_CHECKPOINT, r->checkpoint[i], NULL) != OK)
-            continue; /* it would not have been found */
+            continue; /* a path that is too long cannot have been found */
         const bool there = path_join(&full, r->root, path.text) == OK && stat(full.text, &info) == 0;
         PAGE_ROW(t, NULL, "comma", comma, "path", path.text, "frame", phrase("%d", r->checkpoint[i]).text,
                  "size", phrase_bytes(there ? (uint64_t)info.st_size : 0).text);
@@ -161,7 +161,7 @@ static void add_checkpoints(const struct report *r, struct text *t)
     json_end_array(t);
 }
 
-/* If it is there. `path` is relative to root. */
+/* Adds the file if it exists. `path` is relative to root. */
 static void add_file(const struct report *r, const char *path, const char *what, struct text *t)
 {
     struct path full;

@@ -15,9 +15,9 @@ enum { SERIES_MAX = 8, STILL_BYTES = 64 << 20 };
 
 struct wedge {
     struct job *job;
-    size_t n_frames, n_damaged; /* that are done, and whose manifests cannot be read */
+    size_t n_frames, n_damaged; /* completed frames, and frames whose manifests cannot be read */
     struct manifest last;
-    double *share; /* % of the rock left, by the job's frames; the last one holds on */
+    double *share; /* % of the rock left in each of the job's frames; constant after the last completed one */
 };
 
 struct sweep {
@@ -89,7 +89,7 @@ static status gather(struct sweep *s)
     TRY(job_load(path.text, NULL, 0, &s->base));
     size_t n = job_wedges(s->base);
     if (n == 0) {
-        st = fail(E_INPUT, "%s holds neither a run nor wedges", s->root);
+        st = fail(E_INPUT, "%s contains neither a run nor wedges", s->root);
         goto done;
     }
     TRY(memory_alloc(n, sizeof *s->wedge, "the wedges", &s->wedge));
@@ -105,7 +105,7 @@ done:
     return st;
 }
 
-/* The still of the wedge's last frame into report/, as w0001.png; *there if it has one. */
+/* Copies the still of the wedge's last frame to report/w0001.png and so on; *there: the wedge has one. */
 static status copy_still(const struct sweep *s, const struct wedge *w, bool *there)
 {
     status st = OK;

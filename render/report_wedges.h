@@ -1,4 +1,4 @@
-/* The report of a farm's folder: its wedges side by side. */
+/* The report on a folder of wedges: their values and results side by side. */
 #ifndef HOODOO_REPORT_WEDGES_H
 #define HOODOO_REPORT_WEDGES_H
 
@@ -6,12 +6,12 @@
 
 #include "base/text.h"
 
-/* Is `root` the folder of a job with wedges (farm/job.yaml, no run of its own)? */
+/* Is `root` the folder of a job with wedges (with farm/job.yaml and without run.json)? */
 bool report_has_wedges(const char *root);
 
-/* Each wedge's values, frames, rock left and ledger, their volumes over time in one chart, the stills of their
- * last frames (copied into root/report) and links to their own reports. Wedges that have not begun are listed as
- * such; *sound: at least one has a frame. E_INPUT, E_USAGE: farm/job.yaml cannot be read. */
+/* *page: for each wedge its values, frames, share of rock left and ledger, a link to its report, and the still of its last frame (copied
+ * into root/report); and the volumes of all wedges over time in one chart. Wedges that have not begun are listed as such. *sound: at least
+ * one wedge has a sound frame. E_INPUT, E_USAGE: farm/job.yaml cannot be read. E_OUTPUT. E_MEMORY. */
 MUST_USE status report_wedges(const char *root, struct text *page, bool *sound);
 
 #endif

@@ -10,7 +10,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Numbers 0..1 of a thing, one after the other. */
+/* A sequence of hashed numbers 0..1 for one object. */
 struct dice {
     uint32_t a, b, c, n;
 };
@@ -22,7 +22,7 @@ static double roll(struct dice *d)
 
 /* ---- shapes, of size 1 */
 
-/* Stone broken along planes: what they leave of a ball, seen from its middle. */
+/* A stone broken along planes: a ball clipped by random planes, as a radius by direction from its middle. */
 static void add_stone(int which, struct text *out)
 {
     enum { PLANES = 13, ROWS = 14, COLUMNS = 22 };
@@ -66,7 +66,7 @@ static void add_leaf(const double at[3], double size, struct dice *dice, struct 
     text_add(out, "}\n");
 }
 
-/* A cushion of leaves: sagebrush. */
+/* Sagebrush: a cushion of leaves. */
 static void add_bush(struct text *out)
 {
     struct dice dice = {.a = 32};
@@ -82,7 +82,7 @@ static void add_bush(struct text *out)
         "texture { pigment { bozo color_map { [0.3 rgb <0.17, 0.175, 0.115>] [0.7 rgb <0.27, 0.265, 0.18>] } scale 0.3 } finish { Dry } }\n}\n");
 }
 
-/* Blades from a root. */
+/* Grass: blades from one root. */
 static void add_grass(struct text *out)
 {
     struct dice dice = {.a = 33};
@@ -99,7 +99,7 @@ static void add_grass(struct text *out)
         "texture { pigment { gradient z color_map { [0 rgb <0.20, 0.17, 0.08>] [1 rgb <0.50, 0.42, 0.22>] } } finish { Dry } }\n}\n");
 }
 
-/* A juniper: a few boughs of dense leaves on a short trunk. */
+/* Juniper: a few boughs of dense leaves on a short trunk. */
 static void add_tree(struct text *out)
 {
     struct dice dice = {.a = 34};
@@ -133,11 +133,11 @@ status scatter_shapes(struct text *out)
 
 /* ---- on the ground */
 
-/* One in a cell of the level, or none: `cell` m wide, `size` m from the least to the largest, `share` of the cells have one. */
+/* Objects of one kind: square cells of the ground, of which a share contains one object. */
 struct kind {
-    const char *shape;                         /* "Stone" or "Plant" */
+    const char *shape;                         /* name of the shapes: "Stone" or "Plant" */
     double cell, least, largest, share, reach; /* m */
-    double lowest; /* the least of it above ground, in sizes: what is not to hide the rock */
+    double lowest; /* height above ground in units of its size, for keeping the view of the rock open */
 };
 
 static const struct kind kinds[] = {
@@ -147,7 +147,7 @@ static const struct kind kinds[] = {
     {"Plant", 34, 1.6, 3.4, 0.3, 900, 1},
 };
 
-/* How large a thing at `x` of 1 m is in the picture that shows it largest, px; 0: in none. */
+/* The size in px of an object of 1 m at `x`, in the camera that shows it largest; 0: no camera sees it. */
 static double pixels(const struct camera *camera, size_t n, const double x[3])
 {
     double most = 0;
@@ -197,7 +197,7 @@ static void put_kind(const struct ground *g, const struct camera *camera, size_t
                 continue;
             x[2] = ground_at(g, x[0], x[1], fmax(0.5, 2 * size));
             int shape = stone ? (int)(SCATTER_STONES * roll(&dice)) : which == 4 ? 1 : which == 5 ? 0 : 2;
-            /* Not inside the rock, nor on a cliff. */
+            /* Neither inside the rock nor on a cliff. */
             double step = fmax(0.5, size), rise = fabs(ground_at(g, x[0] + step, x[1], step) - x[2]) +
                                                   fabs(ground_at(g, x[0], x[1] + step, step) - x[2]);
             if (rise > 0.9 * step || (away <= 0 && ground_top(g, x[0], x[1]) > 0))
@@ -223,10 +223,10 @@ void scatter_ground(const struct ground *g, const struct camera *camera, size_t 
 
 /* ---- on the rock */
 
-/* A triangle of the mesh, and numbers that stay its own while it lies where it does. */
+/* A triangle of the mesh, and random numbers hashed from its position. */
 struct facet {
-    double at[3], u[3], v[3]; /* a corner, and the ways to the others */
-    double area, up;          /* m2; its normal's */
+    double at[3], u[3], v[3]; /* a corner, and the edges to the other two */
+    double area, up;          /* m2; z of the normal */
     struct dice dice;
 };
 
@@ -251,7 +251,7 @@ static struct facet facet_of(const struct vdb_mesh *m, size_t i, uint32_t use)
     return f;
 }
 
-/* Somewhere on it. */
+/* A random point on the triangle. */
 static void spot_on(struct facet *f, double at[3])
 {
     double p = roll(&f->dice), q = roll(&f->dice);
@@ -271,14 +271,14 @@ static double mean_of(const struct vdb_mesh *m, const float *value, size_t i)
 
 void scatter_plants(const struct vdb_mesh *m, const float *cover, struct text *out)
 {
-    static const double a_m2 = 1.1; /* shrubs where all is covered */
+    static const double a_m2 = 1.1; /* shrubs per m2 at full cover */
     for (size_t i = 0; i < m->n_triangles; i++) {
         double covered = mean_of(m, cover, i), at[3];
         if (covered < 0.12)
             continue;
         struct facet f = facet_of(m, i, 1);
         for (double wanted = f.up > 0.45 ? a_m2 * f.area * covered : 0; wanted > 0;
-             wanted -= 1) { /* none on walls */
+             wanted -= 1) { /* walls have none */
             if (roll(&f.dice) > wanted)
                 break;
             spot_on(&f, at);
@@ -322,7 +322,7 @@ void scatter_rocks(const struct job *job, const struct rock *at, double radius, 
 {
     for (size_t i = 0; i < at->n; i++) {
         struct dice dice = {at->id ? at->id[i] : (uint32_t)i, 0, 60, 0};
-        /* Many small ones, few large: those still touch. */
+        /* Many small rocks and few large ones, which still touch each other. */
         double size = radius * (0.45 + 1.15 * pow(roll(&dice), 2.2));
         size_t bed = (size_t)(roll(&dice) * (double)job->n_strata);
         text_add(
@@ -335,9 +335,9 @@ void scatter_rocks(const struct job *job, const struct rock *at, double radius, 
     }
 }
 
-/* ---- somebody */
+/* ---- the person */
 
-/* The height of what somebody there would stand on. */
+/* The height of the rock or ground on which the person would stand. */
 static double stands_at(const struct ground *g, double x, double y)
 {
     return fmax(ground_at(g, x, y, 0.5), ground_top(g, x, y));
@@ -348,8 +348,8 @@ void scatter_figure(const struct ground *g, const struct camera *c, struct text 
     const struct view *v = &g->view;
     double towards[2] = {c->eye[0] - 0.5 * v->size[0], c->eye[1] - 0.5 * v->size[1]},
            length = fmax(hypot(towards[0], towards[1]), 1e-9), x = 0, y = 0, z = 0;
-    /* From the middle of the box towards the camera, a little aside, to the first place low down that is level for a step all
-     * around. */
+    /* Search from the middle of the box towards the camera, slightly to the side, for the first low place that is level
+     * within one step. */
     for (double t = 0; t < 1.2 * v->span + 30; t += 0.1) {
         x = 0.5 * v->size[0] + (t * towards[0] - 0.14 * v->span * towards[1]) / length;
         y = 0.5 * v->size[1] + (t * towards[1] + 0.14 * v->span * towards[0]) / length;

@@ -41,7 +41,7 @@ enum value_id show_of_word(int word)
 
 /* ---- ranges */
 
-/* Away from zero (up) or towards it, to two digits. */
+/* Rounds to two significant digits, away from zero (up) or towards it. */
 static double two_digits(double x, bool up)
 {
     if (x == 0 || !isfinite(x))
@@ -51,7 +51,7 @@ static double two_digits(double x, bool up)
     return copysign(n * unit, x);
 }
 
-/* From the slowest strong to the fastest weak layer, in whole decades: noise and paint move them a little. */
+/* From the slowest strong rate to the fastest weak rate, in whole decades, since noise and paint change them slightly. */
 static struct show_range rates(const struct job *job)
 {
     double low = INFINITY, high = 0;
@@ -79,7 +79,7 @@ struct show_range show_job_range(enum value_id show, const struct job *job)
         weight_MPa = 1;
     switch (legend(show)->span) {
     case SPAN_STRESS: {
-        /* Compression gathers at the feet; rock in tension does not last. */
+        /* Compression concentrates at the foot of rock, and rock in tension does not last. */
         double most = two_digits(1.5 * weight_MPa, true);
         return (struct show_range){-0.2 * most, most};
     }
@@ -108,7 +108,7 @@ struct show_range show_data_range(enum value_id show, float *values, size_t n)
     struct show_range r = {0, 1};
     size_t first = 0;
     qsort(values, n, sizeof *values, ascending);
-    /* Most of a surface is dry: of a logarithm, only what there is counts. */
+    /* On a logarithmic scale, ignore zeros: most of the surface is dry. */
     while (logarithmic(show) && first < n && values[first] < 1e-6F)
         first++;
     if (first < n) {
@@ -116,7 +116,7 @@ struct show_range show_data_range(enum value_id show, float *values, size_t n)
         r.low = two_digits((double)values[first + count / 100] * legend(show)->scale, false);
         r.high = two_digits((double)values[n - 1 - count / 100] * legend(show)->scale, true);
     }
-    if (diverging(show)) /* zero is always on it */
+    if (diverging(show)) /* the range includes zero */
         r = (struct show_range){fmin(r.low, 0), fmax(r.high, 0)};
     if (logarithmic(show))
         r.low = fmax(r.low, 1e-6);
@@ -140,7 +140,7 @@ status show_parse_range(enum value_id show, const char *text, struct show_range 
                     "--range %.40s: write LO:HI%s%s, LO less than HI, such as 0:1.5; or job, or data", text,
                     *legend(show)->unit ? " in " : "", legend(show)->unit);
     if (logarithmic(show) && r.low <= 0)
-        return fail(E_USAGE, "--range %.40s: %s is shown by its logarithm, LO must be above 0", text,
+        return fail(E_USAGE, "--range %.40s: %s has a logarithmic scale, so LO must be above 0", text,
                     value_table[show].name);
     *out = r;
     return OK;
@@ -155,7 +155,7 @@ double show_position(enum value_id show, struct show_range r, double value)
         t = value > r.low ? log(value / r.low) / log(r.high / r.low) : 0;
     else
         t = (value - r.low) / (r.high - r.low);
-    return t > 0 ? fmin(t, 1) : 0; /* NaN is at the low end */
+    return t > 0 ? fmin(t, 1) : 0; /* NaN maps to the low end */
 }
 
 static void between(const unsigned char (*stop)[3], int n, double t, unsigned char rgb[3])
@@ -168,7 +168,7 @@ static void between(const unsigned char (*stop)[3], int n, double t, unsigned ch
 
 void show_color(enum value_id show, struct show_range r, double position, unsigned char rgb[3])
 {
-    /* viridis (van der Walt and Smith), and Moreland's cool to warm. */
+    /* viridis (van der Walt and Smith), and Moreland's diverging cool-warm map. */
     static const unsigned char
         viridis[][3] = {{68, 1, 84},    {72, 40, 120},  {62, 73, 137},  {49, 104, 142}, {38, 130, 142},
                         {31, 158, 137}, {53, 183, 121}, {109, 205, 89}, {180, 222, 44}, {253, 231, 37}},
@@ -185,9 +185,9 @@ void show_color(enum value_id show, struct show_range r, double position, unsign
         between(warm, 5, r.high > 0 ? value / r.high : 0, rgb);
 }
 
-/* ---- the legend's numbers */
+/* ---- ticks of the legend */
 
-/* As many decimals as steps of this size need. */
+/* The number of decimals that steps of this size need. */
 static void short_number(double x, double step, char out[16])
 {
     static const char *const unit[] = {"", "k", "M", "G"};

@@ -1,5 +1,5 @@
-/* Drawn by oiiotool in DejaVu Sans Mono, whose letters are all as wide, so that it is known what fits. Names of jobs and
- * cameras hold letters, digits, _ and - alone, so nothing here means anything to oiiotool. */
+/* Drawn by oiiotool in DejaVu Sans Mono, so that the width of a text is known. Names of jobs and cameras consist of letters,
+ * digits, _ and -, so they contain no characters that are special to oiiotool. */
 #include "render/slate.h"
 
 #include <math.h>
@@ -13,14 +13,14 @@
 #include "base/vector.h"
 
 static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf";
-static const double LETTER = 0.602; /* of the font's size */
+static const double LETTER = 0.602; /* in units of the font size */
 
 static int font_size(const struct slate *s)
 {
     return (int)fmin(fmax(round(s->height / 36.0), 9), 48);
 }
 
-/* ---- the legend's place: a panel at the right edge, above the strip */
+/* ---- placement of the legend: a panel at the right edge, above the strip */
 
 struct panel {
     int font, left, top, bottom;
@@ -30,7 +30,7 @@ struct panel {
 static struct panel panel_of(const struct slate *s)
 {
     struct panel p = {.font = font_size(s)};
-    int letters = 12; /* the bar, and "interlock" beside it */
+    int letters = 12; /* the bar and the text "interlock" next to it */
     p.bar_w = (int)lrint(1.1 * p.font);
     p.bar_h = (int)lrint(0.5 * s->height);
     p.left = s->width - (int)ceil((letters * LETTER + 1.2) * p.font);
@@ -67,9 +67,9 @@ done:
     return st;
 }
 
-/* ---- words */
+/* ---- arguments */
 
-static void word(struct slate_command *c, const char *text)
+static void add_argument(struct slate_command *c, const char *text)
 {
     if (c->n + 1 < SLATE_WORDS) {
         c->argv[c->n++] = text;
@@ -77,8 +77,8 @@ static void word(struct slate_command *c, const char *text)
     }
 }
 
-static void made(struct slate_command *c, const char *format, ...) PRINTF_LIKE(2, 3);
-static void made(struct slate_command *c, const char *format, ...)
+static void add_formatted(struct slate_command *c, const char *format, ...) PRINTF_LIKE(2, 3);
+static void add_formatted(struct slate_command *c, const char *format, ...)
 {
     va_list args;
     if (c->n_own == SLATE_WORDS)
@@ -86,20 +86,20 @@ static void made(struct slate_command *c, const char *format, ...)
     va_start(args, format);
     vsnprintf(c->own[c->n_own], sizeof c->own[0], format, args);
     va_end(args);
-    word(c, c->own[c->n_own++]);
+    add_argument(c, c->own[c->n_own++]);
 }
 
 static void add_text(struct slate_command *c, int x, int baseline, int size, const char *text)
 {
-    made(c, "--text:x=%d:y=%d:size=%d:color=0.93,0.93,0.93,1:font=%s", x, baseline, size, FONT);
-    made(c, "%s", text);
+    add_formatted(c, "--text:x=%d:y=%d:size=%d:color=0.93,0.93,0.93,1:font=%s", x, baseline, size, FONT);
+    add_formatted(c, "%s", text);
 }
 
-/* Corners, both inside. */
+/* Both corners are inside the rectangle. */
 static void add_box(struct slate_command *c, const char *color, int x0, int y0, int x1, int y1)
 {
-    made(c, "--box:color=%s:fill=1", color);
-    made(c, "%d,%d,%d,%d", x0, y0, x1, y1);
+    add_formatted(c, "--box:color=%s:fill=1", color);
+    add_formatted(c, "%d,%d,%d,%d", x0, y0, x1, y1);
 }
 
 static int row_of(const struct panel *p, double position)
@@ -165,7 +165,7 @@ static void add_strip(struct slate_command *c, const struct slate *s)
     if (left <= letters) {
         add_text(c, margin, baseline, font, s->left);
     } else {
-        /* The end says which frame it is: the name gives way. */
+        /* The end of the text has the frame, so the name is shortened. */
         char cut[160];
         int keep = letters > 4 ? letters - 2 : 2;
         snprintf(cut, sizeof cut, "..%s", s->left + (left > keep ? left - keep : 0));
@@ -192,7 +192,7 @@ double slate_bar_m(const struct slate *s, char text[24])
     return length;
 }
 
-/* Above the strip's left end: a bar with feet, as long as that many metres are where the rock is. */
+/* Above the left end of the strip: a bar with feet, as long as its length in metres at the distance of the rock. */
 static void add_scale(struct slate_command *c, const struct slate *s)
 {
     char text[24];
@@ -213,17 +213,17 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
 {
     const bool draws = slate_draws(s), legend = draws && s->show != VALUE_NONE;
     c->n = c->n_own = 0;
-    word(c, "oiiotool");
+    add_argument(c, "oiiotool");
     if (legend)
-        word(c, bar);
-    word(c, from);
-    word(c, "--iscolorspace"); /* PPM does not say it */
-    word(c, "sRGB");
+        add_argument(c, bar);
+    add_argument(c, from);
+    add_argument(c, "--iscolorspace"); /* a PPM file does not state its colour space */
+    add_argument(c, "sRGB");
     if (legend) {
         struct panel p = panel_of(s);
-        word(c, "--paste");
-        made(c, "+%d+%d", p.bar_x, p.bar_y);
-        /* A frame of four panes around the bar, which keeps its own colours. */
+        add_argument(c, "--paste");
+        add_formatted(c, "+%d+%d", p.bar_x, p.bar_y);
+        /* Four panels around the bar, so that the bar keeps its colours. */
         const char *dark = "0.05,0.05,0.055,0.62";
         add_box(c, dark, p.left, p.top, s->width - 1, p.bar_y - 1);
         add_box(c, dark, p.left, p.bar_y, p.bar_x - 1, p.bar_y + p.bar_h - 1);
@@ -235,14 +235,14 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
         add_strip(c, s);
     if (draws && s->px_per_m > 0)
         add_scale(c, s);
-    word(c, "-o:fileformatname=png"); /* the name does not say it */
-    word(c, to);
+    add_argument(c, "-o:fileformatname=png"); /* the file name has no suffix */
+    add_argument(c, to);
 }
 
 void slate_when(const struct job *job, int frame, char out[96])
 {
     double frames = frame - job->frames.first, years = job_years(job, job->frames.first, frame);
-    if (job_model(job)->terrain) /* tools take no time that anybody knows */
+    if (job_model(job)->terrain) /* the time that tools take is undefined */
         snprintf(out, 96, "frame %d", frame);
     else if (job->clock.seconds_per_frame > 0)
         snprintf(out, 96, "frame %d   %.2f s", frame, frames * job->clock.seconds_per_frame);

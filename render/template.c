@@ -7,7 +7,7 @@
 
 enum { NAME = 40 };
 
-/* The innermost object, or item of a list, and those around it. */
+/* A stack of objects and list items; the top is the innermost one. */
 struct scope {
     const struct json *value;
     const struct scope *outer;
@@ -84,7 +84,7 @@ static void add_value(const struct scope *scope, const struct tag *tag, struct t
         html_text(out, value->text);
 }
 
-/* From `at` to the end of the section, or of all; returns what follows. `out`, or NULL: nothing is shown. */
+/* Processes the template from `at` to the end of the section or of the template, and returns the rest. `out` NULL: without output. */
 static const char *fill(const char *at, const struct scope *scope, struct text *out)
 {
     for (const char *open; (open = strstr(at, "{{"));) {

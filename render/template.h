@@ -1,13 +1,13 @@
-/* Pages from a template and data: the HTML in one place, what it shows in another.
+/* Fills an HTML template with data, much like Mustache.
  *
- * Tags       {{name}}              the value, escaped: fit for text and for attributes in double quotes
- *            {{%name}}             a path as an address: percent-encoded, slashes kept
- *            {{&name}}             the value as it is: HTML that this program made
- *            {{#name}}..{{/name}}  once if there is a value; of a list, once an item; of an object, with its members
- *            {{^name}}..{{/name}}  once if there is none
- * Values     Members of the data, of the innermost object that has one of that name; {{.}} is a list's own item. false,
- *            null, "" and empty lists are no values.
- * Spaces     The template's lines lose their indentation, and lines of nothing but a section's tag vanish.
+ * Tags       {{name}}              the value, escaped for text and for attributes in double quotes
+ *            {{%name}}             a path as a URL: percent-encoded, with its slashes
+ *            {{&name}}             the value unescaped: HTML that this program has made
+ *            {{#name}}..{{/name}}  once if the value exists; for a list, once per item; for an object, with its members
+ *            {{^name}}..{{/name}}  once if the value does not exist
+ * Values     A name is looked up in the innermost object that has such a member; {{.}} is the item of a list. false, null, "" and
+ *            empty lists count as missing.
+ * Spaces     Lines lose their indentation, and lines with nothing but a section tag are removed.
  */
 #ifndef HOODOO_TEMPLATE_H
 #define HOODOO_TEMPLATE_H
@@ -15,8 +15,7 @@
 #include "base/json.h"
 #include "base/text.h"
 
-/* Adds the page to `out`. `lines` end with NULL. A name that the data do not have is our mistake, and so is a section
- * that does not end: asserted. */
+/* Adds the page to `out`. The last of `lines` is NULL. Unknown names and unclosed sections are programming errors (asserted). */
 void template_fill(const char *const *lines, const struct json *data, struct text *out);
 
 #endif

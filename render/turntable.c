@@ -14,7 +14,7 @@
 
 static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
-/* A file under root, moved into place when its program has made it. */
+/* A file below root, which is moved into place when the program that makes it has finished. */
 struct sheet {
     const struct recipe *recipe;
     struct path temporary, path;
@@ -26,7 +26,7 @@ static status video_done(void *user)
     return product_adopt(sheet->recipe, sheet->temporary.text, sheet->path.text);
 }
 
-/* The picture alone: oiiotool writes the date, and its command line with names of temporary files. */
+/* Remove the metadata of oiiotool: the date, and a command line with names of temporary files. */
 static status sheet_done(void *user)
 {
     enum { LARGEST = 1 << 30 };
@@ -38,7 +38,7 @@ static status sheet_done(void *user)
     TRY(path_join(&from, sheet->recipe->root, sheet->temporary.text));
     TRY(file_read(from.text, LARGEST, &bytes, &n));
     st = png_with_tag(bytes, n, "contact sheet", &plain, &n);
-    if (st == E_INPUT) /* what we have had made */
+    if (st == E_INPUT) /* a file of our own, so not E_INPUT */
         st = fail(E_OUTPUT, "%s: the sheet is cut short; is the disk full?", from.text);
     TRY(st);
     TRY(product_write(sheet->recipe, sheet->path.text, plain, n));
@@ -68,7 +68,7 @@ status turntable_video(struct preview *p, int frame, int views)
     TRY(folder_name(&sheet.path, p->job->name, FILE_VIDEO, 0, picture_part(p)));
     TRY(atomic_file_temporary(sheet.path.text, "", &sheet.temporary));
     TRY(folder_views(&pattern, p->job->name, picture_part(p), frame));
-    /* Once around in this time, at the film's usual rate. */
+    /* A full turn in this time, at 24 frames per second. */
     snprintf(filter, sizeof filter,
              "fps=24,scale=trunc(iw/2)*2:trunc(ih/2)*2:in_color_matrix=bt709:out_color_matrix=bt709");
     snprintf(rate, sizeof rate, "%d/%d", views, TURNTABLE_SECONDS);
@@ -93,8 +93,8 @@ struct tile {
     char label[96];      /* "": none */
 };
 
-/* Pictures side by side, a line of text on each that has one. oiiotool takes its pictures and what is done to
- * each in order: IN --text ... IN --text ... --mosaic. */
+/* A mosaic of pictures, some with a line of text. oiiotool takes pictures and operations on them in order:
+ * IN --text ... IN --text ... --mosaic. */
 static status mosaic(struct preview *p, const struct recipe *recipe, const struct path *path,
                      const struct tile *tile, size_t n)
 {
@@ -147,7 +147,7 @@ status turntable_contact(struct preview *p, const int *frames, size_t n, int vie
             slate_when(p->job, frame, tile[i].label);
     }
     TRY(folder_name(&path, p->job->name, FILE_SHEET, 0, picture_part(p)));
-    /* One of views is made with the video, where there is no other. */
+    /* The sheet of views belongs to the video, and is made only if there is no other. */
     TRY(views ? preview_recipe(p, "--only=video", NULL, frames[n - 1], &made)
               : preview_recipe(p, "--only=sheet", p->sheet_frames, ALL_FRAMES, &made));
     TRY(mosaic(p, &made.recipe, &path, tile, n_pictures));
@@ -156,8 +156,8 @@ done:
     return st;
 }
 
-/* oiiotool evaluates what is in braces, and drawn text knows backslashes; a label is cut where a character
- * ends. */
+/* oiiotool evaluates braces and interprets backslashes in text, so both are replaced. A label is cut at the end of a UTF-8
+ * character. */
 static void plain_label(const struct job *job, char out[96])
 {
     char number[FRAME_TEXT];

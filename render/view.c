@@ -4,7 +4,7 @@
 
 #include "base/vector.h"
 
-/* How much of the way up to the lowest line of sight ground may take. */
+/* The share of the height of the lowest line of sight that ground may take. */
 static const double CLEAR = 0.4;
 
 double view_outside(const struct view *v, double x, double y)
@@ -49,7 +49,7 @@ struct view view_of(const struct job *job, const struct camera *camera, size_t n
     return v;
 }
 
-/* Does every corner of the box lie within this share of the camera's film? */
+/* Are all corners of the box within this share of the camera's film? */
 static bool holds(const double size[3], const struct camera *c, double share)
 {
     double wide = dot3(c->right, c->right), high = dot3(c->down, c->down);
@@ -73,7 +73,7 @@ struct camera view_around(const struct job *job, double azimuth_deg, double elev
         target[k] = 0.5 * size[k];
         distance = fmax(distance, 0.5 * size[k]);
     }
-    /* One distance for the whole orbit, or the rock would breathe. Rock rarely fills its box. */
+    /* The distance is the same for the whole orbit, so that the rock does not change its size. Rock rarely fills its box. */
     for (int azimuth = 0; azimuth < 360; azimuth += 5)
         for (;;) {
             struct camera c = camera_orbit(target, distance, azimuth, elevation_deg, film, width, height);

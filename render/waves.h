@@ -1,4 +1,4 @@
-/* Noise as waves of given lengths in metres, fixed in the world: the same rock is as rough in every picture, however large the scene. */
+/* Noise as a sum of waves whose lengths are in metres and fixed in the world, so that rock has the same roughness in scenes of any size. */
 #ifndef HOODOO_WAVES_H
 #define HOODOO_WAVES_H
 
@@ -7,18 +7,19 @@
 enum { WAVES = 10 };
 
 struct waves {
-    double length[WAVES]; /* m, from long to short */
+    double length[WAVES]; /* m, descending */
     size_t n;
     struct noise noise[WAVES];
 };
 
-/* n lengths from the longest on, each `ratio` (below 1) of the one before. `use` tells waves of different things apart. */
+/* n waves: the first has the length `longest` (m), each following one `ratio` (below 1) times the length before. Different `use` gives
+ * independent waves. */
 struct waves waves_make(double longest, double ratio, size_t n, uint32_t use);
 
-/* One of them, of unit variance. */
+/* Wave i at a place, with zero mean and unit variance. */
 double wave_at(const struct waves *w, size_t i, const double x[3]);
 
-/* 0 below `low`, 1 above `high`, smooth between. */
+/* Smoothstep: 0 below `low`, 1 above `high`. */
 double ramp(double low, double high, double x);
 
 #endif
