@@ -8,9 +8,9 @@
 #include "render/person.h"
 
 enum { STEPS = 48 };
-static const double TALL = 1.85, WIDE = 0.45; /* m: what holds it */
+static const double TALL = 1.85, WIDE = 0.45; /* m: a cylinder that contains the person */
 
-/* Where it stands, and which way it faces. */
+/* Position and direction of the person. */
 struct figure {
     double at[3], turn;
 };
@@ -35,7 +35,7 @@ static double distance_to(const struct person_part *p, const double x[3])
     return sqrt(dot3(d, d)) - (p->ra + t * (p->rb - p->ra));
 }
 
-/* Of a place in the world to the nearest part. */
+/* The distance of a point in the world to the nearest part. */
 static double distance(const struct figure *f, const double world[3], const struct person_part **part)
 {
     double d[3], x[3], least = HUGE_VAL;
@@ -54,7 +54,7 @@ static double distance(const struct figure *f, const double world[3], const stru
     return least;
 }
 
-/* Does the ray, in steps of its own length, meet it within `most` of them? */
+/* Does the ray meet the person before the distance `most`? By sphere tracing. */
 static bool meets(const struct figure *f, const double from[3], const double unit[3], double first,
                   double most, double x[3], const struct person_part **part)
 {
@@ -75,7 +75,7 @@ static size_t pixel_at(const struct shot *s, double x, double y)
     return (size_t)y * (size_t)s->camera.width + (size_t)x;
 }
 
-/* Is the place seen, and no rock in its pixel? */
+/* Is the place visible, without rock in its pixel? */
 static bool is_open(const struct shot *s, double x, double y, double z)
 {
     const double at[3] = {x, y, z};
@@ -84,7 +84,7 @@ static bool is_open(const struct shot *s, double x, double y, double z)
            px[1] < s->camera.height && s->depth[pixel_at(s, px[0], px[1])] > 1e9F;
 }
 
-/* From the middle of the domain towards the camera, a little aside, to the first place with a step of level ground all around. */
+/* Searches from the middle of the domain towards the camera, slightly to the side, for the first place with level ground one step around. */
 static bool find_place(const struct job *job, const struct shot *s, struct figure *f)
 {
     const double *size = job->domain.size_m, *eye = s->camera.eye,
@@ -109,7 +109,7 @@ static bool find_place(const struct job *job, const struct shot *s, struct figur
     return false;
 }
 
-/* What its body and its shadow can cover: px, x0 y0 x1 y1. */
+/* The pixels that body and shadow can cover: x0, y0, x1, y1. */
 static void bounds(const struct shot *s, const struct figure *f, const double sun[3], int out[4])
 {
     const double shadow = TALL / fmax(sun[2], 0.05);
@@ -164,7 +164,7 @@ static void draw_pixel(struct shot *s, const struct figure *f, const struct ligh
         unit[k] /= length;
     minus3(f->at, c->eye, away);
     const double far = sqrt(dot3(away, away));
-    if (s->depth[i] < 1e9F) /* rock before it, or behind */
+    if (s->depth[i] < 1e9F) /* the rock is in front of the person */
         return;
     if (meets(f, c->eye, unit, fmax(far - 4, 0), far + 4, x, &part)) {
         shade(f, light, x, part, s->rgb + 3 * i);

@@ -1,10 +1,11 @@
-/* A person of 1.75 m in a picture, by whom the size of the rock is seen. */
+/* A person of 1.75 m in a picture, which shows the size of the rock. */
 #ifndef HOODOO_LOOK_FIGURE_H
 #define HOODOO_LOOK_FIGURE_H
 
 #include "look/shot.h"
 
-/* Stands on the level ground where the camera sees it, before the rock and a little aside; nowhere if it sees none. */
+/* Draws the person on level ground that the camera sees, in front of the rock and slightly to the side. Draws nothing if the camera sees no
+ * level ground. */
 void figure_draw(const struct job *job, int frame, struct shot *s);
 
 #endif

@@ -17,12 +17,12 @@ static const struct ink INK_DOMAIN = {"grey", {150, 158, 170}}, INK_WIND = {"cya
                         INK_CARVE = {"red", {255, 70, 60}}, INK_ADD = {"green", {90, 215, 90}},
                         INK_TOOL = {"orange", {255, 160, 30}}, INK_CAMERA = {"yellow", {250, 225, 70}};
 
-/* What is drawn, in the world or below a placement. */
+/* The drawing state; coordinates are in the world, or local to a placement. */
 struct drawing {
     struct shot *shot;
     const struct ink *ink;
     const struct placement *place;
-    bool unseen; /* a part of it has no outline */
+    bool unseen; /* a part of the shape has no outline */
 };
 
 enum { ROUND = 40 };
@@ -53,7 +53,7 @@ static void box(const struct drawing *d, const double low[3], const double high[
         }
 }
 
-/* Around `middle`, across unit `normal`. */
+/* A circle around `middle` in the plane normal to the unit vector `normal`. */
 static void ring(const struct drawing *d, const double middle[3], const double normal[3], double radius)
 {
     const double aside[3] = {fabs(normal[2]) < 0.9 ? 0 : 1, 0, fabs(normal[2]) < 0.9 ? 1 : 0};
@@ -117,7 +117,7 @@ static void arrow(const struct drawing *d, const double from[3], const double to
     }
 }
 
-/* A path of points, as far around as its radius says. */
+/* A tube around a path of points with radii. */
 static void path(const struct drawing *d, const double (*point)[3], size_t n, double radius)
 {
     double along[3];
@@ -172,7 +172,7 @@ static void node(struct drawing *d, const struct placement *parent, const struct
     d->place = before;
 }
 
-/* ---- what a job has */
+/* ---- the parts of a job */
 
 static void say(struct text *said, const struct ink *ink, const char *what, size_t index, const char *more)
 {
@@ -288,7 +288,7 @@ static void draw_operations(const struct job *job, int frame, bool all, struct s
     }
 }
 
-/* A pyramid from the eye, a tenth of the scene deep. */
+/* A pyramid at the eye, as deep as a tenth of the scene. */
 static void draw_cameras(const struct job *job, int frame, const struct job_camera *own, struct shot *s,
                          struct text *said)
 {

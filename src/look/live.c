@@ -8,7 +8,7 @@
 #include "base/log.h"
 #include "render/page_parts.h"
 
-/* A number that a request gives, or `preset`. */
+/* The finite number in a parameter of the request, or `preset`. */
 static double number(const struct serve_request *r, const char *name, double preset)
 {
     const char *text = serve_value(r, name);
@@ -35,7 +35,7 @@ static void give_page(struct serve_answer *out)
     give_text(&t, "text/html; charset=utf-8", out);
 }
 
-/* The last sentence, for the page to show. */
+/* Answers with the error message, which the page shows. */
 static void give_failure(struct live *l, status st, struct serve_answer *out)
 {
     struct text t = {0};
@@ -95,7 +95,7 @@ static void give_job(struct live *l, struct serve_answer *out)
 
 /* ---- pictures */
 
-/* What the legend is made of. */
+/* Range, colours and ticks of the legend. */
 static void add_legend(struct text *t, enum value_id show, struct show_range range)
 {
     enum { COLORS = 24 };
@@ -123,7 +123,7 @@ static void add_legend(struct text *t, enum value_id show, struct show_range ran
     json_end_object(t);
 }
 
-/* X-Look: plain ASCII on one line, as the texts in it are. */
+/* The header X-Look must be ASCII on one line; the texts in it are. */
 static char *note_of(const struct look_made *m, enum value_id show)
 {
     struct text t = {0};

@@ -1,10 +1,10 @@
-/* The page of `hoodoo look --serve`: a picture to turn, frames to go through, values to show and to read off. render/look.html is what a
- * browser sees of it.
+/* The page of `hoodoo look --serve`: a picture that can be turned, a slider over frames, and values to show and to read off. The page itself
+ * is render/look.html. Requests:
  *
  *   /          the page
- *   /job       JSON: name, frames, values, cameras, size; `saves` counts the saves of its files
- *   /picture   ?frame&camera&zoom&show&gizmos&figure&rough: a PNG, and in X-Look what it is (JSON). 422: what is wrong with the job
- *   /at        ?x&y of 0..1: JSON of the place and the values in the last picture
+ *   /job       JSON: name, frames, values, cameras, size; `saves` counts how often its files have been saved
+ *   /picture   ?frame&camera&zoom&show&gizmos&figure&rough: a PNG, described by JSON in the header X-Look. 422: an error in the job, as text
+ *   /at        ?x&y (0..1): JSON with the position and the values at this point of the last picture
  */
 #ifndef HOODOO_LOOK_LIVE_H
 #define HOODOO_LOOK_LIVE_H
@@ -14,13 +14,13 @@
 
 struct live {
     struct look *look;
-    const struct look_options *options; /* of every picture; the request's come over them */
-    int saves;                          /* raised by whoever watches the files */
-    status broken;                      /* what ended it, if it is not the job's fault */
+    const struct look_options *options; /* defaults of every picture, which a request overrides */
+    int saves;                          /* incremented by the caller when a file of the job is saved */
+    status broken; /* the error that ends the server: one that does not come from the job */
     char message[1000];
 };
 
-/* A serve_handler; `live` is its user. */
+/* A serve_handler, whose user pointer is a struct live. */
 void live_answer(void *live, const struct serve_request *request, struct serve_answer *out);
 
 #endif

@@ -17,13 +17,13 @@
 #include "model/model.h"
 #include "run/memory.h"
 
-/* Of a run, as many states are kept about, evenly, besides that of the frame looked at. */
+/* About so many states of a run are kept, evenly spaced, besides that of the requested frame. */
 enum { KEPT_STATES = 16 };
 
 struct look {
     struct gpu *gpu;
     struct states states;
-    struct frame last; /* of the last picture */
+    struct frame last; /* the frame of the last picture, for look_at() */
 };
 
 status look_begin(const char *device, struct look **out)
@@ -65,9 +65,9 @@ void look_made_free(struct look_made *made)
 
 /* ---- the state */
 
-/* The model in the latest frame of which a state is kept, or in the job's first. */
-static status start(struct look *l, const struct sketch *s, const uint64_t *hash, struct look_made *made,
-                    struct model **out)
+/* *out: the model in the latest frame with a cached state, or else in the job's first frame. */
+static status load_latest_state(struct look *l, const struct sketch *s, const uint64_t *hash,
+                                struct look_made *made, struct model **out)
 {
     status st = OK;
     const size_t n = (size_t)(s->frame - s->job->frames.first) + 1;
@@ -89,7 +89,7 @@ done:
     return st;
 }
 
-static status keep(struct look *l, struct model *m, uint64_t hash)
+static status keep_state(struct look *l, struct model *m, uint64_t hash)
 {
     status st = OK;
     struct checkpoint c = {0};
@@ -102,8 +102,8 @@ done:
     return st;
 }
 
-static status reach(struct look *l, const struct sketch *s, const struct look_options *o,
-                    struct look_made *made, struct model **out)
+static status simulate_to_frame(struct look *l, const struct sketch *s, const struct look_options *o,
+                                struct look_made *made, struct model **out)
 {
     status st = OK;
     const int first = s->job->frames.first,
@@ -111,19 +111,19 @@ static status reach(struct look *l, const struct sketch *s, const struct look_op
     uint64_t *hash = NULL;
     TRY(memory_alloc((size_t)(s->frame - first) + 1, sizeof *hash, "hashes of frames", &hash));
     TRY(job_frame_hashes(s->job, s->frame, hash));
-    TRY(start(l, s, hash, made, out));
+    TRY(load_latest_state(l, s, hash, made, out));
     if (o->begin)
         o->begin(o->user, (struct frame_range){made->began, s->frame, 1});
     for (;;) {
         const int frame = model_frame(*out);
         if ((frame - first) % stride == 0 || frame == s->frame)
-            TRY(keep(l, *out, hash[frame - first]));
+            TRY(keep_state(l, *out, hash[frame - first]));
         if (frame == s->frame)
             break;
         if (o->stop && o->stop(o->user)) {
-            TRY(keep(l, *out, hash[frame - first]));
+            TRY(keep_state(l, *out, hash[frame - first]));
             st = fail(STOPPED,
-                      "stopped after frame %d, whose state is kept; run the same command again to go on",
+                      "stopped after frame %d, whose state is cached; run the same command again to continue",
                       frame);
             goto done;
         }
@@ -202,7 +202,7 @@ status look_make(struct look *l, const struct look_options *o, struct look_made 
     TRY(sketch_load(&o->sketch, &s));
     TRY(sketch_loses(&s, &made->coarse));
     const double loaded = clock_seconds();
-    TRY(reach(l, &s, o, made, &m));
+    TRY(simulate_to_frame(l, &s, o, made, &m));
     const double there = clock_seconds();
     TRY(picture(l, &s, o, m, made));
     snprintf(made->name, sizeof made->name, "%s", s.job->name);

@@ -1,8 +1,8 @@
 /* A look at a job: one picture of one frame, in seconds, without an output folder.
  *
- * What it does   The job is made coarse (sketch.h), its state of the frame is found or simulated on from the nearest that is kept
- *                (states.h), and one camera's rays are shaded on the device; nothing else of a frame is made.
- * Again          A second look with the same struct look has the device and its kernels ready.
+ * Method             The job is coarsened (sketch.h). The state of the frame is taken from the cache, or simulated from the latest
+ *                    cached state before it (states.h). Then one camera is rendered on the device; no other files are made.
+ * Reuse              A struct look keeps the device and its kernels for further looks.
  * Calling sequence   look_begin(), any number of look_make(), look_end().
  */
 #ifndef HOODOO_LOOK_LOOK_H
@@ -17,47 +17,47 @@
 
 struct look;
 
-/* E_DEVICE as gpu_create(). */
+/* Opens the device. Errors as gpu_create(). */
 MUST_USE status look_begin(const char *device, struct look **out);
 void look_end(struct look **look);
 
-/* Is it on a GPU? */
+/* Is the device a GPU? */
 bool look_on_gpu(const struct look *look);
 
 struct look_options {
     struct sketch_options sketch;
-    const char *folder; /* for files of a moment where there is a slate */
+    const char *folder; /* for temporary files, which the slate needs */
     bool no_slate, figure;
     enum gizmos gizmos;
-    const char *range; /* of what is shown: "LO:HI", or NULL: the job's */
+    const char *range; /* range of the shown value, "LO:HI"; NULL: that of the job */
     bool (*stop)(void *user);
-    void (*frame)(void *user, int frame); /* it is simulated; NULL: nobody asks */
+    void (*frame)(void *user, int frame); /* called after each simulated frame; NULL: none */
     void (*begin)(void *user, struct frame_range frames);
     void *user;
 };
 
-/* What came of it. */
+/* The result of look_make(). */
 struct look_made {
-    void *png; /* the picture as a file's bytes */
+    void *png; /* the bytes of a PNG file */
     size_t png_size;
-    char name[72];           /* of the job */
-    struct show_range range; /* of what is shown */
-    int frame, began;        /* `began`: the frame whose state was there; the job's first if none was */
-    bool found;              /* a state was there */
+    char name[72];           /* name of the job */
+    struct show_range range; /* range of the shown value */
+    int frame, began;        /* `began`: the frame of the cached state, or the job's first frame */
+    bool found;              /* a cached state was used */
     double years, spacing_m, own_spacing_m, air_m;
-    size_t n_particles, own_particles; /* about */
+    size_t n_particles, own_particles; /* estimates */
     double load_seconds, step_seconds, picture_seconds;
-    struct text gizmos; /* a line each */
-    struct text coarse; /* what is lost at the coarse spacing, a line each */
+    struct text gizmos; /* one line per object */
+    struct text coarse; /* details lost at the coarse spacing, one per line */
 };
 void look_made_free(struct look_made *made);
 
-/* E_OUTPUT: the folder cannot be written. STOPPED: options->stop said so; states on the way are kept. As sketch_load(),
- * model_create() and model_step() besides. look_made_free(). */
+/* Makes the picture. Release *out with look_made_free(). E_OUTPUT: the folder cannot be written. STOPPED: options->stop returned true; the
+ * states reached so far are cached. Other errors as sketch_load(), model_create() and model_step(). */
 MUST_USE status look_make(struct look *look, const struct look_options *options, struct look_made *out);
 
-/* What is at a place of the last picture (0..1 from its upper left corner), as members of a JSON object: place and every value there,
- * and "rock" says whether there is any. Only of pictures with `all_layers`. */
+/* Adds members to a JSON object: "rock", whether there is rock at the point x, y (0..1 from the upper left corner) of the last picture, and if
+ * so the position and all values there. The picture must have been made with `all_layers`. */
 void look_at(const struct look *look, double x, double y, struct text *json);
 
 #endif

@@ -9,7 +9,7 @@
 #include "render/picture.h"
 #include "render/png.h"
 
-/* Files while it is drawn, whose names mean nothing to oiiotool. */
+/* Temporary files, whose names contain no characters that are special to oiiotool. */
 struct drawn {
     struct path folder, picture, bar, png, log;
 };

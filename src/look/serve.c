@@ -14,7 +14,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 
-/* libmicrohttpd brings a library of TLS with it, which costs every start of hoodoo more than most verbs take. */
+/* Loaded on demand, since libmicrohttpd depends on a TLS library that takes longer to load than most verbs run. */
 #define LIBRARY "libmicrohttpd.so.12"
 #define FUNCTIONS(X)                                                                                         \
     X(MHD_start_daemon)                                                                                      \
@@ -54,11 +54,14 @@ static status load(struct library *l)
 {
     l->handle = dlopen(LIBRARY, RTLD_NOW | RTLD_LOCAL);
     if (!l->handle)
-        return fail(E_INPUT, "--serve wants libmicrohttpd (Debian: libmicrohttpd12): %s", dlerror());
+        return fail(
+            E_INPUT,
+            "--serve needs libmicrohttpd, which cannot be loaded (Debian package libmicrohttpd12): %s",
+            dlerror());
     void *at;
 #define FIND(name)                                                                                           \
     if (!(at = dlsym(l->handle, #name)))                                                                     \
-        return fail(E_INPUT, "%s has no %s", LIBRARY, #name);                                                \
+        return fail(E_INPUT, "%s has no function %s; is it another version?", LIBRARY, #name);               \
     memcpy(&l->name, &at, sizeof at);
     FUNCTIONS(FIND)
 #undef FIND
@@ -82,7 +85,7 @@ static bool is_token(const struct serve *s, const char *given)
     unsigned differ = 0;
     if (!given || strlen(given) != sizeof s->token - 1)
         return false;
-    for (size_t i = 0; i + 1 < sizeof s->token; i++) /* all of it, whatever the first that differs */
+    for (size_t i = 0; i + 1 < sizeof s->token; i++) /* constant time: compares all characters */
         differ |= (unsigned)(unsigned char)given[i] ^ (unsigned char)s->token[i];
     return differ == 0;
 }
@@ -131,17 +134,17 @@ static enum MHD_Result answer(void *user, struct MHD_Connection *connection, con
     (void)version;
     (void)upload;
     const bool asks = strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0;
-    if (!*state && asks) { /* the headers are there, and the end of the request is yet to come */
+    if (!*state && asks) { /* headers have arrived, but not the end of the request */
         *state = &seen;
         return MHD_YES;
     }
     const char *host = s->mhd.MHD_lookup_connection_value(connection, MHD_HEADER_KIND, "Host");
     if (!asks || *n_upload)
-        st = say(&a, 400, "only GET is answered\n");
+        st = say(&a, 400, "only GET and HEAD are supported\n");
     else if (!host || (strcmp(host, s->host[0]) != 0 && strcmp(host, s->host[1]) != 0))
-        st = say(&a, 400, "this page is at another address\n");
+        st = say(&a, 400, "wrong host name: open the address that hoodoo look --serve has printed\n");
     else if (!is_token(s, serve_value(&request, "token")))
-        st = say(&a, 403, "the address with its token is what hoodoo look --serve printed\n");
+        st = say(&a, 403, "missing or wrong token: open the address that hoodoo look --serve has printed\n");
     else
         s->handler(s->user, &request, &a);
     if (st == OK && a.code == 404 && !a.bytes)
@@ -149,13 +152,14 @@ static enum MHD_Result answer(void *user, struct MHD_Connection *connection, con
     return st == OK ? send_answer(s, connection, &a) : MHD_NO;
 }
 
-/* ---- its life */
+/* ---- start and end */
 
 static status make_token(struct serve *s)
 {
     unsigned char bytes[TOKEN_BYTES];
     if (getrandom(bytes, sizeof bytes, 0) != (ssize_t)sizeof bytes)
-        return fail(E_OUTPUT, "no random numbers for a token: %s", strerror(errno));
+        return fail(E_OUTPUT, "the token of the page cannot be made, there are no random numbers: %s",
+                    strerror(errno));
     for (size_t i = 0; i < sizeof bytes; i++)
         snprintf(s->token + 2 * i, 3, "%02x", bytes[i]);
     return OK;
@@ -172,7 +176,9 @@ static status listen_on(struct serve *s, int port)
     const union MHD_DaemonInfo *info =
         s->daemon ? s->mhd.MHD_get_daemon_info(s->daemon, MHD_DAEMON_INFO_BIND_PORT) : NULL;
     if (!info)
-        return fail(E_USAGE, "port %d of this machine cannot be listened on: %s", port, strerror(errno));
+        return fail(E_USAGE,
+                    "--port %d: the port cannot be opened: %s; choose another port, or leave the option out",
+                    port, strerror(errno));
     snprintf(s->host[0], sizeof s->host[0], "127.0.0.1:%u", info->port);
     snprintf(s->host[1], sizeof s->host[1], "localhost:%u", info->port);
     snprintf(s->address, sizeof s->address, "http://%s/?token=%s", s->host[0], s->token);
@@ -184,7 +190,7 @@ status serve_begin(int port, serve_handler *handler, void *user, struct serve **
     status st = OK;
     struct serve *s = NULL;
     if (port < 0 || port > 65535)
-        return fail(E_USAGE, "--port %d: 0 to 65535", port);
+        return fail(E_USAGE, "--port %d: ports are 0 to 65535", port);
     TRY(memory_alloc(1, sizeof *s, "a server", &s));
     s->handler = handler;
     s->user = user;
@@ -219,6 +225,6 @@ const char *serve_address(const struct serve *serve)
 status serve_wait(struct serve *s, double seconds)
 {
     if (s->mhd.MHD_run_wait(s->daemon, (int32_t)(1000 * seconds)) != MHD_YES)
-        return fail(E_OUTPUT, "the page cannot be served any more: %s", strerror(errno));
+        return fail(E_OUTPUT, "the server of the page has failed: %s", strerror(errno));
     return OK;
 }

@@ -11,10 +11,10 @@
 #include "field/light.h"
 #include "render/develop.h"
 
-/* Scene-linear: what 65535 is in the picture before it is developed. */
+/* The scene-linear radiance that 65535 means before tone mapping. */
 static const double WHITE = 4;
 
-/* ---- what is in the image */
+/* ---- channels of the image */
 
 struct found {
     const float *rgba[4], *depth, *n[3], *p[3], *value;
@@ -49,7 +49,7 @@ static bool is_rock(const struct found *f, size_t i)
 
 /* ---- grain */
 
-/* -1 to 1, smooth, of features one wide. */
+/* Smooth noise from -1 to 1 with features of size 1. */
 static double noise(const double x[3], uint32_t seed)
 {
     int32_t low[3];
@@ -70,8 +70,7 @@ static double noise(const double x[3], uint32_t seed)
     return 2 * sum - 1;
 }
 
-/* A factor on the colour at a place that a pixel covers so many metres of. `flat`: features are so many times wider than high, as beds
- * are. */
+/* A factor for the colour at a place; `pixel` is the size of a pixel there (m). Features are `flat` times wider than high, like beds. */
 static double grain(const double x[3], double pixel, double flat)
 {
     static const double wide[] = {0.2, 1, 4.5, 20};
@@ -95,7 +94,7 @@ static void direction(const struct camera *c, int x, int y, double out[3])
         out[a] = c->ahead[a] + u * c->right[a] + v * c->down[a];
 }
 
-/* The level ground goes over into the sky where it is far for the size of the scene. */
+/* The ground fades into the sky at distances that are large compared with the scene. */
 static void haze(const struct sky *sky, double distance, double span, const double along[3], double rgb[3])
 {
     const double share = 1 - exp(-distance / (10 * span));
@@ -124,7 +123,7 @@ static void color_of(const struct light *light, const struct camera *c, double s
         const double g = grain(at, film * (double)f->depth[i], 4);
         for (int k = 0; k < 3; k++)
             rgb[k] *= g;
-    } else if (alpha > 0 && fabs(along[2]) < 1.5 * film) { /* the horizon, a part of each */
+    } else if (alpha > 0 && fabs(along[2]) < 1.5 * film) { /* the horizon blends ground and sky */
         haze(&light->sky, HUGE_VAL, span, along, rgb);
         return;
     } else if (alpha > 0 && along[2] < 0) {
@@ -145,7 +144,7 @@ static void color_of(const struct light *light, const struct camera *c, double s
     }
 }
 
-/* A value's colour, lit from the camera so that form reads and colours stay those of the legend. */
+/* The colour of a value, lit from the camera, so that shapes are visible and colours match the legend. */
 static void paint_value(struct shot *s, enum value_id show, struct show_range range, const struct found *f,
                         size_t i)
 {
@@ -219,7 +218,7 @@ void shot_free(struct shot *s)
 
 /* ---- lines */
 
-/* Depth of what hides things in a pixel: the rock, or the ground. */
+/* The depth of the rock or ground in a pixel, which hides lines behind it. */
 static double hidden_behind(const struct shot *s, int x, int y)
 {
     const double rock = (double)s->depth[(size_t)y * (size_t)s->camera.width + (size_t)x];
@@ -239,7 +238,7 @@ static void dab(struct shot *s, int x, int y, double depth, double share, const 
         at[c] = (unsigned char)lrint(at[c] + share * (rgb[c] - at[c]));
 }
 
-/* Cuts off what is behind the camera. False: all is. */
+/* Clips the line at the plane of the camera. False: it is behind the camera entirely. */
 static bool before_camera(const struct camera *c, double from[3], double to[3])
 {
     double a[3], b[3];
@@ -272,7 +271,7 @@ void shot_line(struct shot *s, const double from[3], const double to[3], const u
         if (!camera_project(&s->camera, end[e], px[e]))
             return;
     }
-    /* Along the longer axis a step a pixel; across it three pixels share the width. */
+    /* One step per pixel along the longer axis; across it, the width is distributed over three pixels. */
     const int axis = fabs(px[1][0] - px[0][0]) >= fabs(px[1][1] - px[0][1]) ? 0 : 1, across = 1 - axis;
     const int first = px[0][axis] <= px[1][axis] ? 0 : 1, last = 1 - first;
     const int most = axis == 0 ? s->camera.width : s->camera.height;

@@ -12,15 +12,15 @@
 #include "render/view.h"
 #include "run/advice.h"
 
-/* Seconds on two cores: of a frame however small, and of a particle in a step. */
+/* Seconds on two cores: per frame at least, and per particle and step. */
 static const double FRAME_SECONDS = 0.025, STEP_SECONDS = 4e-6;
 
-/* ---- what is set over the job's own */
+/* ---- settings that replace the job's own */
 
 enum { SETS_MOST = 16 };
 
 struct sets {
-    const char **word; /* the user's, then ours */
+    const char **word; /* the user's --set first, then ours */
     size_t n, n_user;
     struct text text[SETS_MOST];
 };
@@ -43,7 +43,7 @@ static void sets_free(struct sets *s)
     free(s->word);
 }
 
-/* The text of another setting, to be filled before sets_ready(). */
+/* Adds a setting; its text must be filled in before sets_ready(). */
 static struct text *sets_more(struct sets *s)
 {
     return &s->text[s->n++ - s->n_user];
@@ -70,7 +70,7 @@ static bool parse_direction(const char *text, double *azimuth, double *elevation
            fabs(*elevation) <= 90;
 }
 
-/* Its shape, no wider than asked for. */
+/* The camera's shape, no wider than the requested width. */
 static void limit(const double resolution[2], int width, int out[2])
 {
     const double share = fmin(1, width / resolution[0]);
@@ -134,8 +134,8 @@ static double seconds_of(double work, int frames, bool gpu)
     return FRAME_SECONDS * frames + STEP_SECONDS * work / (gpu ? LOOK_GPU : 1);
 }
 
-/* Particles times steps at so many times the job's spacing: particles fill space, and what erodes by a voxel takes a step, but a
- * frame takes one at least. */
+/* Particles times steps at `times` the job's spacing. The number of particles follows from the volume, and the number of steps from the
+ * retreat in voxels, with at least one step per frame. */
 static double work_at(const struct model_estimate *e, double frames, double factor)
 {
     return (double)e->n_particles / (factor * factor * factor) * fmax(e->steps / factor, frames);

@@ -75,13 +75,13 @@ void states_keep(struct states *s, uint64_t hash, const struct checkpoint *state
         return;
     if ((checkpoint_encode(state, &bytes, &size) != OK || atomic_file_write(path.text, bytes, size) != OK) &&
         !s->complained) {
-        log_warn("%s; looks begin at the first frame", status_message());
+        log_warn("%s; states cannot be cached, so looks start at the first frame", status_message());
         s->complained = true;
     }
     free(bytes);
 }
 
-/* ---- as much as may be kept */
+/* ---- the limit of the cache */
 
 struct kept {
     struct path path;

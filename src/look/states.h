@@ -1,11 +1,11 @@
-/* States of jobs in some of their frames, kept from look to look: a look at a job of which something has changed begins with the last
- * frame before the change.
+/* A cache of states of jobs, so that a look at a changed job starts at the last frame before the change.
  *
- * Named    By job_frame_hashes(), so that a state is found whatever the job is called, and only where all that it depends on is the
- *          same: the build of hoodoo and the device are in the name too.
- * Kept     As checkpoints in the folder `look` of the cache (base/cache.h), those least recently used going first when there
- *          are more than STATES_BYTES.
- * Errors   None: what cannot be read is not there, and what cannot be written is simulated again. It is said once.
+ * Names     Hashes of everything that a state depends on: job_frame_hashes(), the build of hoodoo and the device. The name of the job is not
+ *           part of them.
+ * Storage   Checkpoints in the folder `look` of the cache (base/cache.h). When they exceed STATES_BYTES, the least recently used ones
+ *           are removed.
+ * Errors    None: a state that cannot be read counts as missing, and one that cannot be written will be simulated again. The first
+ *           failure is logged.
  */
 #ifndef HOODOO_LOOK_STATES_H
 #define HOODOO_LOOK_STATES_H
@@ -20,26 +20,26 @@
 enum { STATES_BYTES = 1 << 30 };
 
 struct states {
-    struct path folder; /* "": there is none */
-    uint64_t salt;      /* of build and device */
+    struct path folder; /* "": there is no cache */
+    uint64_t salt;      /* hash of build and device */
     bool complained;
 };
 
 void states_open(const struct gpu_info *device, struct states *out);
 
-/* The state of the latest of n frames that is kept: its place in `hash`, and it in *out (checkpoint_free()). n: none is. */
+/* Finds the last of n hashes whose state is cached. Returns its index, with the state in *out (checkpoint_free()); n: none is cached. */
 size_t states_find(const struct states *s, const uint64_t *hash, size_t n, struct checkpoint *out);
 
-/* It was no good: it is removed. */
+/* Removes a state that turned out to be unusable. */
 void states_drop(const struct states *s, uint64_t hash);
 
-/* Is it kept? Then it counts as used. */
+/* Is the state cached? If so, it is marked as used. */
 bool states_has(const struct states *s, uint64_t hash);
 
-/* Keeps it under the hash of its frame. */
+/* Stores a state under the hash of its frame. */
 void states_keep(struct states *s, uint64_t hash, const struct checkpoint *state);
 
-/* Removes those least recently used, until the rest is small enough. */
+/* Removes the least recently used states until the others take at most STATES_BYTES. */
 void states_trim(const struct states *s);
 
 #endif

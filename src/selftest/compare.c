@@ -70,9 +70,9 @@ bool balances(const struct ledger *l, char why[WHY_BYTES])
     return false;
 }
 
-/* Devices round alike but fuse multiplications and additions differently, which changes the last bits of a number. A rate or a strength that
- * is a millionth more moves no particle of these jobs; should one go a frame earlier, it is one of thousands. A kernel that loses a
- * neighbour, or a process that does not run, moves these by parts in a hundred. */
+/* Devices round in the same way but fuse multiplications and additions differently, which changes the last bits of a number. A relative change
+ * of 1e-6 in a rate or strength moves no particle in these jobs, or at most one of thousands by a frame. A kernel that misses a neighbour,
+ * or a process that does not run, changes these numbers by percents. */
 static const double VOLUME = 0.005, LOST = 0.02, HEIGHT = 0.002, STRESS = 0.01;
 
 bool same_measure(const struct measure *recorded, const struct measure *got, char why[WHY_BYTES])

@@ -1,4 +1,4 @@
-/* What a self-test goes by: comparisons that can say no. Each describes the first difference in `why` and returns false. */
+/* Comparisons of the self-test. On a difference they return false and describe the first one in `why`. */
 #ifndef HOODOO_SELFTEST_COMPARE_H
 #define HOODOO_SELFTEST_COMPARE_H
 
@@ -11,31 +11,31 @@
 
 enum { WHY_BYTES = 400 };
 
-/* Two states, bit for bit: the same sections in the same order. */
+/* Compares two states bit for bit, with the same sections in the same order. */
 bool same_state(const struct checkpoint *expected, const struct checkpoint *got, char why[WHY_BYTES]);
 
-/* n words of what a kernel made. */
+/* Compares n words of a kernel's output. */
 bool same_words(const uint32_t *expected, const uint32_t *got, size_t n, char why[WHY_BYTES]);
 
-/* A number `what` that may differ from the expected one by `share` of that; not by anything if it is no number. */
+/* Is `got` within `share` of `expected`? `what` names the number in `why`. NaN is never near. */
 bool near_number(const char *what, double expected, double got, double share, char why[WHY_BYTES]);
 
-/* Every particle of the start is somewhere: start = rock + deposit + fallen + left. */
+/* Does the ledger balance, start = rock + deposit + fallen + left? */
 bool balances(const struct ledger *ledger, char why[WHY_BYTES]);
 
-/* What a small job's last frame is known by. */
+/* Characteristic numbers of a small job's last frame. */
 struct measure {
     struct ledger ledger;
     double volume_m3;
     double lost_m3;       /* since the start */
-    double height_m;      /* mean of the particles */
-    double stress_p95_Pa; /* of |T|; 0 where the model has none */
+    double height_m;      /* mean height of the particles */
+    double stress_p95_Pa; /* 95th percentile of |T|; 0 in models without stress */
 };
 
-/* Against a recorded one: the start is the same, the ledger balances, and numbers are as near as devices come (compare.c). */
+/* Compares a measure with a recorded one: equal start, balanced ledger, and numbers within the tolerance between devices (compare.c). */
 bool same_measure(const struct measure *recorded, const struct measure *got, char why[WHY_BYTES]);
 
-/* The 95th percentile of |value|; 0 of nothing. Reorders the values. */
+/* The 95th percentile of |value|, [n]; 0 if n is 0. Reorders the values. */
 double percentile_95(float *value, size_t n);
 
 #endif

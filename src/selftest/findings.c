@@ -110,7 +110,7 @@ static double kernels_ms(const struct pace *p)
     return ms;
 }
 
-/* The demo's stages, those of the finest spacing first to last, a column for each spacing. */
+/* The stages of the demo in the order of the finest spacing, with a column per spacing. */
 static void add_paces(struct text *t, const struct findings *r)
 {
     const struct pace *finest = r->n_paces ? &r->pace[r->n_paces - 1] : NULL;

@@ -1,4 +1,4 @@
-/* What a self-test found: a row for each check, as Markdown for people and JSON for programs. */
+/* Results of a self-test: one row per check, as Markdown for readers and JSON for programs. */
 #ifndef HOODOO_SELFTEST_FINDINGS_H
 #define HOODOO_SELFTEST_FINDINGS_H
 
@@ -10,14 +10,14 @@
 
 enum { VALUES_MOST = 12, PACES_MOST = 3, STAGES_MOST = 32 };
 
-/* One check. It is ok until row_wrong() says otherwise. */
+/* The result of one check; ok unless row_wrong() is called. */
 struct row {
     const char *group; /* "kernels" */
     char name[20];
     bool ok;
     double seconds;
-    char found[48]; /* for people, short */
-    char why[512];  /* of one that is not ok */
+    char found[48]; /* short text for readers */
+    char why[512];  /* the reason, if it is not ok */
     size_t n_values;
     struct row_value {
         const char *name; /* a literal, with its unit: "seconds_a_frame" */
@@ -28,15 +28,15 @@ struct row {
 void row_found(struct row *row, const char *format, ...) PRINTF_LIKE(2, 3);
 void row_value(struct row *row, const char *name, double value);
 
-/* The first thing wrong with a row is kept; later ones are dropped. */
+/* Marks the row as not ok. The first reason is kept; later ones are ignored. */
 void row_wrong(struct row *row, const char *format, ...) PRINTF_LIKE(2, 3);
 
-/* How fast the demo goes at one spacing. */
+/* The speed of the demo at one spacing. */
 struct pace {
     double spacing_m;
     size_t n_particles;
-    double start_seconds, frame_seconds, dispatches; /* of a frame, mean */
-    struct gpu_time stage[STAGES_MOST];              /* of a frame, mean */
+    double start_seconds, frame_seconds, dispatches; /* frame_seconds and dispatches: mean per frame */
+    struct gpu_time stage[STAGES_MOST];              /* mean per frame */
     size_t n_stages;
 };
 
@@ -49,19 +49,19 @@ struct findings {
     size_t n_rows, capacity;
     struct pace pace[PACES_MOST]; /* coarse to fine */
     size_t n_paces;
-    double seconds;     /* that passed */
-    double cpu_seconds; /* of all processors together */
+    double seconds;     /* wall-clock time */
+    double cpu_seconds; /* of all processes together */
 };
 
 void findings_free(struct findings *r);
 
-/* NULL if all rows are ok. */
+/* The first row that is not ok; NULL if all are. */
 const struct row *findings_first_wrong(const struct findings *r);
 
-/* Lines of 80 columns at most. */
+/* Adds the Markdown page, in lines of at most 80 columns. */
 MUST_USE status findings_markdown(const struct findings *r, struct text *out);
 
-/* An object; `format` is 1 until a member changes its meaning or goes. */
+/* Adds a JSON object. Its member `format` is raised whenever a member changes its meaning or is removed. */
 MUST_USE status findings_json(const struct findings *r, struct text *out);
 
 #endif

@@ -1,5 +1,5 @@
-/* Memory: the largest buffer that can be had, bound, written and read back; and how much of it at once, with nothing lying on
- * something else. */
+/* Memory checks: the largest buffer that can be allocated, bound, written and read back, and the amount that many buffers hold at once without
+ * overlapping. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 enum { AT_ONCE = 24 };
 
-/* Of what is free: of a CPU's memory, that others need too, less than of a GPU's, which may show somebody's picture. */
+/* Shares of the free memory that are tried: less of a CPU's memory, which other programs need, than of a GPU's, which may drive a display. */
 static uint64_t share(const struct selftest *t, const struct gpu *gpu)
 {
     const uint64_t free = gpu_memory_free(gpu);
@@ -18,7 +18,7 @@ static uint64_t share(const struct selftest *t, const struct gpu *gpu)
     return free / 4 < most ? free / 4 : most;
 }
 
-/* Its number at every place of a few: both ends, and around the middle. Vectors where it has more words than kernels count. */
+/* A buffer under test. Its items are vectors if it has more words than kernels can index. */
 struct piece {
     struct gpu_buffer *buffer;
     size_t n;
@@ -33,7 +33,7 @@ static status piece_make(struct gpu *gpu, uint64_t bytes, uint32_t number, struc
     return gpu_buffer_create(gpu, "selftest", out->n, item, &out->buffer);
 }
 
-/* By kernels: the ends are gathered from a few words, and back again into a few. */
+/* The tested places: both ends and around the middle. Kernels write there and gather the values back. */
 enum { PLACES = 4 };
 
 static void places_of(const struct piece *p, uint32_t at[PLACES])
@@ -47,7 +47,7 @@ static uint32_t word_at(const struct piece *p, uint32_t at)
     return 0x3f800000u | ((at ^ p->number << 12) & 0x7fffffu);
 }
 
-/* A buffer of words is written whole, by a kernel: its places hold their own numbers until the piece's are put there. */
+/* A kernel fills a buffer of words entirely with the index of each item; the test values are then written at the places. */
 static status piece_write(struct gpu *gpu, struct piece *p, struct row *row)
 {
     status st = OK;
@@ -71,7 +71,7 @@ done:
     return st;
 }
 
-/* By a kernel that binds it. */
+/* With a kernel that binds the buffer. */
 static status piece_read(struct gpu *gpu, const struct piece *p, struct row *row)
 {
     status st = OK;
@@ -95,7 +95,7 @@ done:
     return st;
 }
 
-/* One of so many bytes; *had: there was room. What is promised and free has to be there. */
+/* Allocates and tests a buffer of this size; *had: there was memory for it. It is an error if memory that is reported free cannot be had. */
 static status one_buffer(struct gpu *gpu, uint64_t bytes, struct row *row, bool *had)
 {
     status st = OK;

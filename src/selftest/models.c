@@ -1,5 +1,5 @@
-/* The models: a small job of each, run twice, resumed from half of it, and in every variant of the kernels: the same states, bit for
- * bit. And its last frame against what it was elsewhere, for a device may be wrong every time. */
+/* Model checks. A small job of each model is run twice, resumed from its middle, and run with every variant of the kernels: the states must be
+ * equal bit for bit. Its last frame is also compared with recorded numbers, since a device may be wrong in the same way every time. */
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -10,11 +10,11 @@
 #include "model/model.h"
 #include "selftest/selftest.h"
 
-/* What a run leaves. */
+/* Results of a run. */
 struct leavings {
     struct checkpoint half, end;
     struct measure measure;
-    size_t kernels; /* that ran */
+    size_t kernels; /* number of kernels that ran */
 };
 
 static void leavings_free(struct leavings *l)
@@ -41,7 +41,7 @@ done:
     return st;
 }
 
-/* To the job's last frame; the state half way, the last one, and what is measured there. `from` NULL: the start. */
+/* Runs to the job's last frame. Keeps the state in the middle, the last one and its measure. `from` NULL: from the start. */
 static status run(struct selftest *t, const struct job *job, int variant, const struct checkpoint *from,
                   struct leavings *out)
 {
@@ -68,7 +68,7 @@ done:
     return st;
 }
 
-/* One job, and what the first run of it left. */
+/* A job and the results of its first run. */
 struct trial_run {
     const struct trial *trial;
     struct job *job;
@@ -151,7 +151,7 @@ static status other_variants(struct selftest *t, const void *what, struct row *r
     static const char *const names[VARIANTS] = {"texel", "storage", "wide"};
     struct leavings again = {0};
     size_t n = 0;
-    /* Compiling a variant takes longest of all on a CPU. */
+    /* On a CPU, compiling a variant takes longer than all other checks. */
     const size_t most = t->quick ? 1 : VARIANTS;
     for (int variant = 0; variant < VARIANTS && n < most; variant++) {
         if (strcmp(names[variant], t->findings.limits.variant) == 0)
@@ -173,7 +173,7 @@ static status one_trial(struct selftest *t, const struct trial *trial)
     struct trial_run r = {.trial = trial};
     TRY(selftest_do(t, trial->name, "as recorded", first_run, &r));
     if (r.first.end.n_sections == 0)
-        goto done; /* there is nothing to compare with */
+        goto done; /* without a first run there is nothing to compare with */
     TRY(selftest_do(t, trial->name, "run again", second_run, &r));
     TRY(selftest_do(t, trial->name, "resumed", resumed_run, &r));
     TRY(selftest_do(t, trial->name, "kernel variants", other_variants, &r));

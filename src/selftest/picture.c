@@ -1,4 +1,4 @@
-/* A picture of the demo, at the size of a film's preview. */
+/* Picture check: a frame of the demo at 1920 x 1080. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "model/model.h"
 #include "selftest/selftest.h"
 
-/* Share of the picture that the demo's second frame covers, seen by its own camera at a spacing of 2 m; recorded on llvmpipe. */
+/* The share of the picture that rock covers in the demo's second frame, at a spacing of 2 m and with its own camera; recorded on llvmpipe. */
 static const double COVERED = 0.33887, TOLERANCE = 0.01;
 
 static const char *const sets[] = {"domain.spacing_m=2", "cameras.main.resolution=[1920, 1080]",
@@ -38,7 +38,7 @@ static status picture(struct selftest *t, const void *what, struct row *row)
     TRY(gpu_create(&(struct gpu_options){.device = t->device}, &gpu));
     TRY(model_create(gpu, job, NULL, &model));
     TRY(model_step(model));
-    for (int i = 0; i < 2; i++) { /* the first compiles */
+    for (int i = 0; i < 2; i++) { /* the first picture includes compiling kernels */
         TRY(selftest_stop(t));
         frame_free(&f);
         f = (struct frame){0};
@@ -47,7 +47,7 @@ static status picture(struct selftest *t, const void *what, struct row *row)
         seconds = clock_seconds() - start;
     }
     if (f.n_images != 1 || f.image[0].width != 1920 || f.image[0].height != 1080) {
-        row_wrong(row, "%zu pictures were made, of another size than was asked for", f.n_images);
+        row_wrong(row, "%zu pictures were made, or the picture does not have the requested size", f.n_images);
         goto done;
     }
     const double share = covered(&f.image[0]);

@@ -1,5 +1,5 @@
-/* Scan, sort, compaction, gathers, reductions and pointer doubling against plain C, at sizes around their groups and runs, however
- * kernels reach their buffers. */
+/* Kernel checks: scan, sort, compaction, gathers, reductions and pointer doubling against plain C, at sizes around those of workgroups and
+ * runs, in every variant of the kernels. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,7 +13,7 @@
 static const size_t sizes[] = {1, 2, 63, 64, 65, 4095, 4097, 131071, 300001};
 enum { SIZES = sizeof sizes / sizeof *sizes, KEYS = 7001, BUFFERS = 8 };
 
-/* One size on one device. Whatever is made here is freed by its owner, one_primitive(). */
+/* The data for one size on one device; one_primitive() frees it. */
 struct bench {
     struct gpu *gpu;
     struct gpu_work *work;
@@ -85,7 +85,7 @@ static status sort(struct bench *b)
     draw(b, KEYS);
     TRY(memory_alloc(b->n, sizeof *item, "the sort", &item));
     for (uint32_t i = 0; i < b->n; i++)
-        item[i] = (struct item){b->data[i], i * 2654435761u, i}; /* ids: unique, in no order */
+        item[i] = (struct item){b->data[i], i * 2654435761u, i}; /* ids: unique and unordered */
     for (size_t i = 0; i < b->n; i++)
         b->got[i] = item[i].id;
     PUT(keys, b->data, b->n, 4);
@@ -130,7 +130,7 @@ done:
     return st;
 }
 
-/* The bits of a float from 1 to 2, for which words and floats are moved alike. */
+/* Bits of floats from 1 to 2, so that words and floats hold the same values. */
 static uint32_t word(size_t i)
 {
     return 0x3f800000u | noise(i, 11) >> 9;
@@ -151,7 +151,7 @@ static status gather(struct bench *b)
     gpu_gather(b->gpu, order, vectors, to_vectors, b->n);
     for (size_t i = 0; i < b->n; i++)
         memcpy(&b->expected[4 * i], &b->got[4 * (size_t)b->data[i]], 16);
-    /* `got` is about to be written over: the words come second, from what the vectors leave. */
+    /* The words come second, from the data of the vectors, since `got` is overwritten. */
     TRY(compare(b, to_vectors, b->n, "the gather of vectors"));
     for (size_t i = 0; i < b->n; i++)
         b->expected[i] = word(b->data[i]);
@@ -177,7 +177,7 @@ static status reduce(struct bench *b)
     gpu_sum(b->gpu, b->work, values, b->n, scalars, 3);
     gpu_max(b->gpu, b->work, values, b->n, scalars, 4);
     TRY(gpu_download(b->gpu, scalars, 3, got, 2));
-    /* Floats are added in a tree, of a few hundred steps at most. */
+    /* Floats are summed in a tree, with at most a few hundred additions in sequence. */
     if (!near_number("the sum", sum, (double)got[0], 1e-4, why) ||
         !near_number("the greatest", most, (double)got[1], 0, why))
         row_wrong(b->row, "of %zu numbers with kernels of variant %s: %s", b->n, gpu_limits(b->gpu).variant,
@@ -189,7 +189,7 @@ done:
 static status doubling(struct bench *b)
 {
     status st = OK;
-    /* One long chain and a bush. */
+    /* A long chain and a random tree. */
     for (uint32_t i = 0; i < b->n; i++)
         b->data[i] = i < 3 ? i : i < b->n / 2 ? i - 1 : noise(i, 5) % i;
     PUT(pointer, b->data, b->n, 4);

@@ -70,15 +70,16 @@ static status make_folder(struct path *out)
     const char *parent = getenv("TMPDIR");
     TRY(path_join(out, parent && *parent ? parent : "/tmp", "hoodoo-selftest.XXXXXX"));
     if (!mkdtemp(out->text)) {
-        st = fail(E_OUTPUT, "%s: no temporary folder can be made: %s (TMPDIR names another place)", out->text,
-                  strerror(errno));
+        st =
+            fail(E_OUTPUT, "%s: the temporary folder cannot be created: %s (set TMPDIR to use another place)",
+                 out->text, strerror(errno));
         out->text[0] = '\0';
     }
 done:
     return st;
 }
 
-/* It holds files alone. */
+/* The folder contains only files. */
 static void remove_folder(struct path *folder)
 {
     struct path path;
@@ -117,7 +118,7 @@ status selftest_run(struct selftest *t)
     TRY(make_folder(&t->folder));
     for (size_t i = 0; i < sizeof parts / sizeof *parts && st == OK; i++)
         st = parts[i](t);
-    /* A device that is lost is a row by now. */
+    /* A lost device has already been recorded as a row. */
     if (st == E_DEVICE && findings_first_wrong(&t->findings))
         st = OK;
 done:

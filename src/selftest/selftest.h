@@ -1,8 +1,8 @@
-/* The acceptance kit: is this machine right, and how fast is it? What `hoodoo selftest` runs on a new node.
+/* Acceptance test of a machine, `hoodoo selftest`: does it compute correctly, and how fast?
  *
- * What it needs      A device, and a temporary folder, which it removes. Its jobs are in the program.
- * What it goes by    Plain C for the kernels that have such (primitives); the variants of kernels, a second run and a resumed one,
- *                    bit for bit, for the models; numbers recorded on lavapipe for what would be wrong alike every time.
+ * Needs      A device, and a temporary folder, which it removes. Its jobs are embedded in the program.
+ * Criteria   Plain C for primitives. For models: bitwise equality of a second run, a resumed run and all variants of the kernels, and
+ *            numbers recorded on lavapipe, which reveal errors that are the same in every run.
  */
 #ifndef HOODOO_SELFTEST_H
 #define HOODOO_SELFTEST_H
@@ -14,33 +14,33 @@
 struct selftest {
     const char *device; /* gpu_options */
     const char *const *
-        demo; /* the demo's job: lines, each with its end, the last NULL; its speed and its picture are taken */
+        demo; /* lines of the demo's job, each with its newline, the last one NULL; used for speed and picture */
     bool quick;
     bool (*stop)(void);
 
-    /* The rest is the kit's own. */
+    /* Private. */
     struct path folder; /* temporary */
     struct findings findings;
 };
 
-/* All checks. OK: they were made, and *t's report says what they found: selftest_end(). A check that fails is a row that is not ok;
- * once a device is lost, none follows. E_DEVICE: there is no such device. E_OUTPUT: no temporary folder. STOPPED. */
+/* Runs all checks and fills t->findings; release with selftest_end(). A failed check is a row that is not ok, not an error. After the device is
+ * lost, no further check runs. E_DEVICE: no such device. E_OUTPUT: no temporary folder. STOPPED. */
 MUST_USE status selftest_run(struct selftest *t);
 void selftest_end(struct selftest *t);
 
-/* ---- for the parts */
+/* ---- for the files of this folder */
 
-/* A check of `what`: OK, with what it found in the row. An error makes the row not ok. */
+/* A check: returns OK with its findings in *row. An error makes the row not ok. `what` is the argument of selftest_do(). */
 typedef status (*selftest_check)(struct selftest *t, const void *what, struct row *row);
 
-/* Makes it a row. Only what ends the kit is returned: E_DEVICE, E_OUTPUT, STOPPED. */
+/* Runs a check and adds its row. Returns only errors that end the self-test: E_DEVICE, E_OUTPUT, STOPPED. */
 MUST_USE status selftest_do(struct selftest *t, const char *group, const char *name, selftest_check check,
                             const void *what);
 
-/* STOPPED where a stop is wanted. */
+/* STOPPED if a stop has been requested. */
 MUST_USE status selftest_stop(const struct selftest *t);
 
-/* The job of these lines, with `sets` over it. */
+/* Loads the job of these lines with the settings `sets`. */
 MUST_USE status selftest_load(struct selftest *t, const char *const *line, const char *const *sets,
                               size_t n_sets, struct job **out);
 
@@ -50,7 +50,7 @@ MUST_USE status selftest_speed(struct selftest *t);
 MUST_USE status selftest_memory(struct selftest *t);
 MUST_USE status selftest_picture(struct selftest *t);
 
-/* The small jobs, and what their last frames were on lavapipe. */
+/* The small jobs, and the measures of their last frames on lavapipe. */
 struct trial {
     const char *name;
     const char *const *line;

@@ -1,4 +1,4 @@
-/* How fast: bytes a second of kernels that do little but read and write, and the demo's frames, as fine as time and memory allow. */
+/* Speed: bandwidth of kernels that mostly read and write, and frames of the demo at spacings as fine as time and memory allow. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,12 +12,12 @@
 
 /* ---- streams */
 
-/* Words that pass through: more than a GPU's caches hold, on a CPU as many as take a moment. */
+/* Words to transfer: more than the caches of a GPU hold; on a CPU, a number that takes little time. */
 enum { GPU_WORDS = 1 << 26, CPU_WORDS = 1 << 22, REPEATS = 5, PASSES = 4 };
 
 struct stream {
     const char *name;
-    double bytes; /* moved, an item */
+    double bytes; /* bytes moved per item */
 };
 static const struct stream streams[] = {
     {"copy", 8}, {"gather in order", 12}, {"gather at random", 12}, {"sum", 4}, {"scan", 12}};
@@ -57,7 +57,7 @@ static void streams_free(struct streams *s)
     gpu_destroy(&s->gpu);
 }
 
-/* Every item once, in no order: a power of two and an odd factor. */
+/* A permutation in irregular order: the number of items is a power of two and the factor is odd. */
 static status shuffle(struct streams *s)
 {
     status st = OK;
@@ -99,10 +99,10 @@ static status one_stream(struct selftest *t, const void *what, struct row *row)
     GPU_RUN(s.gpu, gpu_iota, s.n, k, s.order);
     if (which == GATHER_RANDOM)
         TRY(shuffle(&s));
-    for (int i = 0; i <= REPEATS; i++) { /* the first compiles */
+    for (int i = 0; i <= REPEATS; i++) { /* the first dispatch compiles the kernel */
         TRY(gpu_wait(s.gpu));
         const double start = clock_seconds();
-        for (int p = 0; p < PASSES; p++) /* so that starting them is a small part of it */
+        for (int p = 0; p < PASSES; p++) /* so many that the overhead of starting them is small */
             pass(&s, which);
         TRY(gpu_wait(s.gpu));
         least = i > 0 ? fmin(least, (clock_seconds() - start) / PASSES) : least;
@@ -183,7 +183,7 @@ done:
     return st;
 }
 
-/* E_MEMORY where it does not fit. */
+/* E_MEMORY: the demo does not fit at this spacing. */
 static status demo_fits(struct selftest *t, double spacing)
 {
     status st = OK;
@@ -202,8 +202,8 @@ done:
     return st;
 }
 
-/* Halved as long as the next is within the time: what starts and compiles takes about as long again, frames eight times and a half
- * more. */
+/* The spacing is halved as long as the next one is expected to be within the time. Starting and compiling take about as long as before, frames
+ * 8.5 times as long. */
 static status demo(struct selftest *t)
 {
     status st = OK;

@@ -1,5 +1,5 @@
-/* The small jobs. Recorded on llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6: whoever changes a model's numbers records them anew, from
- * `hoodoo selftest --json`. */
+/* The small jobs. Their numbers were recorded on llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6. After a change of a model's numbers, record them
+ * again from `hoodoo selftest --json`. */
 #include "selftest/selftest.h"
 
 static const char *const arenite[] = {
