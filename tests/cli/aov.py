@@ -1,4 +1,4 @@
-"""hoodoo aov: pictures out of a frame's files are the run's own, bit for bit; other cameras, layers, samples and mattes."""
+"""hoodoo aov: pictures made from the files of a frame equal those of the run, bit for bit; other cameras, layers, samples and mattes."""
 import os
 import subprocess
 
@@ -56,7 +56,7 @@ def as_float(bits):
     return np.array([bits], "<u4").view("<f4")[0]
 
 
-assert murmur3("hello") == 0x248BFA47  # a value everybody publishes
+assert murmur3("hello") == 0x248BFA47  # a published value
 code, _ = hoodoo("run", JOB, "--frames", "1001-1006", "--out", "own", "--progress", "none")
 check(code == 0, "a run with pictures")
 code, _ = hoodoo("run", JOB, "--frames", "1001-1006", "--out", "bare", "--progress", "none", "--set", "output.aov.cameras=[]")

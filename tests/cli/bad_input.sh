@@ -1,12 +1,12 @@
 #!/bin/sh
-# What goes wrong before and beside the simulation: the exit code of its kind, and one line that names the thing.
+# Errors before and outside the simulation: each has the exit code of its kind and one line that names the cause.
 set -u
 job=$HOODOO_TOP/tests/restart/twelve.yaml
 
-# check NAME COMMAND...: ok if the command succeeds
+# check NAME COMMAND...: ok if the command succeeds.
 . "$HOODOO_TOP/tests/lib/check.sh"
 
-# refused CODE TEXT ARGUMENT...: hoodoo exits with CODE, its last line holds TEXT, and the others are information
+# refused CODE TEXT ARGUMENT...: hoodoo exits with CODE, its last line contains TEXT, and other lines are information.
 refused() {
     want=$1
     text=$2
@@ -25,7 +25,7 @@ job_with() {
     ! cmp -s bad.yaml "$job" || echo "not ok the edit '$1' does something"
 }
 
-# line KEY[+N]: where the key stands in the job
+# line KEY[+N]: the line number of the key in the job.
 line() {
     echo $(($(grep -n "^${1%+*}:" "$job" | cut -d: -f1) + $(case $1 in *+*) echo "${1#*+}" ;; *) echo 0 ;; esac)))
 }

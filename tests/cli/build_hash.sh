@@ -1,5 +1,5 @@
 #!/bin/sh
-# The hash of a build: the same wherever it is built and whatever is said in comments, another with other flags.
+# The hash of a build is independent of its folder and of comments, and changes with compiler flags.
 set -u
 say() {
     [ "$1" = 0 ] && echo "ok - $2" || echo "not ok - $2"
@@ -8,7 +8,7 @@ mkdir top
 for part in Makefile src shaders farm render tests; do
     cp -r "$HOODOO_TOP/$part" top || exit 1
 done
-# A few objects stand for all.
+# A few object files represent all.
 hash() {
     build=$1
     shift

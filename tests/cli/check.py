@@ -1,4 +1,4 @@
-"""hoodoo check: what a supervisor would see is said before anything runs, with the place in the file; what is sound is let alone."""
+"""hoodoo check: problems that a supervisor would notice are reported before a run, with their place in the file; sound jobs have no warnings."""
 import copy
 import glob
 import json
@@ -36,7 +36,7 @@ def check(job, *options):
     return code, json.loads(said) if said.lstrip().startswith("[") else said
 
 
-# What was edited, the key that is named, words of the sentence.
+# The edited key, its value, the key in the warning, and a part of its text.
 SURPRISES = [
     ("domain/size_m", [20, 30, 30], "domain.size_m", "cut off"),
     ("scene", {"box": {"min_m": [-20, 8, 0], "max_m": [32, 22, 24]}}, "domain.size_m", "cut off"),
@@ -71,7 +71,7 @@ ok(code == 0 and {"wind", "rain"} <= {w["key"] for w in found}, "goblins have no
 
 
 def obj(name, *boxes):
-    """Boxes as closed meshes, each lo, hi and whether it is turned inside out."""
+    """Writes boxes as closed meshes, each given by lo, hi and whether it is inside out."""
     with open(name, "w") as file:
         for i, (lo, hi, inner) in enumerate(boxes):
             for corner in range(8):
@@ -80,7 +80,7 @@ def obj(name, *boxes):
                 file.write("f %s\n" % " ".join(str(8 * i + v) for v in (reversed(face) if inner else face)))
 
 
-# What files hold, by their own measure and as they are sampled.
+# The volume of a mesh or grid by its own measure, and as sampled.
 OUTER, INNER = ((8, 8, 0), (32, 22, 24)), ((12, 12, 4), (28, 18, 20))
 obj("solid.obj", (*OUTER, False))
 obj("hollow.obj", (*OUTER, False), (*INNER, True))
@@ -108,12 +108,12 @@ code, said = check(GOOD, "--strict")
 ok(code == 0, "nor with --strict", said)
 code, said = hoodoo("check", "job.json", "--set", "domain.size_m=[20, 30, 30]", "--strict")
 ok(code == 2 and "cut off" in said, "--strict makes a warning an error", code, said)
-# What loading refuses, check does, too, and what nothing stands of.
+# check also refuses what loading refuses, and scenes without supported rock.
 for job, words in [(edited("cameras/Main", GOOD["cameras"]["main"]), "case alone"), (edited("wind", {"sped_m_s": 3}), "speed_m_s"), (edited("scene", {"box": {"min_m": [8, 8, 5], "max_m": [32, 22, 24]}}), "ground"),
                    (edited("scene", {"box": {"min_m": [100, 8, 0], "max_m": [132, 22, 24]}}), "no rock")]:
     code, said = check(job)
     ok(code == 2 and words in str(said), f"refused: {words}", code, said)
-# A job that is a link finds its files beside itself, and else beside the job it is a link to.
+# A job that is a link finds its files beside the link, or else beside its target.
 os.makedirs("shot/real", exist_ok=True)
 obj("shot/real/rock.obj", (*OUTER, False))
 with open("shot/real/linked.json", "w") as file:

@@ -1,5 +1,5 @@
 #!/bin/sh
-# status, verify and inspect on the folder of a small run, whole and then damaged.
+# status, verify and inspect on the folder of a small run, first complete and then damaged.
 set -u
 . "$HOODOO_TOP/tests/lib/check.sh"
 

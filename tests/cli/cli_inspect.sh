@@ -1,5 +1,5 @@
 #!/bin/sh
-# inspect on JSON files: the same content in words and as JSON. (Checkpoints, VDB and EXR files need a run.)
+# inspect on JSON files: the same content as text and as JSON. (Checkpoints, VDB and EXR files need a run.)
 set -u
 . "$HOODOO_TOP/tests/lib/check.sh"
 

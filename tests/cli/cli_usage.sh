@@ -1,9 +1,9 @@
 #!/bin/sh
-# What the command line says about itself, and to whoever gets it wrong.
+# Help texts, and messages about wrong command lines.
 set -u
 VERBS="run check new keys plan submit status verify mesh preview inspect devices selftest"
 
-# check NAME COMMAND...: ok if the command succeeds
+# check NAME COMMAND...: ok if the command succeeds.
 . "$HOODOO_TOP/tests/lib/check.sh"
 
 # says CODE COMMAND...: runs hoodoo; true if it exits with CODE

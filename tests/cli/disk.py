@@ -1,5 +1,5 @@
-"""`hoodoo plan` says what a run takes on disk: within a factor of 1.5 of what is written, for every way of writing it, and no
-key moves it the wrong way."""
+"""`hoodoo plan` predicts the disk space of a run within a factor of 1.5 for all output settings, and every key changes the prediction in the
+right direction."""
 import json
 import os
 import subprocess
@@ -25,7 +25,7 @@ def hoodoo(*words):
 
 
 JOB = os.path.join(TOP, "tests/restart/twelve.yaml")
-# The run of which frames are planned must be the job's: another name for fewer frames.
+# Planned and run jobs must be the same, so a run of fewer frames has another name.
 with open(JOB) as file:
     text = file.read().replace("1001-1012", "1001-1004").replace("spacing_m: 0.5", "spacing_m: 0.3").replace("[96, 54]", "[240, 135]")
 with open("job.yaml", "w") as file:
@@ -52,7 +52,7 @@ def kind(path):
 
 
 def measure(name, job, sets):
-    """Planned and written bytes, in all and by kind."""
+    """Planned and written bytes, in total and by kind."""
     words = [w for s in sets for w in ("--set", s)]
     plan = json.loads(hoodoo("plan", job, "--rehearse", "0", "--json", *words))
     hoodoo("run", job, "--out", name, "--progress", "none", *words)
@@ -66,7 +66,7 @@ def measure(name, job, sets):
 
 
 V = "output.vdb."
-VARIANTS = {  # what is set, and the kinds it makes smaller (-) or larger (+) than `plain`
+VARIANTS = {  # the setting, and the kinds that it makes smaller (-) or larger (+) than in `plain`
     "plain": ([], {}),
     "16 bit": ([V + "precision=16bit"], {"points": -1}),
     "uncompressed": ([V + "codec=none"], {"points": 1, "volumes": 1}),

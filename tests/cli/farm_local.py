@@ -1,4 +1,4 @@
-"""submit --to local: dependencies, failures, stops, wedges, hostile names: and the files are those of `hoodoo run` alone."""
+"""submit --to local: dependencies, failures, stops, wedges and hostile names; the files equal those of `hoodoo run`."""
 
 import json
 import os
@@ -53,7 +53,7 @@ ok(code == 0 and status["tasks_done"] == status["task_count"] and [w["done"] for
 code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--out", "two", "--set", "wind.abrasion=0.9")
 ok(code == 7 and "holds another job" in said and "w0001" in said, "another job is refused the folder before anything starts", code, said)
 
-# A failure that passes, one that does not, and what it takes along.
+# A temporary failure, a permanent one, and the tasks that depend on it.
 os.makedirs("fails")
 open("fails/mesh", "w").close()
 code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "1", "--out", "fails")
@@ -65,7 +65,7 @@ ok(code == 0 and "sim." not in "".join(l for l in said.splitlines() if "started"
    "with its cause gone the same command does what is left", code, said)
 
 
-# Stopped at any moment, by any signal, and gone on.
+# Stopped at any moment by any signal, then resumed.
 def stop_after(out, frames, number, times=1, group=False):
     child = subprocess.Popen([HOODOO, "submit", "plain.yaml", "--to", "local", "--workers", "2", "--out", out], stdout=subprocess.PIPE,
                              stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, start_new_session=True)
@@ -86,14 +86,14 @@ for frames, number, times in ((1, signal.SIGTERM, 1), (4, signal.SIGINT, 3), (7,
     ok(code == 85 and "run the same command again" in said and not os.path.exists("halted/lock"),
        f"{signal.Signals(number).name} after {frames} frames: everything saved, exit 85", code, said)
 code, said = stop_after("halted", 9, signal.SIGKILL)
-time.sleep(3)  # its children are told, and save
+time.sleep(3)  # its children receive the signal and save
 left = []
 for pid in filter(str.isdigit, os.listdir("/proc")):
     try:
         with open(f"/proc/{pid}/cmdline", "rb") as f:
             line = f.read()
     except OSError:
-        continue  # it has ended meanwhile
+        continue  # the run has ended meanwhile
     if b"halted" in line and b"run\0" in line:
         left.append(pid)
 ok(code == -signal.SIGKILL and not left, "killed: its children do not stay", code, left)
@@ -104,7 +104,7 @@ with open("halted/log/run.log") as f:
     times = re.findall(r" frame (\d+), \d+/", f.read())
 ok(sorted(set(times)) == [str(n) for n in range(1001, 1013)] and len(times) <= 13, "no frame was written twice, but where it was killed", times)
 
-# Names that mean harm: two folders that are worked in, more that are only handed on.
+# Hostile names: two as working folders, others only passed on.
 NAMES = ("it's $(touch pwned) `touch pwned`\nopenjd_env: A=B\n", "-rf é岩 ;touch pwned %j\\%A", "..", "two words", "{{Param.X}}", "*")
 for i, name in enumerate(NAMES):
     out = os.path.join(f"names{i}", name, "deep")

@@ -1,5 +1,5 @@
-"""A frame that writes nothing is not drawn either: of a job that writes every third frame, every model spends its device time on what
-is written alone. What it does write, and what manifests say of the rock in every frame, are as if all had been written."""
+"""Frames without files are not sampled: when a job writes every third frame, all models sample and render only those. Written files, and the
+statistics in all manifests, equal those of a job that writes every frame."""
 import hashlib
 import json
 import os
@@ -9,7 +9,7 @@ import sys
 TOP, HOODOO = os.environ["HOODOO_TOP"], os.environ["HOODOO"]
 FRAMES = range(1, 8)  # 1, 4 and 7 have files
 FEWER = ["output.vdb.every=3", "output.aov.every=3"]
-SHOWING = {"field", "pictures"}  # stages that nothing but files needs
+SHOWING = {"field", "pictures"}  # stages that only files need
 failures = 0
 
 
@@ -20,7 +20,7 @@ def ok(good, name, *notes):
 
 
 def job(name, text):
-    """The job, of these frames and with a picture."""
+    """The job with these frames and a picture."""
     lines = [line for line in text.split("\n") if not line.startswith("frames:")]
     with open(name + ".yaml", "w") as file:
         file.write("\n".join(lines) + f"\nframes: {FRAMES[0]}-{FRAMES[-1]}\n")
@@ -49,7 +49,7 @@ def manifest(out, name, frame):
 
 
 def measures(m):
-    """All but its files, and how long its stress took: a goblin's is for showing alone."""
+    """The manifest without files and stress iterations (in Goblins, stress is computed for display only)."""
     told = {key: value for key, value in m.items() if key not in ("files", "output_xxh3", "self_xxh3")}
     told["statistics"] = {key: value for key, value in m["statistics"].items() if key != "stress_iterations"}
     return told

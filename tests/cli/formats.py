@@ -1,5 +1,5 @@
-"""Files that releases have left (tests/formats/VERSION): checkpoints are gone on from, manifests, records, stacks and jobs are read. What a
-later release can no longer load it has to refuse in one sentence, which this then asks for."""
+"""Files of earlier releases (tests/formats/VERSION): runs continue from checkpoints, and manifests, records, stacks and jobs can be read. A file
+that a later release can no longer load must be refused with a clear message, which this test then expects."""
 
 import json
 import os
@@ -18,7 +18,7 @@ ANY = ("--resume", "other-device-and-build", "--progress", "none")
 
 
 def read_as_written_down(version, model, out):
-    """The formats' pages are enough to read what this hoodoo and that release wrote."""
+    """A reader written from the pages about formats reads the files of this build and of that release."""
     try:
         for number in sorted(int(name.split(".")[-2]) for name in os.listdir(f"{out}/checkpoint") if name.endswith(".ckpt")):
             index, sections = read_formats.checkpoint(f"{out}/checkpoint/{model}.{number:04d}.ckpt")
@@ -41,7 +41,7 @@ def read_as_written_down(version, model, out):
 
 
 def continued(version, model):
-    """From the checkpoint of frame 1, in a folder that has lost its frames' files."""
+    """Continues from the checkpoint of frame 1 in a folder without the files of its frames."""
     kept, out = os.path.join(FORMATS, version, model), f"{version}.{model}"
     shutil.copytree(kept, out)
     code, said = hoodoo("inspect", f"{out}/checkpoint/{model}.0001.ckpt", "--json")

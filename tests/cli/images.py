@@ -1,6 +1,6 @@
-"""Pictures from other programs: the faults of tests/inputs/README.md, each with a file that is made here, of a few hundred bytes. How much rock
-there is says what was read: plan counts the voxels of a small domain exactly, and one that holds only a corner of the picture tells
-how it was turned."""
+"""Images of other programs: the defects of tests/inputs/README.md, each in a file of a few hundred bytes that is made here. The number of
+voxels that plan counts in a small domain shows what was read, and a domain that contains only a corner of the image shows how it was
+rotated."""
 
 import json
 import os
@@ -14,13 +14,13 @@ import OpenImageIO as oiio
 sys.dont_write_bytecode = True
 from script import *
 
-# Heights in metres of the quarters of a picture, as they are seen: 8 x 8 pixels each, so that a corner of 4 x 4 is level.
+# Heights (m) of the four quarters of the image as seen, 8 x 8 pixels each, so that a corner of 4 x 4 pixels is level.
 TOP_LEFT, TOP_RIGHT, LEFT, RIGHT = 1, 3, 5, 9
 QUARTERS = numpy.kron(numpy.array([[TOP_LEFT, TOP_RIGHT], [LEFT, RIGHT]]), numpy.ones((8, 8)))
 LEVEL = numpy.full((16, 16), 5.0)
 EXTENT = {"min_m": [0, 0, 0], "max_m": [16, 16, 1]}
 METRES = {**EXTENT, "scale_m": 1}
-CORNER = [4, 4, 16]  # the domain that holds the picture's left bottom corner
+CORNER = [4, 4, 16]  # a domain that contains the bottom left corner of the image
 UTM = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 32616]
 POINTS = [*UTM[:11], 2, *UTM[12:]]
 DEGREES = [1, 1, 0, 2, 1024, 0, 1, 2, 2048, 0, 1, 4326]
@@ -30,7 +30,7 @@ GEO_SCALE, GEO_TIE, GEO_KEYS, GDAL_META, GDAL_NODATA = 33550, 33922, 34735, 4211
 # ---- files
 
 def tiff(path, pixels, tags={}, bits=None, mask=None):
-    """An uncompressed TIFF with whatever tags: {number: text, or numbers (floats are doubles)}. `mask`: a second picture, of its kind."""
+    """Writes an uncompressed TIFF with any tags, {number: text or numbers (floats become doubles)}. `mask`: a second image, marked as a mask."""
     parts = [(pixels, dict(tags), bits)] + ([(mask, {254: [4], 262: [4]}, None)] if mask is not None else [])
     out = bytearray(struct.pack("<2sHI", b"II", 42, 8))
     for i, (a, more, depth) in enumerate(parts):
@@ -68,7 +68,7 @@ def tiff(path, pixels, tags={}, bits=None, mask=None):
 
 
 def picture(path, *parts, part_names=None, **attributes):
-    """With OpenImageIO. A part: pixels (rows, columns, channels), channel names, data window's x and y, display window."""
+    """Writes an EXR with OpenImageIO. Each part is pixels (rows, columns, channels), channel names, x and y of the data window, display window."""
     specs = []
     for pixels, names, x, y, window in parts:
         kind = {"f": oiio.FLOAT, "u": {1: oiio.UINT8, 2: oiio.UINT16}.get(pixels.dtype.itemsize, oiio.UINT32)}[pixels.dtype.kind]
@@ -102,7 +102,7 @@ def exr(path, pixels, x=0, y=0, window=None, names=["Y"]):
 
 
 def with_exif(path, orientation):
-    """Puts an eXIf chunk behind a PNG's head."""
+    """Inserts an eXIf chunk after the header of a PNG."""
     import zlib
 
     body = b"eXIf" + struct.pack(">2sHIHHHII", b"MM", 42, 8, 1, 274, 3, 1, orientation << 16) + b"\0\0\0\0"
@@ -112,7 +112,7 @@ def with_exif(path, orientation):
         file.write(png[:33] + struct.pack(">I", len(body) - 4) + body + struct.pack(">I", zlib.crc32(body)) + png[33:])
 
 
-# ---- what comes of them
+# ---- cases
 
 tried = set()
 
@@ -127,7 +127,7 @@ def plan(file, keys, domain, shape="heightfield", **more):
 
 
 def case(name, file, keys, wanted, says=None, domain=[16, 16, 16], fault=None, never=None, **more):
-    """`wanted`: voxels of rock; or the exit code of a refusal, negative. `says`: what stands in the log or the refusal, as `never` does not."""
+    """`wanted`: voxels of rock, or the negative exit code of a refusal. The log or refusal must contain `says` and must not contain `never`."""
     tried.add((fault or name).split(",")[0])
     code, voxels, said = plan(file, keys, domain, **more)
     good = code == -wanted if wanted < 0 else code == 0 and voxels == wanted
@@ -135,7 +135,7 @@ def case(name, file, keys, wanted, says=None, domain=[16, 16, 16], fault=None, n
        said[-1500:])
 
 
-# Windows of EXR: 16 x 16 pixels, of which the quarter on the bottom left is 5 m and the rest is black.
+# Windows of EXR: 16 x 16 pixels; the bottom left quarter is 5 m, the other quarters are black.
 quarter = numpy.where(QUARTERS == LEFT, 5.0, 0.0)
 exr("full.exr", quarter)
 _, full, _ = plan("full.exr", EXTENT, [16, 16, 16])
@@ -169,10 +169,10 @@ tiff("alpha.tif", bands, {262: [2], 338: [0, 0, 2]})
 case("alpha", "alpha.tif", {**METRES, "nodata": "empty"}, (256 - 20) * 5)
 case("alpha, ignored", "alpha.tif", {**METRES, "alpha": "ignore"}, 256 * 5, fault="alpha")
 
-# How a picture is to be turned: what is stored so that orientation 6, a quarter to the right, shows the quarters.
+# Orientation: the stored pixels that show the quarters after orientation 6, a rotation by 90 degrees clockwise.
 stored_for_6 = numpy.rot90(QUARTERS)
 tiff("turned.tif", f32(numpy.ascontiguousarray(stored_for_6)), {274: [6]})
-case("orientation", "turned.tif", METRES, 16 * LEFT, domain=CORNER)  # all eight: unit/test_scene_image
+case("orientation", "turned.tif", METRES, 16 * LEFT, domain=CORNER)  # unit/test_scene_image tests all eight
 grey = (stored_for_6 * 20).astype("uint8")[:, :, None]
 whole = (0, 0, 16, 16)
 picture("turned.jpg", (numpy.ascontiguousarray(numpy.kron(grey[:, :, 0], numpy.ones((2, 2), "uint8"))[:, :, None]), ["Y"], 0, 0, (0, 0, 32, 32)), Orientation=6)
@@ -242,7 +242,7 @@ with open("odd.pgm", "wb") as file:
     file.write(b"P5\n# 1 2 3\n16 16\n1000\n" + numpy.full(256, 405, ">u2").tobytes())
 case("pgm-16-bits", "odd.pgm", {**METRES, "offset_m": -400}, 256 * 5)
 
-# What only GDAL reads.
+# Formats that only GDAL reads.
 with open("grid.asc", "w") as file:
     file.write("ncols 16\nnrows 16\nxllcorner 500000\nyllcorner 4000000\ncellsize 1\nNODATA_value -9999\n")
     file.writelines(" ".join(f"{v:g}" for v in row) + "\n" for row in gap)
@@ -262,7 +262,7 @@ else:
     tried |= {"asc-grid", "hgt-void"}
     ok(True, "grids of GDAL # skip gdal_translate is not installed")
 
-# Masks: alpha and what has no value paint nothing.
+# Masks: transparent pixels and pixels without data paint nothing.
 half = numpy.stack([numpy.full((16, 16), 255), numpy.where(QUARTERS == LEFT, 255, 0)], 2).astype("uint8")
 picture("half.png", (numpy.ascontiguousarray(half), ["Y", "A"], 0, 0, whole))
 case("mask-alpha", "half.png", {"min_m": [0, 0, 0], "max_m": [16, 16, 5]}, 8 * 8 * 5, shape="jointmap")

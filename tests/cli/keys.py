@@ -1,4 +1,4 @@
-"""Keys at the terminal, jobs to begin with, and the schema that editors check jobs by."""
+"""hoodoo keys, hoodoo new, and the JSON Schema for editors."""
 import glob
 import json
 import os
@@ -15,7 +15,7 @@ pages = {what: hoodoo("keys", what) for what in ("wind", "wind.flow", "strata", 
 ok(all(c == 0 for c, _ in pages.values()), "every section has a page", {w: c for w, (c, _) in pages.items()})
 wide = [line for _, text in pages.values() for line in (text + all_of_them).splitlines() if len(line) > 80]
 ok(not wide, "no line is longer than 80 columns", *wide)
-# What a page names can be asked for, in the form in which it is named.
+# Every name in the output can be given to the command in the same form.
 paths = sorted({line for _, text in pages.values() for line in text.splitlines() if re.fullmatch(r"[a-z]+(\.[A-Za-z0-9_]+)+", line)})
 bad = [p for p in paths if hoodoo("keys", p)[1].splitlines()[0] != p]
 ok(len(paths) > 50 and not bad, f"{len(paths)} keys of those pages, one by one", bad)

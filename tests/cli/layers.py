@@ -1,5 +1,5 @@
-"""Pictures as other programs read them: OpenEXR's and OpenImageIO's tools name what README lists, Nuke's way of splitting channel
-names gives those layers in both layouts, and Cryptomattes decode by their specification to the ids' own pictures."""
+"""EXR files as other programs read them: the tools of OpenEXR and OpenImageIO list the documented layers, Nuke's rule for splitting channel
+names gives the same layers in both layouts, and Cryptomattes decode by their specification to the id pictures."""
 import json
 import os
 import re
@@ -27,7 +27,7 @@ def tool(*words):
     return done.returncode, done.stdout + done.stderr
 
 
-# What README and DESIGN say, layer by layer.
+# The documented layers and their channels.
 LAYERS = {"rgba": "R G B A", "depth": "Z", "N": "X Y Z", "P": "X Y Z", "stress": "trace von_mises", "viability": "Y", "erodibility": "Y",
           "discharge": "Y", "wind": "speed", "vegetation": "Y", "layer": "id", "phase": "id"}
 MATTES = {f"{kind}{rank:02d}": "R G B A" for kind in ("CryptoStrata", "CryptoPhase") for rank in range(3)}
@@ -35,8 +35,8 @@ FULL = [c if layer in ("rgba", "depth") else f"{layer}.{c}" for layer, names in 
 
 
 def nuke(channel):
-    """Layer and channel, as the Foundry's ExrChannelNameToNuke splits names: at dots, into three pieces at most, of letters, digits
-    and _, without digits in front; the last piece is the channel, those before it the layer. Colours have their long names."""
+    """Layer and channel by the rule of the Foundry's ExrChannelNameToNuke: a name is split at dots into at most three parts of letters,
+    digits and _, without leading digits; the last part is the channel and the others are the layer. Colours get their long names."""
     pieces = [re.sub("[^0-9A-Za-z]", "_", p.lstrip("0123456789")) for p in channel.split(".")]
     pieces = [p for p in pieces if p]
     if len(pieces) > 3:
@@ -80,7 +80,7 @@ assert murmur3("hello") == 0x248BFA47 and murmur3("abc") == 0xB3DD93FA  # publis
 
 
 def as_float(name):
-    """uint32_to_float32: an exponent of all zeros or all ones is moved off it."""
+    """uint32_to_float32: exponents of all zeros or all ones are changed."""
     bits = murmur3(name)
     if bits >> 23 & 255 in (0, 255):
         bits ^= 1 << 23
@@ -88,7 +88,7 @@ def as_float(name):
 
 
 def mattes(attributes):
-    """{name of the matte: names in its manifest}, from the metadata alone; whatever is not as specified raises."""
+    """{name of the matte: names in its manifest}, from the metadata. Raises on any deviation from the specification."""
     found = {}
     for key, value in attributes.items():
         m = re.fullmatch("cryptomatte/([0-9a-f]{7})/name", key)
@@ -105,7 +105,7 @@ def mattes(attributes):
 
 
 def coverage(planes, matte, name):
-    """What the pixels have of a name: ranks are pairs of id and coverage in RG and BA of matte00, matte01, ..."""
+    """The coverage of a name per pixel: ranks are pairs of id and coverage in RG and BA of matte00, matte01, ..."""
     wanted, total, rank = np.float32(as_float(name)), 0, 0
     while f"{matte}{rank:02d}.R" in planes:
         for i, c in (("R", "G"), ("B", "A")):
@@ -119,7 +119,7 @@ for layout in ("multi", "single"):
                       "output.aov.layout=" + layout, "--set", "output.aov.cryptomatte=true")
     check(code == 0, f"{layout}: a run", said)
     path = f"{layout}/aov/twelve.1004.exr"
-    # a part's name goes before its channels' in oiiotool's and exrheader's lists
+    # oiiotool and exrheader prefix channel names with the name of the part
     for words in (("oiiotool", "--info", "-v", "-a", path), ("exrheader", path), ("exrinfo", "-v", path)):
         code, said = tool(*words)
         if words[0] == "exrinfo": # OpenEXR 3.1.5's exits with a number that it never sets (valgrind); its words count

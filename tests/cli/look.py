@@ -1,5 +1,5 @@
-"""hoodoo look: a picture in seconds. What a change leaves alone is taken from the states that are kept, and nothing comes out otherwise
-than from the start; --watch looks again at each save; nothing wrong passes silently."""
+"""hoodoo look: a picture in seconds. Frames before a change come from cached states, with the same result as from the start; --watch draws
+again at each save; errors are reported."""
 import atexit
 import glob
 import http.client
@@ -27,7 +27,7 @@ def png_size(path):
     return struct.unpack(">II", head[16:24]) if head[:8] == b"\x89PNG\r\n\x1a\n" else None
 
 
-# Compiled kernels stay where they are, for they cost seconds; states have folders of their own.
+# Compiled kernels are shared, since they cost seconds; states have separate folders.
 KERNELS = os.environ.get("HOODOO_CACHE") or os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "hoodoo")
 
 
@@ -42,7 +42,7 @@ def states(cache):
 
 
 def look(job, *words, cache="kept"):
-    """Exit code, and what it says as JSON, or in words."""
+    """Exit code and output, parsed if it is JSON."""
     code, said = hoodoo("look", job, "--json", "--progress", "none", "--no-slate", *words, env=with_cache(cache))
     lines = [line for line in said.splitlines() if line.startswith("{")]
     return code, json.loads(lines[-1]) if lines else said
@@ -53,10 +53,10 @@ def write(text, path="edits.yaml"):
         file.write(text)
 
 
-# ---- what a change leaves alone
+# ---- states before a change
 
 def changed(job, first, what, *words, compare=True):
-    """Looks at the changed job with the states kept so far: it begins at `first`, and ends as from the start."""
+    """Looks at the changed job with the states cached so far: it must start at `first` and give the same result as from the start."""
     code, made = look(job, "--out", "kept.png", *words)
     if not ok(code == 0 and isinstance(made, dict), f"{what}: a picture comes", made):
         return
@@ -98,13 +98,13 @@ write(EDITS)
 code, made = look("edits.yaml", "--frame", "1005")
 ok(code == 0 and made["from_frame"] == 1005 and made["frame"] == 1005, "another frame of the same job is there already", made)
 
-# A state that was cut short is none.
+# A truncated state is ignored.
 for path in glob.glob("kept/hoodoo/look/*.state"):
     cut_half(path)
 changed("edits.yaml", 1001, "states that were cut short", compare=False)
 shutil.rmtree("kept")
 
-# The other models: a tool's last frame, a rate's last key.
+# Other models: the last frame of a tool, the last key of a rate.
 CAVE = open(f"{TOP}/jobs/arches_cave.yaml").read()
 write(CAVE, "cave.yaml")
 size = ("--spacing", "4")
@@ -119,7 +119,7 @@ code, made = look("goblin.yaml")
 ok(code == 0, "goblins: a look", made)
 changed("goblin.yaml", made["frame"], "goblins: the same from the start")
 
-# ---- how it is looked at
+# ---- options of the picture
 
 write(EDITS)
 for words, what in [(("--camera", "30,20"), "a direction"), (("--show", "stress"), "a value"), (("--figure",), "a figure"), (("--gizmos", "none"), "no lines"), (("--gizmos", "all"), "all lines")]:
@@ -155,7 +155,7 @@ ok("fresh" in os.listdir("."), "the folder is ours")
 code, made = look("edits.yaml", cache="edits.yaml/no")
 ok(code == 0, "a cache that cannot be is done without", made)
 
-# ---- at each save
+# ---- --watch
 
 watching = subprocess.Popen([HOODOO, "look", "edits.yaml", "--watch", "--json", "--no-slate", "--progress", "none"], stdout=subprocess.PIPE, stderr=open("said", "w"),
                             text=True, env=with_cache("kept"))
@@ -174,7 +174,7 @@ ok(json.loads(watching.stdout.readline())["from_frame"] == 1010, "--watch: and w
 watching.send_signal(signal.SIGINT)
 ok(watching.wait(timeout=60) == 0, "--watch: ends cleanly")
 
-# ---- the page
+# ---- --serve
 
 
 def fetch(path, method="GET", host=None, **query):
@@ -186,13 +186,13 @@ def fetch(path, method="GET", host=None, **query):
 
 
 def raw(text):
-    """The first line of what comes back on these bytes; "" if nothing does."""
+    """The first line of the answer to these bytes; "" without an answer."""
     try:
         with socket.create_connection(server, timeout=30) as s:
             s.sendall(text)
             s.shutdown(socket.SHUT_WR)
             return s.recv(1000).decode("latin-1").split("\r\n")[0]
-    except OSError:  # it is closed as soon as it makes no sense
+    except OSError:  # the server closes the connection on a malformed request
         return ""
 
 

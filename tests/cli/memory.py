@@ -1,5 +1,5 @@
-"""`hoodoo plan` says what a run takes of memory, within 15 %, and a run that will not find it says so before its first frame:
-whatever the control group, and at once where nothing is left."""
+"""`hoodoo plan` predicts the memory of a run within 15 %. A run without enough memory is refused before its first frame, within any control
+group, and immediately if no memory is left."""
 import json
 import os
 import re
@@ -31,7 +31,7 @@ with open("large.yaml", "w") as file:
 
 
 def refused(what, shell, text):
-    """`shell` runs hoodoo, which must say `text` in one line and exit with 5, soon."""
+    """`shell` runs hoodoo, which must print one line with `text` and exit with 5 quickly."""
     start = time.monotonic()
     try:
         done = subprocess.run(["sh", "-c", shell, "sh", HOODOO], capture_output=True, text=True, timeout=120)
@@ -43,7 +43,7 @@ def refused(what, shell, text):
     check(good, f"{what} ({time.monotonic() - start:.1f} s)" + ("" if good else f": exit {done.returncode}: {done.stderr.strip()}"))
 
 
-# Nothing is left: a folder of ours over the machine's groups says so.
+# No memory is left: a tmpfs mounted over the control groups says so.
 FULL = """mount -t tmpfs tmpfs /sys/fs/cgroup && echo 8589934592 >/sys/fs/cgroup/memory.max &&
 echo 8589934592 >/sys/fs/cgroup/memory.current && exec "$1" run tiny.yaml --out nothing --progress none"""
 can_mount = os.geteuid() == 0 and subprocess.run(["unshare", "-m", "mount", "-t", "tmpfs", "tmpfs", "/sys/fs/cgroup"],
@@ -65,7 +65,7 @@ if group:
         check(0 < plan["host_free_bytes"] <= LIMIT and not plan["fits_in_memory"], f"a plan knows its control group's limit: {plan['host_free_bytes'] / 1e6:.0f} MB")
         refused("a run does not begin what its control group will end", enter + 'exec "$1" run large.yaml --out limited --progress none',
                 r"domain\.spacing_m: [0-9.]+ would fit$")
-        # What a file of the group's leaves in the page cache is not used up.
+        # Page cache of files that the group has read counts as free.
         with open("ballast", "wb") as file:
             file.write(b"\0" * 1_000_000)
         ballast = enter + 'dd if=/dev/zero of=ballast bs=1M count=300 conv=fsync 2>/dev/null; exec "$1" plan tiny.yaml --rehearse 0 --json'
@@ -77,7 +77,7 @@ else:
     print("ok a control group's limit # skipped: no group can be made here")
 shutil.rmtree("limited", ignore_errors=True)
 
-# A group in which a frame and the one before it do not fit, but either does: they take turns.
+# A group in which one frame fits but not two: each frame is written before the next is made.
 words = [f"{JOBS}/arches_cave.yaml", "--set", "domain.spacing_m=0.75"]
 plan = json.loads(subprocess.run([HOODOO, "plan", *words, "--rehearse", "0", "--json"], stdout=subprocess.PIPE, check=True).stdout)
 group = peak.make_group(int(0.8 * sum(plan[part + "_bytes"] for part in ("device", "host", "process"))))
@@ -88,7 +88,7 @@ if group:
     check(code == 0 and "memory holds one frame" in log, f"two frames take turns: {most / 1e6:.0f} MB" + (f": {said}" if code else ""))
 shutil.rmtree("turns", ignore_errors=True)
 
-# The same by output.memory_GB, whatever there is of memory; what is too little for one frame is refused with what would do.
+# The same with output.memory_GB, whatever the free memory; a limit below one frame is refused with the amount that would do.
 both = [plan["host_bytes"], plan["host_bytes"] // 10]
 said = subprocess.run([HOODOO, "run", *words, "--out", "turns", "--set", f"output.memory_GB={both[1] / 1e9:g}"], capture_output=True, text=True)
 would = re.search(r"output\.memory_GB: ([0-9.]+) would do", said.stderr)

@@ -1,5 +1,5 @@
-"""hoodoo mesh: what CGAL says of its meshes (closed, manifold, outwards, nothing crosses), their volume against the level
-set's, what they carry, and the same in PLY and OBJ; on frames of every kind, and on fields that are hard to mesh."""
+"""hoodoo mesh: meshes are closed, manifold, oriented outwards and free of self-intersections by CGAL's judgement; their volume equals that of
+the level set; PLY and OBJ carry the same values. On frames of every kind, and on fields that are hard to mesh."""
 import json
 import os
 import shutil
@@ -27,7 +27,7 @@ def hoodoo(*words):
 
 
 def read_ply(path):
-    """The vertices' properties by name, and the faces; nothing may follow them."""
+    """The properties of the vertices by name, and the faces; nothing may follow them in the file."""
     kinds = {"float": "<f4", "int": "<i4", "uchar": "u1"}
     raw = open(path, "rb").read()
     end = raw.index(b"end_header\n") + len(b"end_header\n")
@@ -54,7 +54,7 @@ def is_whole(said):
 
 
 def level_set(path):
-    """The grid `surface` as an array, its voxel and the world place of its first sample."""
+    """The grid `surface` as an array, its voxel size, and the position of its first sample in the world."""
     grid = pyopenvdb.read(path, "surface")
     lo, hi = grid.evalActiveVoxelBoundingBox()
     lo, hi = np.array(lo) - 1, np.array(hi) + 1
@@ -64,7 +64,7 @@ def level_set(path):
 
 
 def level_set_volume(path, fine=6):
-    """Space where the trilinear field is negative, by fine^3 samples a voxel."""
+    """The volume where the trilinear field is negative, by fine^3 samples per voxel."""
     value, voxel, _ = level_set(path)
     n, inside = np.array(value.shape) - 1, 0
     t = (np.arange(fine) + 0.5) / fine
@@ -78,7 +78,7 @@ def level_set_volume(path, fine=6):
 
 
 def meshes(out, frame, name, *words, near=0.01):
-    """Meshes one frame and checks what every mesh must be. Returns its vertices and faces. `near`: its share of volume."""
+    """Meshes one frame and checks the properties of every mesh. Returns vertices and faces. `near`: the tolerance of the volume."""
     code, said = hoodoo("mesh", out, "--frames", str(frame), *words)
     path = f"{out}/mesh/{name}.{frame}.ply"
     if code:
@@ -138,7 +138,7 @@ height = places(vertex)[:, 1]
 check((vertex["layer"] == (height >= 6)).all(), "without points layers go by height")
 
 
-# ---- a frame of the demo: what is left of triangles, where it is, and what smoothing keeps
+# ---- a frame of the demo: number and position of triangles, and what smoothing preserves
 code, said = hoodoo("run", os.path.join(TOP, "jobs/demo.yaml"), "--out", "demo", "--frames", "1001-1016", "--set", "domain.spacing_m=1",
                     "--set", "clock.years_per_frame=3000", "--set", "wind.flow.solver=uniform", "--progress", "none")
 check(code == 0, f"the demo runs {said if code else ''}")
@@ -150,7 +150,7 @@ for share in (0.03, 0.3, 1):
     off = cgal("demo/mesh/demo.1016.ply", "--from", "fine.ply")["farthest"]
     check(off <= share * 1.0001 and len(face) < count, f"adaptivity {share}: {len(face)} of {len(fine_face)} triangles, none farther off than {off:.4f} m")
     count = len(face)
-    # Vertices that stay are those of the fine mesh, with what they carry; all of them at the layers' borders.
+    # Remaining vertices are vertices of the fine mesh with the same values; all vertices at borders of layers remain.
     same = spatial.cKDTree(places(fine)).query(places(vertex))
     check(same[0].max() == 0 and (fine["layer"][same[1]] == vertex["layer"]).all(), f"adaptivity {share}: vertices stay where they are")
     edges = np.concatenate([fine_face[:, [0, 1]], fine_face[:, [1, 2]], fine_face[:, [2, 0]]])
@@ -227,7 +227,7 @@ hoodoo("mesh", "terrain", "--frames", "4", "--no-rocks")
 check(sorted(os.listdir("terrain/mesh")) == ["terrain.0004.obj", "terrain.0004.ply", "terrain.0004.usdc", "terrain.clips.usda"], "--no-rocks")
 
 def put_field(field):
-    """In place of the frame's volumes, with the grids a mesh needs."""
+    """Replaces the volumes of the frame by the grids that a mesh needs."""
     field = np.clip(field, -2.9, 2.9).astype(np.float32)
     for face in (0, -1):
         field[face] = field[:, face] = field[:, :, face] = 3
@@ -266,7 +266,7 @@ for name, field in hard.items():
         check(good, f"{name} {' '.join(words)}: {seen.get('triangles')} triangles in {seen.get('components')} pieces" + ("" if good else f" {said} {seen}"))
 check(is_whole(cgal("again/mesh/twelve.1004.obj")), "so is an OBJ")
 
-# ---- smoothing takes noise away: a ball with 0.15 voxels of it
+# ---- smoothing removes noise: a ball with noise of 0.15 voxels
 noisy = np.sqrt((x - 10.7) ** 2 + (y - 10.4) ** 2 + (z - 10.9) ** 2) - 7.2 + 0.15 * rng.standard_normal((N, N, N))
 put_field(noisy)
 rough = {}

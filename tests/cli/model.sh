@@ -1,6 +1,6 @@
 #!/bin/sh
-# A fourth model is a file and a row: both are added to the sources as they are, and the program that this makes plans,
-# runs, continues, draws and reports it. Only what JOB_MODELS is expanded in is compiled anew.
+# A fourth model needs one file and one row. Both are added to a copy of the sources; the resulting program plans, runs, resumes,
+# draws and reports the model. Only files that expand JOB_MODELS are compiled again.
 set -u
 build=$(dirname "$HOODOO")
 say() {

@@ -1,5 +1,5 @@
-"""What moves says so, and nothing else does: a falling block's velocity in points, volumes, meshes and motion; the wind in a file of
-its own that nobody takes for the rock's."""
+"""Velocities: those of a falling block in points, volumes, meshes and motion vectors, and none for rock at rest. The wind is in a file of its
+own, so that it is not taken for the velocity of rock."""
 import json
 import math
 import os
@@ -13,7 +13,7 @@ from script import finish, hoodoo, ok
 
 sys.dont_write_bytecode = True
 G, FPS = 9.81, 24
-# A column stands on the ground; a block hangs in the air.
+# A column stands on the ground, and a block floats.
 SHOT = {
     "hoodoo": 1, "name": "shot", "frames": "1001-1004", "fps": FPS, "clock": {"seconds_per_frame": 1 / FPS},
     "domain": {"size_m": [10, 5, 12], "spacing_m": 0.5},
@@ -66,7 +66,7 @@ def picture(path):
 
 
 def block(path):
-    """Velocities of the block's voxels, all that are 5 m up or more, and of the column's."""
+    """Velocities of the voxels of the block, which are at 5 m or higher, and of the column."""
     grid = vdb.read(path, "vel")
     fast, slow = [], []
     for item in grid.citerOnValues():
@@ -93,14 +93,14 @@ usd = open("shot/points/shot.1004.usdc", "rb").read()
 ok(b"velocities" in usd and b"vector3f[]" in usd and "velocities" in open("shot/points/shot.clips.usda").read() + open("shot/shot.usda").read(),
    "USD points have velocities")
 
-# Moved by v / fps, a place is where motion says. The camera looks along y: the block's middle moves straight down.
+# A point moved by v / fps is where the motion vector says. The camera looks along y, so the middle of the block moves straight down.
 seen = picture("shot/aov/shot.1004.exr")
 at = (seen["P.Z"] > 6) & (np.abs(seen["P.X"] - 7.5) < 1)
 pixels_per_m = np.polyfit(seen["P.Z"][at], np.arange(96)[:, None].repeat(96, 1)[at], 1)[0]
 want, got = -down / FPS * -pixels_per_m, seen["motion.Y"][at].mean()
 ok(abs(got / want - 1) < 0.06, f"pictures: motion is {got:.3f} px, and v / fps {want:.3f}")
 
-# In slow motion the film shows a tenth of the speed, and files say what the film shows.
+# In slow motion the film shows a tenth of the speed, and so do the files.
 SLOW = {**SHOT, "name": "slow", "clock": {"seconds_per_frame": 0.1 / FPS}}
 run(SLOW, "slow")
 fast, _ = block("slow/volumes/slow.1004.vdb")

@@ -1,4 +1,4 @@
-"""`hoodoo plan` says what a run takes of time, within 30 % of its CPU time; `--rehearse 0` says nothing of it, and at once."""
+"""`hoodoo plan` predicts the CPU time of a run within 30 %; with `--rehearse 0` it ends immediately and predicts no time."""
 import json
 import os
 import subprocess

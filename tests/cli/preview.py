@@ -1,5 +1,5 @@
-"""hoodoo preview: the pictures are there, whole, the right size and the right way round; what is done is not done again, what
-was asked for otherwise is; parts of it make together what the whole makes."""
+"""hoodoo preview: pictures are complete and have the right size and orientation; existing pictures are kept, and made again with other
+options; partial commands together make the same files as the full command."""
 import json
 import math
 import os
@@ -36,7 +36,7 @@ def pixels(path, width, height):
 
 
 def developed(path):
-    """A linear picture of POV-Ray as previews show it: render/develop.h."""
+    """A linear picture of POV-Ray after tone mapping (render/develop.h)."""
     with open(path, "rb") as file:
         words = file.read()
     head = re.match(rb"P6\n(?:#[^\n]*\n)*(\d+) (\d+)\n65535\n", words)
@@ -64,7 +64,7 @@ def stone(pixel):
 
 
 def working_in(folder):
-    """Processes whose working directory it is: renderers have the output folder's."""
+    """Processes with this working directory; renderers work in the output folder."""
     found = []
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -180,7 +180,7 @@ for _ in range(100):
     if left:
         time.sleep(0.05)
 check(set(busy) <= {"povray", "oiiotool"} and left == [], f"killed: {busy} were at work, and end with it {left}")
-# A view is done with its record; of one that came just before the kill there is none.
+# A view counts as done once it has a record; a view finished just before the kill has none.
 finished = {name: os.stat(f"o/turntable/{name}").st_mtime_ns for name in os.listdir("o/turntable")
             if name.count(".") == 3 and "tmp" not in name and os.path.exists(f"o/records/turntable/{name}.json")}
 last = len(finished) + 1
@@ -189,7 +189,7 @@ kept = sum(os.stat(f"o/turntable/{name}").st_mtime_ns == at for name, at in fini
 check(code == 0 and sorted(os.listdir("o/turntable")) == [f"tower.1002.{v:03}.png" for v in range(last + 1)] and kept == len(finished),
       f"the same command goes on: {kept} views are kept, and nothing else is there {said}")
 
-# Folders are called anything.
+# Folders may have any name.
 hostile = "a #%d {TOP} 'q' $(touch pwned) [1] -x"
 shutil.copytree("o", hostile)
 shutil.rmtree(f"{hostile}/preview")

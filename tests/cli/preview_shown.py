@@ -1,5 +1,4 @@
-"""What hoodoo preview burns into pictures: values as colours with their legend, and the strip that says what is seen. Looked at
-in the pictures themselves."""
+"""Values as colours with a legend, and the strip below pictures of hoodoo preview, measured in the pictures."""
 import json
 import os
 import struct
@@ -30,7 +29,7 @@ def pixels(path, width=W, height=H):
 
 
 def made_how(path):
-    """The text with the keyword "hoodoo", wherever among the chunks it stands."""
+    """The text with the keyword "hoodoo" in any chunk."""
     with open(path, "rb") as f:
         data = f.read()
     at = 8
@@ -59,7 +58,7 @@ def same_hue(pixel, color):
 
 
 def bar(picture):
-    """The colour bar: the column with most steps of colour at the right, from top to bottom, without what is not of it."""
+    """The colour bar, from top to bottom: the column with the most distinct colours near the right edge, without other pixels."""
     right = range(int(0.6 * W), W)
     middle = [max(right, key=lambda x: sum(picture[y][x] != picture[y + 1][x] and max(picture[y][x]) - min(picture[y][x]) > 30
                                             for y in range(10, 130)))][0]
@@ -71,7 +70,7 @@ VIRIDIS = {0: (68, 1, 84), 0.5: (33, 145, 140), 1: (253, 231, 37)}
 TENSION, NONE, COMPRESSION = (59, 76, 192), (221, 221, 221), (180, 4, 38)
 DRAFT = ("--preset", "draft", "--resolution", f"{W}x{H}", "--only", "stills")
 
-# A block that nothing has touched yet: viability is 1 everywhere on its faces.
+# A block before any erosion: viability is 1 on all its faces.
 job = {"hoodoo": 1, "name": "block", "frames": "1001-1002", "clock": {"years_per_frame": 1500}, "domain": {"size_m": [16, 16, 16], "spacing_m": 1},
        "scene": {"box": {"min_m": [3, 3, 0], "max_m": [13, 13, 14]}}, "strata": [{"to_m": 16, "weak_m_per_kyr": 0.1, "strong_m_per_kyr": 0.1, "interlock_MPa": 0.2}], "wind": {"speed_m_s": 10},
        "cameras": {"front": {"position_m": [8, -40, 9], "target_m": [8, 4, 7]}}}

@@ -1,4 +1,4 @@
-"""Previews are of a world: light, textures and ground are where and as large as the job says, in metres, whatever else is in the
+"""Previews show a world in metres: light, textures and ground have the positions and sizes that the job defines, whatever else is in the
 picture. Measured in the pictures."""
 import json
 import math
@@ -54,7 +54,7 @@ def layer(name, frame, part):
     return [[row[x] for x in range(len(row))] for _, row in sorted(rows.items())]
 
 
-# ---- the sun: where the shadow of a tower falls on a slab, in the preview and in rgba, says where it stands
+# ---- the sun: the shadow of a tower on a slab, in the preview and in rgba, shows its direction
 AZIMUTH, ELEVATION, W, H = 205, 40, 160, 120
 TOWER = {"box": {"min_m": [7, 7, 0], "max_m": [9, 9, 5]}}
 run("sundial", {"frames": "1001-1001", "domain": {"size_m": [16, 16, 8], "spacing_m": 0.25},
@@ -70,23 +70,23 @@ found = []
 for what, light in seen.items():
     values = sorted(light[y][x] for y, x in floor)
     lit = values[3 * len(values) // 4]
-    # Away from the sun the shadow goes: the mean of what is dark, from the tower's middle.
+    # The shadow points away from the sun: the mean of the dark pixels, seen from the middle of the tower.
     dark = [(where[y][x][0] - 8, where[y][x][1] - 8) for y, x in floor if light[y][x] < 0.55 * lit]
     dark = [d for d in dark if math.hypot(*d) > 2]
     away = math.degrees(math.atan2(sum(d[1] for d in dark), sum(d[0] for d in dark)))
     c, s = math.cos(math.radians(away)), math.sin(math.radians(away))
-    # The shadow of the upper edge's middle ends a metre farther than the tower's height says.
+    # The shadow of the middle of the upper edge ends 1 m farther than the height of the tower suggests.
     reach = sorted(c * d[0] + s * d[1] for d in dark if abs(s * d[0] - c * d[1]) < 0.5)
     high = math.degrees(math.atan2(4, reach[-3] - 1 / max(abs(c), abs(s))))
     turned = (away + 180 - AZIMUTH + 180) % 360 - 180
     found.append((turned, high))
-    # Edges are rounded by a spacing or so, which shortens shadows.
+    # Edges are rounded by about one spacing, which shortens shadows.
     ok(abs(turned) < 2.5 and abs(high - ELEVATION) < 6.5,
           f"{what}: the sun stands at azimuth {AZIMUTH + turned:.1f}, elevation {high:.1f}; {AZIMUTH} and {ELEVATION} were asked for")
 
 ok(all(abs(a - b) < 4 for a, b in zip(*found)), "the same in both")
 
-# ---- what nothing has happened to stays, to the last pixel: an edit carves another rock, and leaves a crumb far outside
+# ---- unchanged parts are identical pixel by pixel: an edit carves another rock and leaves a fragment far outside
 W, H = 160, 90
 STILL = {"to_m": 20, "weak_m_per_kyr": 0, "strong_m_per_kyr": 0}
 run("edited", {"frames": "1001-1002", "domain": {"size_m": [30, 12, 10], "spacing_m": 0.5}, "strata": [STILL],
@@ -96,7 +96,7 @@ run("edited", {"frames": "1001-1002", "domain": {"size_m": [30, 12, 10], "spacin
                "cameras": {"main": {"position_m": [15, -32, 7], "target_m": [15, 6, 4]}}})
 for preset in ("draft", "preview"):
     one, other = (still("edited", frame, W, H, "--preset", preset) for frame in (1001, 1002))
-    # The left half holds ground, a tower, sky and horizon; nothing of the change, nor its shadow.
+    # The left half contains ground, a tower, sky and horizon, but neither the change nor its shadow.
     most = max(abs(a - b) for p, q in zip(one, other) for x in range(W // 2) for a, b in zip(p[x], q[x]))
     moved = sum(p[x] != q[x] for p, q in zip(one, other) for x in range(W // 2, W))
     ok(most == 0 and moved > 50, f"{preset}: pixels of rock, ground and sky that nothing has changed differ by {most}/255; {moved} have changed elsewhere")
@@ -106,7 +106,7 @@ picture, columns, gaps = still("edited", 1001, 320, 180, "--preset", "draft"), r
 for x in columns:
     light = [bright(row[x]) for row in picture]
     gaps.append(light)
-# From the middle of the tower's front down to the ground before it.
+# From the middle of the front of the tower down to the ground in front of it.
 least = []
 for light in gaps:
     wall, ground = sorted(light[80:100])[10], sorted(light[150:170])[10]
@@ -114,7 +114,7 @@ for light in gaps:
 least.sort()
 ok(least[len(least) // 2] > 0.65, f"between wall and ground it is never darker than {least[len(least) // 2]:.2f} of both")
 
-# ---- beds lie as the job says: the same stratum's colour in the preview and in rgba where beds are tilted, folded and faulted, on older ones
+# ---- attitude: the preview and rgba show the same strata where beds are tilted, folded, faulted and unconformable
 W, H = 120, 68
 RED, PALE = [0.5, 0.08, 0.05], [0.6, 0.5, 0.4]
 run("tilted", {"frames": "1001-1001", "domain": {"size_m": [40, 30, 24], "spacing_m": 1},
@@ -130,7 +130,7 @@ red = [(rgba[y][x][0] > 3 * rgba[y][x][1], LINEAR[picture[y][x][0]] > 2.1 * LINE
 alike = sum(a == b for a, b in red) / len(red)
 ok(alike > 0.87 and 0.2 < sum(a for a, _ in red) / len(red) < 0.8, f"beds that are tilted, folded, faulted twice and laid on others: {100 * alike:.1f} % of {len(red)} pixels show the same one")
 
-# ---- a cliff that ends at walls runs on out of the picture, on both sides and without a gap; at open sides it ends
+# ---- a cliff between walls continues beyond the domain on both sides, without a gap; at open sides it ends
 for side, want in (("wall", 1), ("open", 0)):
     run(side, {"frames": "1001-1001", "strata": [STILL], "domain": {"size_m": [16, 8, 10], "spacing_m": 0.5, "sides": {"x_min": side, "x_max": side, "y_max": side}},
                "scene": {"box": {"min_m": [-1, 4, 0], "max_m": [17, 9, 8]}}, "light": {"sun": {"azimuth_deg": -110, "elevation_deg": 40}},
@@ -139,7 +139,7 @@ for side, want in (("wall", 1), ("open", 0)):
     rock = sum(LINEAR[p[0]] > 1.15 * LINEAR[p[2]] for p in row) / W
     ok(rock == 1 if want else 0.3 < rock < 0.6, f"{side} sides: rock across {rock:.2f} of the picture, half way up")
 
-# ---- texture in metres: the same wall, seen from as near, of rocks of 26 cm, 7 m and 45 m
+# ---- texture in metres: the same wall, seen from the same distance, in rocks of 26 cm, 7 m and 45 m
 waves = {}
 for size, spacing in ((0.26, 0.01), (7, 0.25), (45, 1.5)):
     name, middle = f"block{round(100 * size)}", [size / 2 + 0.4 * size, 0.25 * size, 0.45 * size]
@@ -148,7 +148,7 @@ for size, spacing in ((0.26, 0.01), (7, 0.25), (45, 1.5)):
                "light": {"sun": {"azimuth_deg": -120, "elevation_deg": 40}},
                "cameras": {"main": {"position_m": [middle[0], middle[1] - 0.6, middle[2]], "target_m": middle, "focal_mm": 90}}})
     picture = still(name, 1001, 96, 96, "--preset", "preview")
-    # 0.24 m are 96 px. Colour alone, by which light and shade drop out: red over green, up and down.
+    # 0.24 m are 96 px. The ratio of red to green, top to bottom, is independent of light and shade.
     ratio = [[math.log((LINEAR[p[0]] + 0.01) / (LINEAR[p[1]] + 0.01)) for p in row] for row in picture]
     tone = [[math.log(bright(p) + 0.01) for p in row] for row in picture]
     flat = [v for row in tone for v in row]

@@ -1,4 +1,4 @@
-"""hoodoo report: one page, whole and true, of folders that are complete, half done, damaged or hostile."""
+"""hoodoo report: a complete and correct page for folders that are complete, incomplete, damaged or hostile."""
 import glob
 import html.parser
 import json
@@ -28,7 +28,7 @@ def hoodoo(*words):
 
 
 class Page(html.parser.HTMLParser):
-    """Elements with their attributes and text; that they close in order."""
+    """Collects elements with their attributes and text, and checks that they are closed in order."""
 
     def __init__(self, path):
         super().__init__(convert_charrefs=True)
@@ -63,7 +63,7 @@ class Page(html.parser.HTMLParser):
 
 
 def look(root, what):
-    """The page, after the checks that any page must pass."""
+    """Parses the page and makes the checks that every page must pass."""
     page = Page(f"{root}/report/index.html")
     check(not page.wrong, f"{what}: well formed", *page.wrong[:5])
     check(len(page.every("script")) == 1 and not any(k.startswith("on") for _, a in page.all for k in a), f"{what}: no script but its own")
@@ -123,7 +123,7 @@ bars = [float(x.replace("\u202f", "")) for x in re.findall(r"to [^<]*: ([-0-9.e]
 check(len(bars) == 48 and abs(sum(bars) - 100) < 0.5, f"the stresses' shares add up to all ({sum(bars):.2f} %)")
 check("layer interlock" in page.text, "with the interlocking stress marked")
 layers = re.findall(r"([0-9.]+) %, ([0-9.]+) m³", plain)
-# Each is rounded as it is shown: off by half of its last digit at most.
+# Values are rounded for display, by at most half a unit of the last digit.
 rounding = sum(0.5 * 10.0 ** -len(v.partition(".")[2]) for _, v in layers)
 off = sum(float(v) for _, v in layers) - last["statistics"]["volume_m3"]
 check(len(layers) == 2 and abs(off) <= rounding + 1e-6, f"layers add up to the rock, but for their rounding ({off:.2f} m3)", layers)
@@ -141,7 +141,7 @@ check(code == 0 and made == {f: os.stat(f).st_mtime_ns for f in made}, "pictures
 check(look(ROOT, "again").raw == first, "the same folder gives the same page")
 check(not glob.glob(glob.escape(ROOT) + "/report/*tmp*"), "nothing temporary is left")
 
-# ---- half done, damaged, hostile
+# ---- incomplete, damaged, hostile
 shutil.copytree(ROOT, "half")
 os.remove("half/frames/7-wall.1002.json")
 with open("half/volumes/7-wall.1003.vdb", "r+b") as file:
@@ -161,7 +161,7 @@ check("2 of 4 frames" in page.text and "1 frame is missing: 1002." in page.text 
 check("7-wall.1003.vdb" in page.text and "100 bytes" in page.text, "and what is wrong")
 check("<script>in</script>.png" in page.text and "</pre><script>" in page.text and "<script>x" in page.text, "hostile words are words")
 
-# ---- one frame; none; points gone; unreadable picture
+# ---- one frame; no frame; missing points; unreadable picture
 code, _, _ = hoodoo("run", "wall.json", "--out", "one", "--frames", "1001-1001", "--progress", "none", "--set", "output.vdb.points=none",
                     "--set", "output.aov.cameras=[]")
 code, _, said = hoodoo("report", "one")

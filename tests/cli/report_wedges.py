@@ -1,4 +1,4 @@
-"""hoodoo report of a farm's folder: its wedges side by side, nothing a user wrote read as HTML, unfinished ones named."""
+"""hoodoo report on a folder of wedges: wedges side by side, texts of users escaped, unfinished wedges listed."""
 import glob
 import os
 import re

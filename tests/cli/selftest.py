@@ -1,5 +1,5 @@
-"""hoodoo selftest: all ok on a device that is right, within its time; nothing stays behind, however it ends; a device that is not there or
-is lost is exit code 6. That it can say no is unit/test_selftest's to show."""
+"""hoodoo selftest: everything is ok on a correct device, within the promised time; no files remain, however it ends; a missing or lost device
+gives exit code 6. unit/test_selftest shows that it detects errors."""
 import json
 import os
 import re
@@ -9,7 +9,7 @@ import time
 
 from script import HOODOO, finish, hoodoo, ok
 
-SECONDS = 300  # of the whole kit, on two cores; the quick one takes a fifth of it, or half beside other tests
+SECONDS = 300  # for all checks, on two cores; --quick takes a fifth of it, or half next to other tests
 os.mkdir("empty")
 os.mkdir("tmp")
 HERE = {**os.environ, "TMPDIR": os.path.abspath("tmp")}
@@ -25,7 +25,7 @@ def selftest(*words, **more):
     return done.returncode, done.stdout, done.stderr
 
 
-# ---- a device that is right
+# ---- a correct device
 
 start = time.monotonic()
 code, said, errors = selftest("--quick", "--device", "cpu", "--json")
@@ -48,7 +48,7 @@ ok(1 <= len(demo) <= 3 and all(a["spacing_m"] == 2 * b["spacing_m"] and a["parti
 ok(all(d["frame_dispatches"] > 20 and 0 < sum(s["frame_ms"] for s in d["stages"]) <= 1001 * d["frame_seconds"] for d in demo), "its stages are within its frames", demo)
 nothing_left("after it")
 
-# ---- devices that are not there
+# ---- missing devices
 
 for words, more in ((("--device", "99"), {}), ((), {"HOODOO_DEVICE": "99"}), (("--json", "--device", "uuid:00000000000000000000000000000001"), {})):
     code, said, errors = selftest("--quick", *words, **more)
@@ -58,7 +58,7 @@ code, said, errors = selftest("--quick", TMPDIR="/nowhere")
 ok(code == 4 and "/nowhere" in errors, "no place for temporary files", code, errors)
 nothing_left("after a refusal")
 
-# ---- stopped on the way
+# ---- stopped by a signal
 
 for number, name in ((signal.SIGTERM, "arenite, as recorded"), (signal.SIGINT, "kernels against plain C, scan")):
     child = subprocess.Popen([HOODOO, "selftest", "--device", "cpu"], cwd="empty", env=HERE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -73,7 +73,7 @@ for number, name in ((signal.SIGTERM, "arenite, as recorded"), (signal.SIGINT, "
     ok(time.monotonic() - start < 60, "soon", time.monotonic() - start)
     nothing_left(f"after {number.name}")
 
-# ---- a device that is lost: at the first submission, in a kernel's check, in a model
+# ---- a lost device: at the first submission, in a check of kernels, in a model
 
 with open("lost.c", "w") as file:
     file.write("""#define _GNU_SOURCE

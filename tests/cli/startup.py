@@ -1,4 +1,4 @@
-"""What starting costs: shared libraries, CPU time. OpenVDB and OpenImageIO are for those who need them."""
+"""The cost of starting hoodoo: shared libraries and CPU time. OpenVDB and OpenImageIO are loaded only by commands that need them."""
 
 import os
 import resource
@@ -7,13 +7,13 @@ import sys
 
 HOODOO, TOP = os.environ["HOODOO"], os.environ["HOODOO_TOP"]
 LIBRARIES = 40
-# 30 ms is what it should cost on an idle machine, a third of it what it does. Under load the same work takes longer, so its cost
-# is compared with that of a program which does next to nothing, measured beside it.
+# The limit is 30 ms on an idle machine, about three times the actual cost. Under load the same work takes longer, so it is
+# compared with a program that does next to nothing, measured at the same time.
 CPU_MS, AT_REST_MS = 30, 1.0
-DEVICE_MS = 150  # with a device: the driver's part is in it
-# Threads that wait for one whose core is busy would turn round, which counts as work: it is measured in one.
+DEVICE_MS = 150  # with a device, including the driver
+# Measured with one thread, since threads that wait for a busy core would spin, which counts as CPU time.
 QUIET = {**os.environ, "OMP_NUM_THREADS": "1"}
-# The suite runs two tests side by side, which share caches and memory: what takes 23 ms alone was seen to take 31 there.
+# Tests run in pairs, which share caches and memory: 23 ms alone have become 31 ms in the suite.
 BESIDE_OTHERS = 1.5
 DEMO = os.path.join(TOP, "jobs/demo.yaml")
 failures = 0
@@ -26,7 +26,7 @@ def ok(good, name, *notes):
 
 
 def cpu_ms(*words):
-    """The least of many runs, which is the one that was disturbed least."""
+    """The minimum of many runs, which is disturbed the least."""
     least = float("inf")
     for _ in range(15):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -47,7 +47,7 @@ linked = libraries(HOODOO)
 ok(len(linked) <= LIBRARIES, f"hoodoo needs at most {LIBRARIES} shared libraries", len(linked), linked)
 ok(not any("OpenImageIO" in name or "openvdb" in name for name in linked), "neither OpenImageIO nor OpenVDB among them")
 
-# What is loaded while it works counts too: the dynamic linker tells.
+# Libraries that are loaded later count, too; the dynamic linker reports them.
 said = subprocess.run([HOODOO, "plan", "--device", "none", DEMO], env={**os.environ, "LD_DEBUG": "files"}, stdout=subprocess.PIPE,
                       stderr=subprocess.PIPE, check=True, text=True)
 loaded = {line.split("calling init: ")[1] for line in said.stderr.splitlines() if "calling init: " in line}
@@ -64,7 +64,7 @@ ok(said.returncode == 6 and "--device 99" in said.stderr, "HOODOO_DEVICE stands 
 said = subprocess.run([HOODOO, "plan", "--rehearse", "0", DEMO, "--device", "cpu"], capture_output=True, text=True, env={**os.environ, "HOODOO_DEVICE": "99"})
 ok(said.returncode == 0, "and gives way to it", said.stderr)
 
-# What is installed finds what it was installed with.
+# An installed hoodoo finds its helpers.
 there = os.path.abspath("there")
 made = subprocess.run(["make", "-s", "-C", TOP, "install", f"BUILD={os.path.dirname(HOODOO)}", f"PREFIX={there}", "Q=@"], stdout=subprocess.PIPE,
                       stderr=subprocess.STDOUT, text=True)
@@ -82,7 +82,7 @@ ok(page.startswith(".TH HOODOO 1") and all(f".SH HOODOO {v}\n" in page for v in 
 
 
 def completed(*words):
-    """What bash offers for the last word."""
+    """The completions that bash offers for the last word."""
     script = (f"source {there}/share/bash-completion/completions/hoodoo; COMP_WORDS=({' '.join(words)}); COMP_CWORD={len(words) - 1}; "
               f"[ ${{#COMP_WORDS[@]}} = {len(words)} ] || COMP_WORDS+=(''); _hoodoo {hoodoo}; printf '%s\\n' \"${{COMPREPLY[@]}}\"")
     return subprocess.run(["bash", "-c", script], capture_output=True, text=True, env={**clean, "PATH": f"{there}/bin:{clean['PATH']}"}).stdout.split()

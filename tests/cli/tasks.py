@@ -1,5 +1,5 @@
-"""Tasks as data: a farm that knows nothing of hoodoo runs each command when what it waits for is done, and the job is done. What each asks for
-is honest: no GPU with --device cpu."""
+"""Tasks as JSON: a generic farm that runs each command after its dependencies completes the job. The requirements are true: with --device cpu
+no task asks for a GPU."""
 import json
 import os
 import shlex
@@ -23,7 +23,7 @@ while len(done) < len(tasks):
     ready = [t for t in tasks.values() if t["name"] not in done and set(t["after"]) <= done]
     if not ready:
         break
-    # the last first: only what a task waits for may matter
+    # the last task first: only dependencies may matter
     t = ready[-1]
     run = subprocess.run(t["argv"], capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd="/")
     if run.returncode:

@@ -1,5 +1,5 @@
-"""jobs/TUTORIAL.md, as a reader follows it: every command of its blocks of shell succeeds, in one empty folder, and every file
-that it names is there in the end."""
+"""jobs/TUTORIAL.md, as a reader follows it in an empty folder: every command in its shell blocks succeeds, and every file that it names
+exists in the end."""
 
 import os
 import re

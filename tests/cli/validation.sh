@@ -1,5 +1,5 @@
 #!/bin/sh
-# Two frames under the Khronos validation layer, once as it comes and once with synchronisation validation: not one complaint.
+# Two frames under the Khronos validation layer, with its default checks and with synchronisation validation, give no message.
 set -u
 job=$HOODOO_TOP/tests/restart/twelve.yaml
 layer=VK_LAYER_KHRONOS_validation
@@ -13,7 +13,7 @@ check() {
     fi
 }
 
-# validated PROGRAM ARGUMENT...: under the layer with the settings in $settings; all it prints lies in log
+# validated PROGRAM ARGUMENT...: runs under the layer with the settings in $settings; output goes to log.
 validated() {
     env VK_INSTANCE_LAYERS=$layer VK_LAYER_ENABLES="$settings" VK_LOADER_DEBUG=layer "$@" >log 2>&1
 }
@@ -37,7 +37,7 @@ for settings in "" VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT; 
         --set stress.solver=mpm --set 'scene={union: [{box: {min_m: [2, 2, 0], max_m: [8, 6, 3]}}, {box: {min_m: [3, 3, 5], max_m: [6, 5, 7]}}]}'
     check "$kind validation: the run of blocks that fall succeeds" [ $? = 0 ]
     check "$kind validation: not one complaint about blocks that fall" sh -c '! grep -qE "$1" log' - "$complaints"
-    # A program that does wrong, to know a complaint when there is one.
+    # A faulty program, to check that messages are detected.
     validated "$(dirname "$HOODOO")/tests/gpu/test_validation" wrongly
     check "$kind validation: it complains where there is reason to" grep -qE "$complaints" log
     check "$kind validation: what is not given back is a reason" grep -q VUID-vkDestroyDevice-device log

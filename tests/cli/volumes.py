@@ -1,4 +1,4 @@
-"""OpenVDB files as shapes: hoodoo's own volumes give their rock again, level sets and fogs of others what they hold, and what is none is
+"""OpenVDB files as shapes: hoodoo's own volumes give the same rock, level sets and fogs of other programs give theirs, and other files are
 refused."""
 import json
 import math
@@ -25,7 +25,7 @@ def check(good, what, *notes):
 
 
 def run(name, scene):
-    """Cubic metres of rock, or what it said."""
+    """The volume of rock in m3, or the error message."""
     with open(f"{name}.yaml", "w") as f:
         f.write(JOB.format(name=name, scene=scene))
     said = subprocess.run([HOODOO, "run", f"{name}.yaml", "--out", name, "--progress", "none"], capture_output=True, text=True)

@@ -1,5 +1,5 @@
-# For tests in sh. check NAME COMMAND...: a TAP line; where the command fails, with the last that `out`, `err` and `log` say, those
-# that there are.
+# For shell tests. check NAME COMMAND...: prints a TAP line; if the command fails, also the last lines of the files `out`, `err` and
+# `log`, if they exist.
 checks_failed=0
 check() {
     name=$1
@@ -15,7 +15,7 @@ check() {
     done
 }
 
-# fault KIND TRIED WHAT: a row of the table in tests/README.md, as in script.py.
+# fault KIND TRIED WHAT: prints a row of the table in tests/README.md, as fault() in script.py.
 fault() {
     echo "# fault | $1 | $2 | $3 | $checks_failed |"
 }

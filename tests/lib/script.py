@@ -1,4 +1,4 @@
-"""What scripts that run hoodoo have in common. run.sh puts this folder where Python looks."""
+"""Shared functions of test scripts. run.sh adds this folder to PYTHONPATH."""
 
 import hashlib
 import os
@@ -10,7 +10,7 @@ failures = 0
 
 
 def ok(good, name, *notes):
-    """A line of TAP; the ends of the notes below it where it is bad."""
+    """Prints a TAP line, and on failure the last lines of each note."""
     global failures
     print("ok" if good else "not ok", name, flush=True)
     if not good:
@@ -22,7 +22,7 @@ def ok(good, name, *notes):
 
 
 def fault(kind, tried, what):
-    """A row of the table in tests/README.md: what was done to hoodoo how often, and what came of it. Failures so far are what was lost."""
+    """Prints a row of the table in tests/README.md: the kind of fault, how often it was tried, and the outcome. Failures so far count as lost."""
     print(f"# fault | {kind} | {tried} | {what} | {failures} |", flush=True)
 
 
@@ -31,7 +31,7 @@ def finish():
 
 
 def ask(*argv, **more):
-    """Exit code, and what was said on stdout and stderr."""
+    """Returns the exit code and the output, stdout and stderr together."""
     done = subprocess.run(argv, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, **{"timeout": 600, **more})
     return done.returncode, done.stdout
 
@@ -45,7 +45,7 @@ def cut_half(path):
 
 
 def flip_bit(path, draw):
-    """One bit that `draw` (random.Random) chooses, the size and the time as they were."""
+    """Flips one bit, chosen by `draw` (random.Random); size and time stay the same."""
     info = os.stat(path)
     with open(path, "r+b") as file:
         at = draw.randrange(info.st_size)
@@ -57,7 +57,7 @@ def flip_bit(path, draw):
 
 
 def tree(root, chosen):
-    """{path below root: digest} of the files whose paths are chosen."""
+    """{path below root: digest} of the files for whose paths `chosen` is true."""
     found = {}
     for folder, _, names in os.walk(root):
         for name in names:
@@ -69,6 +69,6 @@ def tree(root, chosen):
 
 
 def of_a_run(path):
-    """What the simulation and the meshes leave. Pictures are made by programs that put dates into them, and checkpoints before
-    the last frame's depend on where a run was stopped."""
+    """Is the file one of the simulation or of meshes? Pictures of other programs may contain dates, and checkpoints before the
+    last frame depend on where a run was stopped."""
     return path.startswith(("points", "volumes", "aov", "frames", "mesh", "job.yaml")) or path.endswith(".1012.ckpt")

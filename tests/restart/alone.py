@@ -1,4 +1,4 @@
-"""One writer a folder: a second is refused by name, a killed one's lock is taken over, and nothing is left of it."""
+"""One writer per folder: a second run is refused and told the holder; the lock of a killed run is taken over and removed."""
 
 import os
 import signal

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Arches in pieces: frames run in several goes, with slides under way at the cuts, are byte for byte those of one go,
-# and the ledger balances; a terrain is a scene for Arenite, its loose material deposits.
+# Arches in blocks: frames of several runs, interrupted during slides, are byte for byte those of one run, and the
+# ledger balances. A terrain can be the scene of an Arenite job, where its loose material becomes deposits.
 set -u
 cat >job.yaml <<'JOB'
 hoodoo: 1
@@ -82,7 +82,7 @@ say $? "a damaged terrain is refused"
         -e 's|scene: .*|scene: {mesh: {file: further/mesh/further.0002.ply, up: y}}|' job.yaml >back.yaml &&
     "$HOODOO" run back.yaml --out back --progress none >>log 2>&1
 say $? "and what is left is terrain again"
-# What is made of a run's files later: the same pictures, a mesh, a report, a stage.
+# Products made from the files of a run: the same pictures, a mesh, a report, a stage.
 "$HOODOO" run job.yaml --out bare --set 'output.aov.cameras=[]' --progress none >>log 2>&1 &&
     "$HOODOO" aov bare --camera main --progress none >>log 2>&1
 say $? "pictures out of the files"
@@ -98,7 +98,7 @@ say $? "a mesh"
 "$HOODOO" report whole --out page >>log 2>&1 || "$HOODOO" report whole >>log 2>&1
 [ -s whole/report/index.html ] && grep -q "terrain" whole/report/index.html
 say $? "a report"
-# Another tool from a frame on: a branch; it may not have another domain.
+# A branch with another tool from a frame on; another domain is refused.
 sed 's/  - {tool: fill.*/&\n    - {tool: sweep, frames: 8, points_m: [[8, -1, 5, 2], [8, 13, 5, 2]]}/; s/name: terrain/name: other/' job.yaml >other.yaml
 "$HOODOO" run other.yaml --from whole@7 --out branch --progress none >>log 2>&1 && [ -s branch/frames/other.0008.json ] && [ ! -e branch/frames/other.0006.json ]
 say $? "a branch with a further tool"
@@ -109,7 +109,7 @@ sed 's/size_m: \[16, 12, 10\]/size_m: [16, 12, 11]/' other.yaml >taller.yaml
 "$HOODOO" run taller.yaml --from whole@7 --out taller --progress none >>log 2>&1
 [ $? = 7 ]
 say $? "a branch of another height is refused"
-# Images in and out: a height field as scene, a cover, and what a map says of them.
+# Images: a heightfield as scene, a cover, and the map that shows them.
 /usr/bin/python3 - <<'PY'
 import numpy as np, OpenImageIO as oiio
 y, x = np.mgrid[0:24, 0:32]

@@ -1,4 +1,4 @@
-"""Damaged checkpoints, lost and truncated files, edited jobs: noticed, said, and made again with the same bytes."""
+"""Damaged checkpoints, lost and truncated files, and edited jobs are detected, reported, and repaired with the same bytes."""
 
 import os
 import shutil
@@ -97,7 +97,7 @@ for path in ("points/twelve.1009.vdb.tmp-1-2-3", "frames/twelve.1009.json.tmp-77
              "job.yaml.tmp-1-1-1"):
     with open(os.path.join("run", path), "w") as file:
         file.write("half a file")
-    os.utime(os.path.join("run", path), (0, 0))  # another machine's, long ago
+    os.utime(os.path.join("run", path), (0, 0))  # an old file of another machine
 code, said = run("run")
 same("what a dead run left half-written is swept away", code, said)
 

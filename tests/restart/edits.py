@@ -1,5 +1,5 @@
-"""Edits and branches: resumed across an edit, marked, branched from any checkpoint, with the original gone: the same bytes; and
-what cannot be is said with its code, and touches nothing."""
+"""Edits and branches. Runs resumed across an edit, marked checkpoints, and branches from any checkpoint, also without the original,
+give the same bytes. Impossible requests are refused with their exit code and change nothing."""
 
 import hashlib
 import json
@@ -30,7 +30,7 @@ def hoodoo(*words):
 
 
 def answer(*words):
-    """What a verb prints for programs."""
+    """The JSON that a verb prints."""
     done = subprocess.run([HOODOO, *words, "--json"], capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
     return json.loads(done.stdout) if done.returncode == 0 else {}
 
@@ -58,7 +58,7 @@ def checkpoint(out, frame, name="edits"):
 
 
 def state(path):
-    """Years, and the hash of every array."""
+    """The years and the hash of every section of a checkpoint."""
     code, said = hoodoo("inspect", path, "--json")
     if code:
         return said
@@ -72,12 +72,12 @@ def ledger(out, frame, name="edits"):
 
 
 def last(said):
-    """The failure's one line."""
+    """The single line of the error."""
     return (said.splitlines() or [""])[-1]
 
 
 def other(name, *edits):
-    """The job under another name, with lines replaced."""
+    """A copy of the job with another name and with lines replaced."""
     with open(JOB) as file:
         text = file.read().replace("name: edits", f"name: {name}")
     for old, new in edits:
@@ -122,7 +122,7 @@ ok(code == 0 and sorted(os.listdir("marked/checkpoint")) == ["edits.1001.ckpt", 
 
 # ---- branched, unedited
 
-job = other("twin", ("frames: 1001-1010", "frames: 1003-1010"))  # edits before the first frame are history
+job = other("twin", ("frames: 1001-1010", "frames: 1003-1010"))  # edits before the first frame are already in the checkpoint
 for frame in (1003, 1006, 1009):
     shutil.rmtree("twin", ignore_errors=True)
     code, said = run("twin", "--from", f"every@{frame}", "--set", "checkpoint.every=1", "--set", "checkpoint.keep=99", job=job)
@@ -175,7 +175,7 @@ with open("again/checkpoint/new.from.ckpt", "r+b") as file:
 code, said = hoodoo("verify", "again")
 ok(code == INPUT and "new.from.ckpt" in said, "verify reads the copy, too", code, said)
 
-# ---- branched into processes the original did not have: air that flows, deposits
+# ---- branches with processes that the original lacks: flowing air, deposits
 
 job = other("air", ("frames: 1001-1010", "frames: 1001-1008"))
 more = ("--from", "every@1004", "--set", "wind.flow.solver=sph", "--set", "wind.flow.spacing_m=2", "--set", "deposition.viability=0.3")

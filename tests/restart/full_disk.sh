@@ -1,6 +1,6 @@
 #!/bin/sh
-# A disk that fills: exit code 4, one line that names the file, nothing half-written under a final name; with room, the same
-# command finishes with the same bytes. Needs root, for a small tmpfs.
+# A disk that fills: exit code 4, one line that names the file, and no partial file under a final name. Once there is space,
+# the same command finishes with the same bytes. Needs root to mount a small tmpfs.
 set -u
 job=$HOODOO_TOP/tests/restart/twelve.yaml
 . "$HOODOO_TOP/tests/lib/check.sh"
@@ -33,8 +33,8 @@ for share in 1 2 8 22 43 74 94; do
     check "$kb kB: it names the file and says why" grep -qE '^hoodoo: disk/out/[^ :]*: .*No space left on device' errors
     cp errors "errors.$kb"
     tree disk/out >part.sums
-    # Whatever has its final name is what it is in the whole run, or a checkpoint that the whole run has removed since,
-    # or the stage of the frames so far, down to its last brace, or its record.
+    # A file under its final name equals that of the whole run, or is a checkpoint that the whole run removed later, or the
+    # complete stage of the frames so far, or its record.
     check "$kb kB: nothing half-written" [ -z "$(grep -vxFf whole.sums part.sums | grep -v -e ' ./checkpoint/twelve\.10[01][0-9]\.ckpt$' \
         -e ' ./\(records/\)\{0,1\}twelve\.usda\(\.json\)\{0,1\}$')" ]
     [ ! -e disk/out/twelve.usda ] || check "$kb kB: the stage is whole" [ "$(tail -n 1 disk/out/twelve.usda)" = "}" ]

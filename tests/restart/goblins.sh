@@ -1,5 +1,5 @@
 #!/bin/sh
-# Goblins in pieces: frames run in two goes, from a checkpoint in between, are byte for byte those of one go.
+# Goblins in two runs, with a checkpoint in between, give byte for byte the frames of one run.
 set -u
 cat >job.yaml <<'JOB'
 hoodoo: 1

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Groundwater, in pieces: frames run in two goes are byte for byte those of one go, and rock whose particles come when the weather does is
-# the rock that had them all at first. Edits begin it, and end it.
+# Groundwater in two runs gives byte for byte the frames of one run, and particles that are created on demand give the same rock as
+# particles that exist from the start. Edits switch groundwater on and off.
 set -u
 cat >job.yaml <<'JOB'
 hoodoo: 1

@@ -1,4 +1,4 @@
-"""kill -9 after frames and at random moments, then the same command again: the same bytes, and nothing half-written left."""
+"""Runs killed by SIGKILL after frames and at random moments: the same command then gives the same bytes and leaves no partial files."""
 
 import os
 import random
@@ -13,13 +13,13 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib
 from twelve import *
 
 SEED = int(os.environ.get("SEED", "1"))
-LONG = len(sys.argv) > 1  # after every frame, and at so many moments
+LONG = len(sys.argv) > 1  # kill after every frame, and at so many random moments
 MOMENTS = int(sys.argv[1]) if LONG else 3
 truth = Truth()
 
 
 def whole_frames(out):
-    """Every manifest there is must vouch for what lies beside it, right after the kill."""
+    """Right after a kill, every existing manifest must match its files."""
     frames = [name for name in os.listdir(os.path.join(out, "frames")) if name.endswith(".json")] if os.path.isdir(
         os.path.join(out, "frames")) else []
     here = tree(out)
@@ -36,7 +36,7 @@ def go_on(name, notes=""):
     return ok(code == 0 and truth.differences("killed") == "", name, code, truth.differences("killed"), notes, said)
 
 
-# The first and the last, and those right after a checkpoint and long after it.
+# The first and the last frame, and frames right after a checkpoint and long after one.
 for frame in range(FIRST, LAST + 1) if LONG else (FIRST, FIRST + 4, FIRST + 8, LAST):
     shutil.rmtree("killed", ignore_errors=True)
     held = Held("killed")
@@ -49,7 +49,7 @@ for frame in range(FIRST, LAST + 1) if LONG else (FIRST, FIRST + 4, FIRST + 8, L
 
 
 def kill_in_write(folder, nth):
-    """Kills at the nth temporary file seen in the folder; False if the run ended first."""
+    """Kills the run when the nth temporary file is seen in the folder; False if the run ends first."""
     child = subprocess.Popen(command("killed"), stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
     seen = set()
     while child.poll() is None and len(seen) < nth:
@@ -79,7 +79,7 @@ def kill_after(seconds):
     return child.wait(PATIENCE)
 
 
-# Moments over the whole length of a run, each on what the one before left: some fall in the middle of a write.
+# Random moments over the length of a run, each in the folder that the kill before has left; some fall into a write.
 start = time.monotonic()
 shutil.rmtree("killed")
 run("killed")

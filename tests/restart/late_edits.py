@@ -1,5 +1,5 @@
-"""Edits between two runs in one folder: what no frame holds is taken over, how frames are written is refused, another first frame is
-another job, and the refusal names the key. Never is a folder left with frames of two kinds."""
+"""Jobs edited between two runs into one folder. Keys that affect no frame are adopted; changes of how frames are written, or of the first
+frame, are refused with the key. A folder never contains frames of two kinds."""
 import json
 import os
 import sys

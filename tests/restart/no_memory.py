@@ -1,5 +1,5 @@
-"""An allocation that finds no memory, in any command: exit code 5, one sentence, no half file; the same command again finishes
-with the same bytes. A few of the allocations of each command; every one that differs in who asks for it with NO_MEMORY=all."""
+"""Failed allocations in every command: exit code 5, one message, no partial file, and the same command then finishes with the same
+bytes. By default a sample of the allocations of each command fails; with NO_MEMORY=all, one for each distinct call stack."""
 import hashlib
 import os
 import random
@@ -12,7 +12,7 @@ ONLY = os.environ.get("ONLY", "").split()
 SHIM, NOTES = HERE + "/no_memory.so", HERE + "/notes"
 DEADLINE_S = 600
 NOISE = ("hoodoo: warning: arches.operations", "hoodoo: about ", "hoodoo: device time", "hoodoo: continuing ", "hoodoo: frames ")
-# What a run may lose and still be done; it says so in its log.
+# Products that a run may fail to write and still succeed, which it then logs.
 BY_DESIGN = ("log/timing.jsonl: out of memory", "out: old checkpoints stay: out of memory")
 random.seed(int(os.environ.get("SEED", "1")))
 
@@ -24,7 +24,7 @@ def between(path, first, last):
 
 
 def job(name, text, frames):
-    """A job of these frames, a checkpoint after each, all kept."""
+    """A job of these frames that keeps a checkpoint of each."""
     lines = [line for line in text.split("\n") if not line.startswith(("frames:", "checkpoint:"))]
     with open(name + ".yaml", "w") as file:
         file.write("\n".join(lines) + f"\nframes: {frames}\ncheckpoint: {{every: 1, keep: 9}}\n")
@@ -40,7 +40,7 @@ subprocess.run(["g++", "-std=c++17", "-O1", "-shared", "-fPIC", "-o", SHIM, TOP 
 
 
 def run(words, nth=None):
-    """Exit code (a negative one is a signal), what it said but for the usual, and what it noted."""
+    """Exit code (negative: a signal), output without ordinary lines, and the notes of the shim."""
     if os.path.exists(NOTES):
         os.remove(NOTES)
     env = dict(os.environ)
@@ -60,7 +60,7 @@ def run(words, nth=None):
 
 
 def tree(out):
-    """Every file but the log's, with its digest."""
+    """Every file except logs, with its digest."""
     found = {}
     for folder, _, names in os.walk(out):
         for name in names:
@@ -72,7 +72,7 @@ def tree(out):
 
 
 def half(whole):
-    """What is neither a file of the whole run, nor a stage of the frames so far, nor the record of one."""
+    """Files that are neither equal to a file of the whole run, nor a stage of the frames so far, nor its record."""
     bad = []
     for path, digest in tree("out").items():
         if path.endswith((".usda", ".usda.json")) and path in whole:
@@ -85,7 +85,7 @@ def half(whole):
 
 
 def lost_by_design():
-    """Whether the run that is just over said in its log that it lost what it may, and nothing else is amiss."""
+    """Did the run log that it failed to write a product that it may lose, with no other difference?"""
     if not os.path.exists("out/log/run.log"):
         return False
     with open("out/log/run.log", errors="replace") as file:
@@ -94,7 +94,7 @@ def lost_by_design():
 
 
 def fail_one(words, nth, whole):
-    """What is wrong once the nth allocation of the command fails; None if it had fewer this time (its threads share the count)."""
+    """The problem after the nth allocation of the command fails; None if it made fewer allocations this time (the count depends on threads)."""
     bad = []
     code, said, noted = run(words, nth)
     if not noted:
@@ -112,7 +112,7 @@ def fail_one(words, nth, whole):
 
 
 def command(name, words, before=None, few=2):
-    """The command with each chosen allocation failing, on a copy of the folder `before`; then once more, left alone."""
+    """Runs the command with each chosen allocation failing, on a copy of the folder `before`; then once more without failures."""
     def prepare():
         shutil.rmtree("out", ignore_errors=True)
         if before:

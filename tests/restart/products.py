@@ -1,5 +1,5 @@
-"""Whatever is made beside the frames has a record: cut, flipped or gone, `verify` names it and the commands it gives make it anew, byte
-for byte, in one round. And two runs of all commands leave the same bytes, with no file that others watch for under a temporary name."""
+"""Every product beside the frames has a record. When it is truncated, flipped or lost, `verify` names it, and the commands that it prints make
+it again, byte for byte, in one pass. Two runs of all commands give the same bytes, and temporary names never look like finished files."""
 
 import json
 import os
@@ -14,7 +14,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
 from script import *
 
-# A slab with loose rocks: stage, clips and shapes of points and rocks. Half a second a frame.
+# A slab with loose rocks: has a stage, clips, and shapes of points and rocks. Half a second per frame.
 JOB = {"hoodoo": 1, "name": "made", "frames": "1001-1002", "clock": {"years_per_frame": 2000}, "seed": 3,
        "domain": {"size_m": [8, 8, 8], "spacing_m": 0.5},
        "scene": {"union": [{"box": {"min_m": [1, 1, 3], "max_m": [7, 7, 6]}}, {"box": {"min_m": [2, 2, 0], "max_m": [6, 6, 3], "inert": True}}]},
@@ -33,7 +33,7 @@ seen, watching = set(), True
 
 
 def watch():
-    """Names that a program would take for finished files."""
+    """Names that other programs would take for finished files."""
     while watching:
         time.sleep(0.005)
         for folder, _, names in os.walk("out"):
@@ -78,7 +78,7 @@ ok(all(code == 0 for code, _ in codes) and tree("again", everything) == whole, "
 
 
 def kind(path):
-    """Products that only differ by a number are alike."""
+    """The kind of a product: its path without numbers."""
     return "".join(c for c in path if not c.isdigit())
 
 
@@ -87,7 +87,7 @@ def flip(path):
 
 
 def shell(command):
-    """As a person would paste it; `hoodoo run` is of a job that only they know."""
+    """Runs a printed command as a user would paste it; for `hoodoo run`, the user supplies the job."""
     if command.startswith("hoodoo run"):
         return hoodoo("run", "made.json", "--out", "out", "--progress", "none")
     return ask("sh", "-c", '"$HOODOO"' + command[len("hoodoo"):])
@@ -97,7 +97,7 @@ damaged = 0
 
 
 def healed(name, damage, paths):
-    """All of these at once: each is named, and the commands make it as it was."""
+    """Damages all of these at once: each must be named, and the commands must restore it."""
     global damaged
     damaged += len(paths)
     for path in paths:
@@ -106,14 +106,14 @@ def healed(name, damage, paths):
     found = {problem["file"] for problem in said["problems"]}
     made = [shell(command) for command in said["commands"]]
     after, healthy = tree("out", everything), verify()
-    # The page tells times, and what a lost run.json said of the device's number nobody knows.
+    # The page contains times, and the device number in a lost run.json cannot be restored.
     unlike = {path for path in whole if after.get(path) != whole[path] and not path.endswith(("run.json", "run.json.json", "index.html", "index.html.json"))}
     ok(code == 3 and found == set(paths) and all(code == 0 for code, _ in made) and healthy[0] == 0 and not unlike,
        f"{name}: {len(paths)} kinds of files", code, found ^ set(paths), said["commands"], made, healthy, unlike)
 
 
 def one_of_each(paths, least=1):
-    """Of each kind that has so many."""
+    """One product of each kind that has at least so many."""
     kinds = {}
     for path in sorted(paths):
         kinds.setdefault(kind(path), []).append(path)
@@ -125,7 +125,7 @@ def any_of(*damages):
 
 
 products = [path[len("records/"):-len(".json")] for path in records]
-# Without run.json and job.yaml nobody knows what the folder is: repair.py loses those.
+# Without run.json and job.yaml the folder cannot be identified; repair.py tests their loss.
 once = [path for path in one_of_each(products) if path not in ("run.json", "job.yaml")]
 thorough = float(os.environ.get("HOODOO_TEST_EFFORT", "1")) > 1
 if thorough:
@@ -133,7 +133,7 @@ if thorough:
         healed(damage.__name__, damage, once)
 else:
     healed("cut, flipped or gone", any_of(cut_half, flip, os.remove), once)
-# How a product without a record was made is known from others like it.
+# The command of a product without a record is inferred from similar products.
 if thorough:
     healed("records cut or flipped", any_of(cut_half, flip), one_of_each(records, least=2))
 healed("papers and records flipped", flip, ["job.yaml"] + [f"records/{path}.json" for path in ("run.json", "made.usda", "mesh/made.1001.ply")])

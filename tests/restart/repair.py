@@ -1,5 +1,5 @@
-"""Whatever is flipped, cut or removed, exactly that is made again by `run`, checkpoints by `run --repair`, and the folder is what it was,
-byte for byte."""
+"""Files that are flipped, truncated or removed are made again by `run`, checkpoints by `run --repair`, and no others; the folder is then the
+same, byte for byte."""
 
 import json
 import os
@@ -41,7 +41,7 @@ damaged = 0
 
 
 def repaired(name, damage, frames, *options):
-    """`damage` is done; after a run all is as it was, and files of other frames were not written again."""
+    """Calls `damage`; after a run all files must be as before, and those of other frames must not have been written again."""
     global damaged
     damaged += len(damage)
     before = inodes()
@@ -50,7 +50,7 @@ def repaired(name, damage, frames, *options):
     found = verify()
     code, said = run("out", *options)
     after = inodes()
-    # Papers of the whole sequence are written anew by every run, to the same bytes.
+    # Every run rewrites the files of the whole sequence, with the same bytes.
     again = {path for path in after if before.get(path) != after[path] and not path.startswith(("job", "run", "checkpoint/", "records/"))
              and not path.endswith(".usda")}
     strangers = {path for path in again if not any(f".{frame}." in path for frame in frames)}
@@ -81,12 +81,12 @@ def content(path):
         text = file.read()
     if path != "run.json":
         return text
-    # No checkpoint says which of the devices it was.
+    # Checkpoints do not contain the index of the device.
     return {key: value for key, value in json.loads(text).items() if key not in ("device_uuid", "device_pci")}
 
 
 def papers(name, path, damage):
-    """run.json or job.yaml is damaged; a run writes it anew, from which the folder is known again."""
+    """Damages run.json or job.yaml; a run rewrites it, so that the folder can be identified again."""
     global damaged
     damaged += 1
     before = content(path)

@@ -1,4 +1,4 @@
-"""The same job twice, in blocks, and with other numbers of threads: the same bytes."""
+"""The same job gives the same bytes when run twice, in blocks, and with other numbers of threads."""
 
 import os
 import shutil

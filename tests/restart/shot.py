@@ -1,5 +1,5 @@
-"""A shot in real time that branches from a run of years, stopped in the middle of the fall and gone on with: the same bytes; and
-blocks that fall between frames of years, likewise, with any number of threads."""
+"""A shot in real time that branches from a run in years gives the same bytes when it is stopped during the fall and resumed. So do blocks
+that fall between frames of years, with any number of threads."""
 
 import json
 import os
@@ -20,7 +20,7 @@ YEARS = {
 }
 SHOT = {**YEARS, "name": "shot", "frames": "1003-1014", "clock": {"seconds_per_frame": 1 / 24},
         "collapse": {"strength_MPa": 1, "joints_m": 2, "joint_strength": 0.002}, "checkpoint": {"every": 3, "keep": 9}}
-# A lintel on two pillars, one of which weathers fast: it comes down.
+# A lintel on two pillars, one of which weathers fast, so that the lintel falls.
 BLOCKS = {
     "hoodoo": 1, "name": "blocks", "frames": "1001-1008", "clock": {"years_per_frame": 1000}, "seed": 5,
     "domain": {"size_m": [16, 8, 12], "spacing_m": 0.5},
@@ -46,7 +46,7 @@ def lasting(path):
 
 
 def differences(a, b):
-    """But for checkpoints that only one has: a block's end has one."""
+    """Compares two folders, except for checkpoints that only one of them has, since blocks end with a checkpoint."""
     return sorted(path for path in a.keys() | b.keys() if a.get(path) != b.get(path) and
                   (path in a and path in b or not path.startswith("checkpoint/")))
 
@@ -69,7 +69,7 @@ years, first, last = (manifest("years", "years", 1003)["ledger"], manifest("whol
 ok(first == years, "begins with its particles", years, first)
 ok(adds_up(last) and last["fallen"] > 100, f"falls: {last['fallen']} of {last['start']} particles are in the air, and none is lost", last)
 whole = tree("whole", lasting)
-STOP = 1007  # in the middle of the fall
+STOP = 1007  # during the fall
 code, said = run(SHOT, "again", "--from", "years@1003", "--frames", f"1003-{STOP}")
 ok(code == 0 and not os.path.exists(f"again/frames/shot.{STOP + 1}.json"), f"stopped after frame {STOP}", said)
 code, said = run(SHOT, "again", "--from", "years@1003")
@@ -83,7 +83,7 @@ ok(all(adds_up(ledger) for ledger in ledgers), "the ledger adds up in every fram
 ok(ledgers[0]["fallen"] == 0 and ledgers[-1]["fallen"] > 0 and ledgers[-1]["deposit"] > 0,
    f"rubble and deposits lie at the end: {ledgers[-1]['fallen']} and {ledgers[-1]['deposit']} particles", *ledgers)
 falls = next(frame for frame in range(1001, 1009) if ledgers[frame - 1001]["fallen"] > 0)
-# A fall takes long: what is stopped is gone on with in another number of threads.
+# A fall takes long, so the resumed run also uses another number of threads.
 for stop, threads in ((max(falls - 1, 1002), ("0", "1")), (min(falls + 1, 1007), ("1", "2"))):
     shutil.rmtree("again", ignore_errors=True)
     run(BLOCKS, "again", "--frames", f"1001-{stop}", env={"LP_NUM_THREADS": threads[0]})

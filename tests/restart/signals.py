@@ -1,4 +1,4 @@
-"""Stopped by a signal after frames, and run again: exit code 85, a checkpoint of that frame, and at the end the same bytes."""
+"""A run stopped by a signal exits with 85 and a checkpoint of its last frame; run again, it ends with the same bytes."""
 
 import os
 import shutil
@@ -25,7 +25,7 @@ def stop_and_go_on(frame, number, times=1):
     ok(code == 0 and truth.differences("stopped") == "", f"{name}: run again, the same bytes", code, truth.differences("stopped"), said)
 
 
-# After every frame it is stopped below, in one run after the other.
+# Below, consecutive runs are stopped after every frame.
 for frame in range(FIRST, LAST) if LONG else (FIRST + 1, FIRST + 6, FIRST + 8, LAST - 1):
     stop_and_go_on(frame, signal.SIGTERM)
 if LONG:

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Rock under crusts, from which sheets come off, in pieces: frames run in two goes are byte for byte those of one go, and rock whose particles come when the
-# weather does is the rock that had them all at first. A branch begins to keep ages, or leaves them.
+# Rock with crusts and sheeting in two runs gives byte for byte the frames of one run, and particles that are created on demand give the same
+# rock as particles that exist from the start. A branch may start to record ages, or stop.
 set -u
 cat >job.yaml <<'JOB'
 hoodoo: 1
@@ -39,7 +39,7 @@ say $? "volumes have them"
 say $? "pictures have them"
 ! "$HOODOO" inspect none/aov/bare.0004.exr 2>>log | grep -q exposed
 say $? "and only where they are kept"
-# What water bares and covers in one frame is inside again before anyone has seen it: its age is one that a run goes on from.
+# Rock that water exposes and covers within one frame is inside again at its end; a run must be able to continue from its age.
 cat >covered.yaml <<'JOB'
 hoodoo: 1
 name: covered

@@ -1,6 +1,6 @@
 #!/bin/sh
-# What whoever starts hoodoo may leave it with: closed descriptors, a limit on files' sizes, a cache on a full disk, signals that
-# are ignored. Frames are the same, or the exit code says why there are none.
+# Unusual environments: closed descriptors, a limit on file sizes, a cache on a full disk, ignored signals. Frames are the
+# same, or the exit code says why there are none.
 set -u
 job=$HOODOO_TOP/tests/restart/twelve.yaml
 . "$HOODOO_TOP/tests/lib/check.sh"
@@ -40,7 +40,7 @@ wait $!
 check "a hangup that is ignored: exit code 0" [ $? = 0 ]
 check "a hangup that is ignored: the same files" same e
 
-# What is there already is read by a process of its own, and files of a few kilobytes are read ahead.
+# Existing files are read by a separate process, and files of a few kilobytes are read ahead.
 cat >small.yaml <<END
 hoodoo: 1
 name: small

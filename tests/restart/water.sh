@@ -1,5 +1,5 @@
 #!/bin/sh
-# Water in pieces: frames run in two goes, from a checkpoint in between, are byte for byte those of one go.
+# Water in two runs, with a checkpoint in between, gives byte for byte the frames of one run.
 set -u
 cat >job.yaml <<'JOB'
 hoodoo: 1

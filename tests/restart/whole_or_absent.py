@@ -1,5 +1,5 @@
-"""Every kind of file, made on a disk that fills and by programs that are killed: what has its name is whole. Then, with room
-and time, the same command finishes."""
+"""Every kind of file, written to a disk that fills and by programs that are killed: a file under its final name is complete. With space and
+without interruption, the same command then finishes."""
 import os
 import random
 import shutil
@@ -47,7 +47,7 @@ with open(TOP + "/tests/restart/arches.sh") as file:
 with open("terrain.yaml", "w") as file:
     file.write(text[text.index("hoodoo: 1"):text.index("\nJOB\n") + 1].replace("frames: 1-8", "frames: 1-3"))
 HERE = os.getcwd()
-# In the order in which each needs what the one before made. {out}: the folder. The last word: where it writes.
+# Each step needs the results of the steps before. {out}: the folder. The last item: where the step writes.
 STEPS = [
     ("run", ["run", HERE + "/twelve.yaml", "--out", "{out}", "--progress", "none"], "points"),
     ("mesh", ["mesh", "{out}", "--frames", "1001-1003x2", "--progress", "none"], "mesh"),
@@ -82,7 +82,7 @@ else:
 
 
 def fill_up(step, before, grown):
-    """The step on disks with room for shares of what it adds."""
+    """Runs the step on disks with space for various shares of what it adds."""
     bad, codes, after = [], [], ""
     for share in (0.03, 0.25, 0.55, 0.9):
         size = size_of(before) if os.path.isdir(before) else 0
@@ -104,17 +104,17 @@ def fill_up(step, before, grown):
         finally:
             subprocess.run(["umount", "disk"], check=True)
     check(not bad, f"{step[0]}: on a full disk what is there is whole, and with room it finishes (exit codes {codes})", *bad)
-    # a report without its pictures is one; a template fits into what is left of a page
+    # a report without pictures is still a report; a template fits into the rest of a page
     if step[0] not in ("report", "submit"):
         check(4 in codes, f"{step[0]}: a full disk is exit code 4")
 
 
 def kill_at(step, before, length, moments):
-    """kill -9 of all it runs, at moments; then again."""
+    """Kills the step and its children at several moments, then runs it again."""
     bad, killed, halves = [], 0, 0
     for i in range(3):
         for folder in ("killed", "killed_terrain"):
-            while os.path.isdir(folder):  # what was killed may still be going
+            while os.path.isdir(folder):  # a killed process may still be ending
                 shutil.rmtree(folder, ignore_errors=True)
         if os.path.isdir(before):
             shutil.copytree(before, "killed")
@@ -130,7 +130,7 @@ def kill_at(step, before, length, moments):
             if os.path.isdir(folder):
                 halves += len(left_by(folder))
                 bad += [f"killed: {path}" for path in wrong(folder)]
-    # A kill seldom hits where it leaves something: what another machine left there long ago goes, too.
+    # Kills rarely leave temporary files, so an old one of another machine is added; it must be removed, too.
     root = "killed_terrain" if step[0] == "arches" else "killed"
     for folder in (root, f"{root}/{step[2]}", f"{root}/records/{step[2]}"):
         os.makedirs(folder, exist_ok=True)
@@ -169,7 +169,7 @@ print("# read: " + ", ".join(f"{n} {kind}" for kind, n in sorted(seen.items())))
 WANTED = {"vdb", "exr", "png", "jpg", "ply", "obj", "usdc", "usda", "mp4", "html", "json", "yaml", "ckpt", "stacks"}
 check(WANTED <= seen.keys(), "all kinds of files were among them", WANTED - seen.keys())
 
-# The readers can tell: each kind of file, cut short.
+# The readers must detect truncated files of each kind.
 for kind in sorted(WANTED):
     path = next(os.path.join(folder, f) for folder in ("out", "out_terrain") if os.path.isdir(folder) for f in files(folder)
                 if f.endswith("." + kind) and ".tmp-" not in f)

@@ -1,4 +1,4 @@
-"""A wind that flows around the rock, and runs on in every frame: the same bytes with other numbers of threads and in blocks."""
+"""Flowing wind, whose state continues from frame to frame, gives the same bytes with other numbers of threads and in blocks."""
 
 import os
 import sys

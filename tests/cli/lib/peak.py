@@ -1,5 +1,5 @@
-"""What a plan says a run takes of memory, and what it took. On a CPU's device all of it is the machine's own, so that the planned
-parts together are the process's largest resident size."""
+"""Compares planned and used memory. With a CPU device all memory is host memory, so the sum of the planned parts should equal the maximum resident
+size of the process."""
 import json
 import os
 import shutil
@@ -7,7 +7,7 @@ import subprocess
 import time
 
 HOODOO = os.environ["HOODOO"]
-NEAR = 0.15  # a plan is that near
+NEAR = 0.15  # tolerance
 failed = False
 
 
@@ -18,7 +18,7 @@ def check(good, what):
 
 
 def make_group(limit):
-    """A control group below ours with a limit, or None: its folder. end_group()."""
+    """Creates a control group with a limit below our own and returns its folder, or None. Remove it with end_group()."""
     try:
         groups = dict(line.rstrip("\n").split(":", 2)[1:] for line in open("/proc/self/cgroup"))
         for controllers, group in groups.items():
@@ -41,7 +41,7 @@ def make_group(limit):
 
 
 def end_group(group):
-    """What was in it has ended, or is about to."""
+    """Removes the group, whose processes have ended or are about to."""
     for _ in range(100):
         try:
             os.rmdir(group)
@@ -51,7 +51,7 @@ def end_group(group):
 
 
 def run(words, group=None):
-    """Exit code, stderr and the largest resident size in bytes, of one process; in a control group, if there is one."""
+    """Runs hoodoo, in a control group if one is given. Returns exit code, stderr and maximum resident size in bytes."""
     words = [HOODOO, *words]
     if group:
         words = ["sh", "-c", f'echo $$ >{group}/cgroup.procs && exec "$@"', "sh", *words]
@@ -66,7 +66,7 @@ def run(words, group=None):
 
 
 def compare(name, job, first, sets):
-    """Four frames: the largest memory is held when one is written while the next is made."""
+    """Runs four frames: memory is largest while one frame is written and the next is made."""
     words = [w for s in sets for w in ("--set", s)]
     plan = json.loads(subprocess.run([HOODOO, "plan", job, "--rehearse", "0", "--json", *words], stdout=subprocess.PIPE, check=True).stdout)
     parts = [plan[part + "_bytes"] for part in ("device", "host", "process")]

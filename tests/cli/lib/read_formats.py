@@ -1,4 +1,4 @@
-"""Checkpoints, stacks, manifests and records, read by what src/*/FORMAT.md say and nothing else."""
+"""Readers of checkpoints, stacks, manifests and records, written from the pages src/*/FORMAT.md alone."""
 import ctypes
 import ctypes.util
 import json
@@ -28,7 +28,7 @@ def unpacked(data, n, item):
 
 
 def checkpoint(path):
-    """The index, and the raw bytes of each section by its name."""
+    """Returns the index, and the raw bytes of each section by name."""
     with open(path, "rb") as file:
         data = file.read()
     index_at, index_size, whole, end = struct.unpack("<QQQ8s", data[-32:])
@@ -49,7 +49,7 @@ def checkpoint(path):
 
 
 def stacks(path):
-    """nx, ny, cell, quantum, and the layers of each stack as (top, material)."""
+    """Returns nx, ny, cell, quantum, and the layers of each stack as (top, material)."""
     with open(path, "rb") as file:
         data = file.read()
     magic, form, nx, ny, solid, zero, n, cell, quantum = struct.unpack("<12sIIIIIQdd", data[:56])
@@ -67,7 +67,7 @@ def stacks(path):
 
 
 def sealed(path):
-    """A manifest or a record."""
+    """Reads a manifest or record and checks its hash."""
     with open(path, "rb") as file:
         data = file.read()
     seal = data.index(b',\n  "self_xxh3": ')

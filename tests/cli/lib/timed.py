@@ -1,23 +1,23 @@
-"""What a plan says a run takes of the processors' time, and what it took. On a CPU's device that is the device's time, too."""
+"""Compares planned and used CPU time. With a CPU device this includes the time of the device."""
 import json
 import os
 import shutil
 import subprocess
 
 HOODOO = os.environ["HOODOO"]
-NEAR = 0.30  # a plan is that near
-TRIES = 3  # where another program shares caches with one of the two and not with the other, that is no error of the plan
+NEAR = 0.30  # tolerance
+TRIES = 3  # other programs that share caches with only one of the two can disturb a comparison
 
 
 def used(words):
-    """Exit code, and seconds of CPU time, of one process."""
+    """Exit code and CPU seconds of one process."""
     child = os.posix_spawn(HOODOO, [HOODOO, *words], os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, n, os.devnull, os.O_WRONLY, 0) for n in (1, 2)])
     _, code, use = os.wait4(child, 0)
     return os.waitstatus_to_exitcode(code), use.ru_utime + use.ru_stime
 
 
 def compare(name, job, sets, patience):
-    """Is the plan near? A line that says so, and the numbers."""
+    """Is the plan within the tolerance? Also returns a line with the numbers."""
     words = [w for s in sets for w in ("--set", s)]
     for left in reversed(range(TRIES)):
         plan = json.loads(subprocess.run([HOODOO, "plan", job, "--json", "--rehearse", str(patience), "--out", "timed", *words],

@@ -1,8 +1,8 @@
-// To be loaded before hoodoo (LD_PRELOAD): its Nth allocation finds no memory. NO_MEMORY is "N FILE". When that happens, a
-// line with N goes to FILE. With N = 0 none fails, and a line for each says who asked for it: a hash of the calls that led
-// there. Counted is what hoodoo's own code asks for by malloc, calloc or realloc, in the order of time; not what shrinks,
-// nor what libraries, C++'s new, forked processes and other programs ask for: where a file is read in a process of its own,
-// that has a limit of its own, and no memory says that the file is hostile.
+// A library for LD_PRELOAD that makes hoodoo's Nth allocation fail. NO_MEMORY is "N FILE"; when the allocation fails, a line with
+// N is written to FILE. With N = 0 none fails, and a line per allocation identifies its caller by a hash of the call stack.
+// Only calls of malloc, calloc and realloc by hoodoo's own code count, in order of time. Shrinking, libraries, C++'s new, forked
+// processes and other programs do not count: reader processes have a limit of their own, where a lack of memory means that
+// the file is hostile.
 #include <atomic>
 #include <cerrno>
 #include <cstdio>

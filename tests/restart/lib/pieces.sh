@@ -1,11 +1,11 @@
-# For tests in sh of runs in pieces, of job.yaml: what is done is logged in `log`.
+# Helpers for shell tests that run job.yaml in several parts. Output goes to `log`.
 say() {
     [ "$1" = 0 ] && echo "ok - $2" && return
     echo "not ok - $2"
     tail -n 5 log | sed 's/^/# /'
 }
 
-# same ONE OTHER: the files of frames of two folders, pictures where the job has a camera for them.
+# same ONE OTHER: compares the frames' files in two folders, with pictures if the job has a camera.
 same() {
     kinds="points volumes"
     if grep -q '^cameras:' job.yaml; then kinds="$kinds aov"; fi
@@ -15,7 +15,7 @@ same() {
     done
 }
 
-# The job in one go, in `whole`, and in two.
+# Runs the job at once, into `whole`, and in two parts.
 in_pieces() {
     "$HOODOO" run job.yaml --out whole --progress none >log 2>&1
     say $? "in one go"

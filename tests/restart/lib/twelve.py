@@ -1,4 +1,4 @@
-"""Runs of twelve.yaml (12 frames), stopped where a test wants them stopped, and comparisons of what they leave."""
+"""Runs of twelve.yaml (12 frames) that are stopped where a test wants, and comparisons of their files."""
 
 import fcntl
 import hashlib
@@ -22,7 +22,7 @@ def command(out, *options):
 
 
 def run(out, *options, env=None):
-    """To its end: exit code and stderr."""
+    """Runs the job to its end. Returns exit code and stderr."""
     done = subprocess.run(command(out, *options), stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True,
                           timeout=PATIENCE, env={**os.environ, **env} if env else None)
     return done.returncode, done.stderr
@@ -42,7 +42,7 @@ def checkpoints(out):
 
 
 class Held:
-    """A run that says its lines into a pipe that holds one: it cannot go past a line before the one before it is read."""
+    """A run whose output goes into a pipe that holds one line, so that it cannot print a line before the one before has been read."""
 
     def __init__(self, out, *options):
         read, write = os.pipe2(os.O_DIRECT)  # packets: lines do not share the pipe's only page
@@ -52,19 +52,19 @@ class Held:
         self.read, self.out, self.said = read, out, []
 
     def line(self):
-        """The next one; "" at the end."""
+        """The next line; "" at the end."""
         packet = os.read(self.read, 4096).decode()
         self.said.append(packet)
         return packet
 
     def line_of(self, start):
-        """Reads until a line that starts so."""
+        """Reads up to a line with this start."""
         while not self.line().startswith(start):
             if self.said[-1] == "":
                 raise RuntimeError(f"it ended before it said '{start}': {self.said}")
 
     def hold_at(self, frame):
-        """Returns when `frame` is written and the run waits to say so: it has not yet looked for a signal."""
+        """Returns when `frame` has been written and the run is blocked on printing so, before it checks for signals."""
         before = {FIRST: "hoodoo: frames ", FIRST + 1: "hoodoo: about "}
         self.line_of(before.get(frame, f"hoodoo: frame {frame - 2},"))
         for _ in range(PATIENCE * 500):
@@ -77,7 +77,7 @@ class Held:
         self.child.send_signal(number)
 
     def end(self):
-        """Lets it run: exit code and all it said."""
+        """Lets the run continue to its end. Returns exit code and output."""
         while self.line():
             pass
         os.close(self.read)
@@ -90,7 +90,7 @@ def digest(path):
 
 
 def tree(out):
-    """Every file but the log's, with its digest."""
+    """Every file except logs, with its digest."""
     found = {}
     for folder, _, names in os.walk(out):
         for name in names:
@@ -101,7 +101,7 @@ def tree(out):
 
 
 class Truth:
-    """What an uninterrupted run leaves, and the checkpoint of every frame."""
+    """The files of an uninterrupted run, and the checkpoint of every frame."""
 
     def __init__(self):
         for out, options in (("whole", ()), ("every", ("--set", "checkpoint.every=1", "--set", "checkpoint.keep=99"))):
@@ -112,8 +112,8 @@ class Truth:
         self.checkpoint = {frame: digest(checkpoint("every", frame)) for frame in checkpoints("every")}
 
     def differences(self, out):
-        """"" if the folder is what an uninterrupted run leaves. A stop may have left a checkpoint of another frame among those
-        kept: it has to be the one that frame has in any run."""
+        """Differences to an uninterrupted run; "" if there are none. After a stop, the kept checkpoints may include one of another frame, which
+        must equal the checkpoint of that frame in any run."""
         here = tree(out)
         bad = []
         kept = checkpoints(out)
@@ -135,7 +135,7 @@ class Truth:
 
 
 def stop(out, frame, number, times=1):
-    """A run stopped by a signal once `frame` is written: exit code and what it said."""
+    """Stops a run by a signal after `frame` is written. Returns exit code and output."""
     held = Held(out)
     held.hold_at(frame)
     for _ in range(times):
@@ -144,7 +144,7 @@ def stop(out, frame, number, times=1):
 
 
 def errors(said):
-    """The lines that are neither progress nor information nor warnings: those after the last of them."""
+    """The lines after the last line of progress, information or warning."""
     return [line for line in said.splitlines() if not line.startswith(
         ("hoodoo: frame", "hoodoo: about ", "hoodoo: continuing ", "hoodoo: device time", "hoodoo: warning: ", "hoodoo: all "))]
 

@@ -1,4 +1,4 @@
-"""Is a file whole? By readers that are not ours where there are any: OpenVDB's vdb_print, OpenImageIO, ffprobe, plain parsers."""
+"""Is a file complete? Checked by independent readers where they exist: OpenVDB's vdb_print, OpenImageIO, ffprobe, plain parsers."""
 import hashlib
 import html.parser
 import json
@@ -50,7 +50,7 @@ SIZES = {"char": 1, "uchar": 1, "short": 2, "ushort": 2, "int": 4, "uint": 4, "f
 
 
 def ply(path):
-    """As long as its head says, and no triangle of a vertex that is not there."""
+    """The file is as long as its header says, and triangles refer to existing vertices."""
     head, found, body = read(path).partition(b"end_header\n")
     elements = []  # name, count, bytes before the list, bytes after it
     for line in head.decode().split("\n"):
@@ -84,7 +84,7 @@ def obj(path):
 
 
 def closed(faces):
-    """A solid's surface: each edge as often one way as the other. A file that ends early has open edges."""
+    """A closed surface uses each edge equally often in both directions. A truncated file has open edges."""
     edges = {}
     for face in faces:
         c = [int(w.split("//")[0]) for w in face.split()[1:]]
@@ -145,7 +145,7 @@ def page(path):
 
 
 def stacks(path):
-    """Its head says how many columns and layers follow; a column has as many layers as its count says."""
+    """The header gives the number of columns and layers, and each column has as many layers as its count says."""
     data = read(path)
     nx, ny, layers = *struct.unpack_from("<2i", data, 16), *struct.unpack_from("<Q", data, 32)
     counts = struct.unpack_from(f"<{nx * ny}I", data, 56)
@@ -157,19 +157,19 @@ def lines(path):
 
 
 def job(path):
-    """What is cut within a comment is YAML, and maybe a job: with defaults from there on. The last key of all has to be there."""
+    """A truncated job can be valid YAML and even a valid job with defaults, so its last key must be present."""
     return lines(path) and read(path).splitlines()[-1].lstrip().startswith(b"label:") and quiet(HOODOO, "plan", path, "--rehearse", "0", "--json")[0] == 0
 
 
 READERS = {"vdb": vdb, "exr": picture, "png": picture, "jpg": picture, "ply": ply, "obj": obj, "usdc": usdc, "usda": usda, "mp4": mp4,
            "html": page, "json": lambda path: json.loads(read(path)) is not None, "yaml": job, "ckpt": hoodoo, "stacks": stacks,
            "pov": lines, "inc": lines, "sh": lines, "mtl": lines, "mark": os.path.exists}
-# What is added to line by line, and the lock, may end anywhere; each line's reader knows.
+# Logs, which grow line by line, and the lock may end anywhere; their readers tolerate that.
 LOOSE = ("log/", "lock", "report/log", "preview/log", "turntable/log")
 
 
-known = {}  # what was whole once is whole wherever the same bytes stand
-ALONE = READERS.keys() - {"usda", "html"}  # these name others
+known = {}  # digests of files known to be complete
+ALONE = READERS.keys() - {"usda", "html"}  # these refer to other files
 
 
 def is_whole(path, kind):
@@ -186,7 +186,7 @@ def files(root):
 
 
 def wrong(root, seen=None):
-    """What is half there: paths, of all files in the folder that count. `seen` gathers the kinds that were read."""
+    """The paths of incomplete files in the folder. `seen` counts the kinds of files that were read."""
     bad = []
     for path in files(root):
         if path.startswith(LOOSE) or ".tmp-" in path or path.endswith((".log", ".jsonl")):
@@ -194,7 +194,7 @@ def wrong(root, seen=None):
         kind = path.rsplit(".", 1)[-1] if "." in os.path.basename(path) else path
         try:
             good = is_whole(os.path.join(root, path), kind)
-        except Exception as error:  # whatever a reader stumbles over
+        except Exception as error:  # any error of a reader
             good, path = False, f"{path} ({type(error).__name__}: {error})"
         if seen is not None:
             seen[kind] = seen.get(kind, 0) + 1
