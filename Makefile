@@ -12,7 +12,7 @@ BENCH_WHEELS = taichi==1.7.4 fastscapelib==0.3.0 pyamg
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0
 DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev codespell
 
-# As many jobs as cores, unless the user says -j. A make within make shares those of the first.
+# As many jobs as cores, unless -j is given. A recursive make shares the jobs of the first one.
 ifeq ($(MAKELEVEL),0)
 MAKEFLAGS += --jobs=$(shell nproc)
 endif
@@ -46,7 +46,7 @@ TEST_SRC = $(wildcard tests/*/test_*.c)
 TEST_BIN = $(TEST_SRC:%.c=$(BUILD)/%)
 BENCH_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/bench/*.c)) $(BUILD)/tests/bench/surface
 TEST_HELP = $(patsubst %.c,$(BUILD)/%.o,$(wildcard tests/ref/*.c))
-# As intermediate files they would go after each build, and every test be linked again for the want of them.
+# Without this, make would delete them as intermediate files after each build, and link every test again.
 .SECONDARY: $(TEST_HELP)
 KEEP = $(if $(SANITIZE),$(BUILD)/tests/sanitized/keep_libraries.o)
 
@@ -73,11 +73,11 @@ $(BUILD)/.deps-peers: Makefile $(BUILD)/.deps-test
 deps-bench: $(BUILD)/.deps-bench
 $(BUILD)/.deps-bench: Makefile $(BUILD)/.deps-test
 	$(Q)mkdir -p $(@D) && sh tests/deps.sh $(PACKAGES) $(TEST_PACKAGES) $(BENCH_PACKAGES) && touch $@
-# It sees Debian's packages, for PETSc comes from there.
+# With access to Debian's packages, which provide PETSc.
 $(BUILD)/venv-bench/.done: Makefile $(BUILD)/.deps-bench
 	$(Q)/usr/bin/python3 -m venv --system-site-packages $(@D) && $(@D)/bin/pip install --quiet $(BENCH_WHEELS) && touch $@
 
-# Pixar's USD is no Debian package; the tests alone need it.
+# Debian has no package of Pixar's USD; only tests need it.
 $(BUILD)/venv-usd/.done: Makefile $(BUILD)/.deps-peers
 	$(Q)/usr/bin/python3 -m venv $(@D) && $(@D)/bin/pip install --quiet $(PEER_WHEELS) && touch $@
 
@@ -97,7 +97,7 @@ $(SHARE)/%_shim.o: %_shim.cpp | $(BUILD)/.deps
 	@echo "c++ $<"
 	$(Q)mkdir -p $(@D) && $(CXX) $(CPPFLAGS) $(CXXFLAGS) -MMD -MP -c -o $@ $<
 
-# What opens other people's files, and what needs OpenVDB, stands beside hoodoo and is started or loaded when it is needed.
+# Readers of untrusted files, and the library that uses OpenVDB, are separate files beside hoodoo, started or loaded on demand.
 BESIDE = $(addprefix $(SHARE)/,hoodoo-read hoodoo-read-image hoodoo-read-mesh hoodoo-vdb.so)
 $(BUILD)/hoodoo: | $(BESIDE)
 $(BUILD)/hoodoo-read: $(BUILD)/src/read.o $(BUILD)/libhoodoo.a
@@ -118,19 +118,19 @@ $(BUILD)/hoodoo-vdb.so: $(VDB_OBJ) src/vdb.map
 	@echo "link $@"
 	$(Q)$(CXX) $(OPT) -shared -Wl,--version-script=src/vdb.map -Wl,-Bsymbolic -Wl,-z,defs -o $@ $(VDB_OBJ) $(VDB_LIBS) -lmuparser
 
-# What is simulated and what is in a frame's files comes from these objects. Their hash tells builds apart that may give
-# other numbers: objects and not sources, since compiler and flags count and comments do not. Debug information, which
-# names folders, is left out. The commands, the control of a run, the farm and the previews are no part of it.
+# The objects that determine the results of a simulation and the contents of a frame's files. Their hash identifies a build:
+# objects instead of sources, since compiler and flags matter and comments do not. Debug information, which contains paths, is
+# stripped. Verbs, the control of a run, the farm and previews are not part of it.
 COMPUTES = $(sort $(filter-out $(addprefix $(BUILD)/,src/base/version.o src/cli/% src/run/% src/look/% src/selftest/% farm/% render/% gen/render/%),$(LIB_OBJ)))
 $(BUILD)/gen/build: $(COMPUTES) Makefile
 	$(Q)ld -r -S -o $@.o $(COMPUTES) && { echo $(VERSION); cat $@.o; } | sha256sum | cut -c 1-16 > $@ && rm $@.o
 
-# Version, commit and build are in one object, so that a commit does not rebuild the rest.
+# Version, commit and build are in a single object, so that a commit rebuilds nothing else.
 $(BUILD)/src/base/version.o: private CPPFLAGS += -DHOODOO_VERSION='"$(VERSION)"' -DHOODOO_COMMIT='"$(COMMIT)"' \
 	-DHOODOO_BUILD='"$(shell cat $(SHARE)/gen/build)"'
 $(BUILD)/src/base/version.o: $(SHARE)/gen/build $(wildcard $(addprefix $(shell git rev-parse --git-dir 2>/dev/null)/,HEAD logs/HEAD))
 
-# ---- shaders: GLSL -> three SPIR-V variants, checked, embedded: a folder at a time
+# ---- shaders: GLSL to three SPIR-V variants, validated and embedded, one folder at a time
 
 GLSLANG = -lglslang -lMachineIndependent -lGenericCodeGen -lOSDependent -lOGLCompiler -lSPIRV -lglslang-default-resource-limits \
 	-lSPIRV-Tools-opt -lSPIRV-Tools
@@ -152,7 +152,7 @@ $(BUILD)/gen/gpu/%.o: $(SHARE)/gen/gpu/%.c $(SHARE)/gen/gpu/kernels.h src/gpu/ke
 	@echo "cc $<"
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-# ---- scenes and the report's page: POV-Ray text, HTML, CSS and JavaScript, embedded as lines
+# ---- POV-Ray text, HTML, CSS and JavaScript of scenes and pages, embedded as lines
 
 SCENE = $(sort $(wildcard render/*.inc render/*.css render/*.js render/*.html))
 $(SHARE)/gen/render/scene_parts.c: $(SCENE) src/embed_text.sh
@@ -161,7 +161,7 @@ $(BUILD)/gen/render/scene_parts.o: $(SHARE)/gen/render/scene_parts.c render/scen
 	@echo "cc $<"
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) $(CFLAGS) -c -o $@ $<
 
-# Jobs that need no other file.
+# Jobs that need no other files.
 EXAMPLES = $(filter-out $(patsubst %.png,%.yaml,$(wildcard jobs/*.png)),$(sort $(wildcard jobs/*.yaml)))
 $(SHARE)/gen/cli/examples.c: $(EXAMPLES) src/embed_text.sh
 	$(Q)mkdir -p $(@D) && sh src/embed_text.sh $(EXAMPLES) > $@.tmp && mv $@.tmp $@
@@ -180,13 +180,13 @@ $(BUILD)/tests/%: tests/%.c $(BUILD)/libhoodoo.a $(TEST_HELP) $(KEEP) | $(BESIDE
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) -Itests $(CFLAGS) $(EXR_FLAGS) -MMD -MP -o $@ $< $(TEST_HELP) $(KEEP) $(BUILD)/libhoodoo.a \
 		-lcmocka $(LDLIBS) -lseccomp
 
-# CGAL judges meshes. It is not part of hoodoo, nor linked with it: its licence is the GPL.
+# A checker of meshes that uses CGAL. It is not part of hoodoo and not linked with it, since CGAL's licence is the GPL.
 JUDGE = $(CXX) -std=c++17 -O2 -frounding-math -w -DCGAL_EIGEN3_ENABLED -isystem /usr/include/eigen3 -isystem /usr/include/Imath
 $(BUILD)/tests/ref/mesh_check $(BUILD)/tests/bench/surface: $(BUILD)/%: %_shim.cpp | $(BUILD)/.deps-test
 	@echo "c++ $<"
 	$(Q)mkdir -p $(@D) && $(JUDGE) -o $@ $< -lopenvdb -ltbb -lImath-3_1 -lmpfr -lgmp -lpthread
 
-# The parsers of what other people write, in libFuzzer's hands.
+# Parsers of untrusted input under libFuzzer.
 FUZZ_BIN = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/fuzz/*.c))
 $(BUILD)/tests/fuzz/%: tests/fuzz/%.c tests/fuzz/fuzz.h $(BUILD)/libhoodoo.a
 	@echo "fuzz $<"
@@ -196,20 +196,20 @@ $(BUILD)/tests/fuzz/%: tests/fuzz/%.c tests/fuzz/fuzz.h $(BUILD)/libhoodoo.a
 test: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN) $(BUILD)/tests/ref/mesh_check
 	$(Q)HOODOO_TEST_BUT=tests/later sh tests/run.sh $(BUILD) unit gpu physics restart cli
 
-## test-later: those of the same folders that take minutes each: nobody waits for them but .ci/run
+## test-later: tests of the same folders that take minutes each; .ci/run runs them, too
 test-later: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) $$(cat tests/later)
 
-## test-peers: read what we write with Blender, USD, Chromium and other programs (large packages)
+## test-peers: Slurm, OpenJD, Blender, USD, Chromium and others with hoodoo's files (large packages)
 test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers $(BUILD)/venv-usd/.done
 	$(Q)sh tests/run.sh $(BUILD) peers
 
-## test-long: the slow proofs: every interruption, resolution, sweeps
+## test-long: slow proofs: every interruption, resolutions, sweeps
 test-long: $(BUILD)/hoodoo $(BUILD)/.deps-long $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) long
 
 FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/killed.py restart/full_disk.sh
-## faults: run the campaigns of faults and write their table into tests/README.md
+## faults: run the fault campaigns and write their table into tests/README.md
 faults: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/physics/test_numbers
 	$(Q)HOODOO_FAULTS=write sh tests/run.sh $(BUILD) $(FAULTS)
 
@@ -217,19 +217,19 @@ faults: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/physics/test_numbers
 bench: $(BUILD)/hoodoo $(BUILD)/.deps-bench $(BUILD)/venv-bench/.done $(BENCH_BIN)
 	$(Q)/usr/bin/python3 tests/bench/run.py $(BUILD) $(BENCH)
 
-## bench-compare: what differs between two results of it: make bench-compare A=OLD.json B=NEW.json
+## bench-compare: the differences between two results: make bench-compare A=OLD.json B=NEW.json
 bench-compare:
 	$(Q)/usr/bin/python3 tests/bench/run.py compare $(A) $(B)
 
-## reference: write jobs/README.md anew from the key table
+## reference: write jobs/README.md and jobs/schema.json from the tables of keys and values
 reference: $(BUILD)/tests/unit/test_job
 	$(Q)cd $$(mktemp -d) && HOODOO_TOP=$(CURDIR) HOODOO_UPDATE=1 $(CURDIR)/$(BUILD)/tests/unit/test_job >/dev/null 2>&1
 
-## gallery: look at all jobs anew, jobs/GALLERY.md (a few minutes)
+## gallery: draw all jobs again and write jobs/GALLERY.md (a few minutes)
 gallery: $(BUILD)/hoodoo
 	$(Q)sh jobs/gallery.sh $(CURDIR)/$(BUILD)/hoodoo
 
-## format: lay out the C by .clang-format
+## format: apply .clang-format to all C
 format:
 	$(Q)clang-format -i $(shell find src farm render tests -name '*.[ch]' -o -name '*_shim.cpp')
 
@@ -237,28 +237,28 @@ format:
 lint: $(BUILD)/hoodoo $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.h
 	$(Q)sh tests/run.sh $(BUILD) lint.sh
 
-# The sanitizers' builds are of the C. They share the shaders and the C++ with the ordinary build: half of the C++ is
-# OpenVDB's templates, which take minutes to compile with checks, and what its threads wait for in a library that has none
-# the thread sanitizer cannot see. They share what stands beside hoodoo, too, and its hash: a reader's limit on memory leaves no
-# room for what a sanitizer reserves. Of the cases that are many they take a quarter (tests/effort.h), for all take too long.
+# Sanitizer builds instrument the C only and share shaders and C++ with the ordinary build: half of the C++ is templates of
+# OpenVDB, which take minutes to compile with checks, and the thread sanitizer cannot see synchronisation inside libraries
+# without instrumentation. They also share the files beside hoodoo and the hash of the build: the memory limit of a reader is
+# too small for what a sanitizer reserves. Tests run a quarter of their random cases (tests/effort.h) to save time.
 SHARED = $(KERNELS:%=$(SHARE)/gen/gpu/%.c) $(SHARE)/gen/render/scene_parts.c $(SHARE)/gen/cli/examples.c $(SHARE)/gen/build $(SHIM_OBJ) $(BESIDE)
 SANITIZED = SHARE=$(SHARE) OPT='-O1 -g1' HOODOO_TEST_EFFORT=$(or $(HOODOO_TEST_EFFORT),0.25) test-sanitized
 ## test-asan: the unit and gpu tests under the address, leak and undefined behaviour sanitizers
-# By clang, and counting what is reached, so that `make fuzz` shares its objects. The C++ runtime is there from the start, for what is
-# loaded later throws and allocates with it.
+# Compiled by clang with coverage counters, so that `make fuzz` can use the same objects. The C++ runtime is linked explicitly,
+# since libraries that are loaded later throw and allocate with it.
 ASAN = SHARE=$(SHARE) BUILD=build-asan CC=clang OPT='-O1 -g1' LDLIBS='$(LDLIBS) -Wl,--no-as-needed -lstdc++' \
 	SANITIZE='-fsanitize=address,undefined,fuzzer-no-link -fsanitize-link-c++-runtime -fno-sanitize-recover=all -fno-omit-frame-pointer'
 test-asan: $(BUILD)/.deps-dev $(SHARED)
 	$(Q)LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 $(MAKE) $(SANITIZED) $(ASAN)
 
 ## test-tsan: the unit and gpu tests under the thread sanitizer
-# By clang, whose OpenMP library tells the sanitizer what waits for what; under gcc's every parallel loop looks like a race.
-# By what the threads of libraries wait for each other (Mesa's, TBB's, OpenMP's own) it cannot see: what libraries do is theirs.
+# Compiled by clang, whose OpenMP library reports synchronisation to the sanitizer; with gcc's, every parallel loop looks like
+# a race. Accesses inside libraries (Mesa, TBB, OpenMP) are ignored, since their synchronisation is not visible.
 test-tsan: $(BUILD)/.deps-dev $(SHARED)
 	$(Q)TSAN_OPTIONS=suppressions=$(CURDIR)/tests/tsan.supp:print_suppressions=0:ignore_noninstrumented_modules=1 \
 		$(MAKE) $(SANITIZED) BUILD=build-tsan CC=clang SANITIZE=-fsanitize=thread
 
-## fuzz: FUZZ_SECONDS (30) of libFuzzer for each reader of other people's bytes, under the address and undefined behaviour sanitizers
+## fuzz: FUZZ_SECONDS (30) of libFuzzer per parser of untrusted bytes, under the address and undefined behaviour sanitizers
 fuzz: $(BUILD)/.deps-dev $(SHARED)
 	$(Q)$(MAKE) $(ASAN) fuzz-built
 fuzz-built: $(BUILD)/.deps-test $(FUZZ_BIN)
@@ -267,7 +267,7 @@ fuzz-built: $(BUILD)/.deps-test $(FUZZ_BIN)
 test-sanitized: $(BUILD)/.deps-test $(filter $(BUILD)/tests/unit/% $(BUILD)/tests/gpu/%,$(TEST_BIN))
 	$(Q)sh tests/run.sh $(BUILD) unit gpu
 
-## install: copy hoodoo to PREFIX/bin, its helpers to PREFIX/libexec/hoodoo, page, completion, examples and licence to PREFIX/share (default /usr/local)
+## install: copy hoodoo to PREFIX/bin, helpers to PREFIX/libexec/hoodoo, manual, completion, examples and licence to PREFIX/share (default /usr/local)
 PREFIX = /usr/local
 install: $(BUILD)/hoodoo
 	install -D -m 755 $(BUILD)/hoodoo $(DESTDIR)$(PREFIX)/bin/hoodoo
@@ -279,7 +279,7 @@ install: $(BUILD)/hoodoo
 	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/hoodoo/jobs jobs/*.yaml jobs/*.png jobs/*.json jobs/README.md jobs/TUTORIAL.md
 	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/doc/hoodoo LICENSE CHANGELOG.md README.md
 
-## clean: remove what was built (out/ stays)
+## clean: remove all build folders (out/ stays)
 clean:
 	rm -rf build build-asan build-tsan
 

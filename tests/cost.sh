@@ -1,13 +1,13 @@
 #!/bin/sh
-# cost.sh: what `make demo` costs, in CPU seconds, which other work on the machine changes less than the time that passes. Makes
-# all of build/hoodoo that is not there yet, so it measures the build only where it runs first; then a tenth of the demo:
-# its first frames, a still, and a few views. A TAP line for each, and the count. The README promises the whole in 5 minutes
-# on 2 cores: 10 minutes of CPU. Here each part may take about twice what it took when it was written.
+# cost.sh: the cost of `make demo` in CPU seconds, which depend less on other work on the machine than elapsed time. Builds
+# build/hoodoo, so it measures the build only in a clean checkout, and then runs a tenth of the demo: its first frames, a still,
+# and a few views. Prints a TAP line for each part, and the counts. The README promises the whole in 5 minutes on 2 cores, that
+# is 10 minutes of CPU time. Each part may take about twice as long as when this was written.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-export HOODOO_CACHE="$scratch/cache" # compiled kernels are part of what a first demo costs
+export HOODOO_CACHE="$scratch/cache" # the first demo includes compiling kernels
 bad=0
 spent=0
 
@@ -17,7 +17,7 @@ within() {
     shift 2
     "$@" >"$scratch/log" 2>&1
     code=$?
-    times >"$scratch/times" # the second line is of what has ended here: user, system, as 1m2.30s
+    times >"$scratch/times" # the second line is for ended children: user and system time, as 1m2.30s
     now=$(awk 'NR == 2 { gsub(/s/, ""); split($1, u, "m"); split($2, s, "m"); printf "%.0f", 60 * (u[1] + s[1]) + u[2] + s[2] }' "$scratch/times")
     took=$((now - spent)) spent=$now
     if [ $code = 0 ] && [ $took -le "$most" ]; then

@@ -1,5 +1,5 @@
-/* How much of what it could try a test tries: HOODOO_TEST_EFFORT, 1 where it is not set. Sanitizers make everything slow, and
- * run a share of the cases; `make test-long` runs several times as many. */
+/* The share of random cases that a test tries: HOODOO_TEST_EFFORT, 1 if it is not set. Sanitizers are slow and run a quarter of the
+ * cases; `make test-long` runs several times as many. */
 #ifndef HOODOO_TESTS_EFFORT_H
 #define HOODOO_TESTS_EFFORT_H
 

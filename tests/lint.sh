@@ -10,7 +10,7 @@ version='-DHOODOO_VERSION="" -DHOODOO_COMMIT="" -DHOODOO_BUILD=""'
 said=$(mktemp)
 trap 'rm -f "$said"' EXIT
 
-# rule NAME COMMAND...: it holds if the command says nothing and succeeds.
+# rule NAME COMMAND...: the rule holds if the command succeeds without output.
 rule() {
     name=$1
     shift
@@ -21,7 +21,7 @@ rule() {
         sed 's/^/# /' "$said"
     fi
 }
-# each COMMAND...: with one file name of stdin at a time, as many at once as there are cores
+# each COMMAND...: runs the command for each file name on stdin, on all cores.
 each() {
     xargs -P "$(nproc)" -n 1 "$@"
 }
@@ -34,24 +34,24 @@ sources() {
     git ls-files 'src/*.c' 'render/*.c' 'farm/*.c' | each "$@" $flags $warnings $version -fsyntax-only
 }
 [ -n "$(git ls-files 'src/*.c')" ] || { echo "not ok git lists the files"; exit 1; }
-rule "gcc warns of nothing" sources gcc -fopenmp
-rule "clang warns of nothing" sources clang -Wno-unknown-pragmas
+rule "no warnings from gcc" sources gcc -fopenmp
+rule "no warnings from clang" sources clang -Wno-unknown-pragmas
 
 headers() {
     git ls-files 'src/*.h' 'render/*.h' 'farm/*.h' | FLAGS="$flags $warnings" each sh -c \
         'printf "#include \"%s\"\nextern int standing_alone;\n" "$1" | gcc $FLAGS -fsyntax-only -x c - || echo "of $1"' -
 }
-rule "every header stands alone" headers
+rule "every header compiles alone" headers
 
 layout() {
     git ls-files '*.c' '*.h' '*_shim.cpp' '*.hpp' | xargs -P "$(nproc)" -n 40 clang-format --dry-run --Werror
 }
-rule "the layout is that of .clang-format (make format)" layout
+rule "the layout is that of .clang-format (run make format)" layout
 
 rule "no Vulkan outside src/gpu" none git grep -InE '\bVk[A-Z]|\bvk[A-Z]' -- 'src/*.c' 'src/*.h' 'render' ':!src/gpu'
-rule "numbers in names and whole paths are made in src/base/path.c alone" none git grep -nE \
+rule "only src/base/path.c formats file names and joins paths" none git grep -nE \
     '%04d|char [a-z_]*(path|root|folder|file|name|from|to|out)\[[0-9]{4}\]|%\.[34][0-9]{3}s' -- src render farm ':!src/base/path.c'
-rule "what a model is is asked of job_model()" none git grep -nE 'model *[!=]=|[!=]= *MODEL_' -- '*.c' '*.h'
+rule "properties of models are looked up with job_model()" none git grep -nE 'model *[!=]=|[!=]= *MODEL_' -- '*.c' '*.h'
 rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*.h'
 
 # A folder may include folders of lower rank, and itself. A folder that is not named here is a process, a solver or writes files: 4.

@@ -1,13 +1,13 @@
 #!/bin/sh
-# run.sh BUILD FOLDER|PROGRAM...: runs tests/FOLDER's programs (test_*.c, built) and scripts (*.sh, *.py), or the one
-# named, as unit/test_job or cli/aov.py. Each prints TAP lines ("ok ...", "not ok ...", either with "# skip ..."); the last
-# line here is "N passed, N failed". What is skipped counts as neither; the names of those that skipped something go to
-# BUILD/skipped, for root may be able to run them. A program that dies without saying "not ok" counts as one failure. As
-# many run side by side as there are cores. What campaigns of faults say ("# fault | ...") must be what tests/README.md has (faults.sh).
+# run.sh BUILD FOLDER|PROGRAM...: runs the programs (test_*.c, built) and scripts (*.sh, *.py) in tests/FOLDER, or a single one,
+# such as unit/test_job or cli/aov.py. Each prints TAP lines ("ok ...", "not ok ...", either with "# skip ..."). The last line of
+# output is "N passed, N failed". Skipped checks count as neither; the names of programs that skip any go to BUILD/skipped,
+# since root may be able to run them. A program that fails without "not ok" counts as one failure. As many programs run at a
+# time as there are cores. Rows of fault campaigns ("# fault | ...") must equal those in tests/README.md (faults.sh).
 set -u
 top=$(cd "$(dirname "$0")/.." && pwd)
 
-# One program, in an empty folder of its own: a line for its result, and what it said if that is bad.
+# Runs one program in an empty folder and prints a line with its result, and its output if it fails.
 if [ "$1" = --one ]; then
     t=$2 name=$3
     mkdir -p "$HOODOO_SCRATCH/$name" && cd "$HOODOO_SCRATCH/$name" || exit 1
@@ -16,7 +16,7 @@ if [ "$1" = --one ]; then
     start=$(date +%s)
     $run >"$log" 2>&1
     code=$?
-    times >"$log.times" # the second line is of what has ended here: user, system, as 1m2.30s
+    times >"$log.times" # the second line is for ended children: user and system time, as 1m2.30s
     cpu=$(awk 'NR == 2 { gsub(/s/, ""); split($1, u, "m"); split($2, s, "m"); printf "%.0f", 60 * (u[1] + s[1]) + u[2] + s[2] }' "$log.times")
     skipped=$(grep -ciE '^(not )?ok .*# ?skip' "$log")
     ok=$(grep -iE '^ok ' "$log" | grep -civE '# ?skip')
@@ -28,7 +28,7 @@ if [ "$1" = --one ]; then
         [ "$bad" != 0 ] || grep -iE '# ?skip' "$log" | sed 's/^/    /'
         [ "$bad" = 0 ] || sed 's/^/    /' "$log" | tail -n 200
     } >"$log.said"
-    cat "$log.said" # at once, so that the lines of two programs stay apart
+    cat "$log.said" # in one piece, so that the lines of two programs do not mix
     echo "$ok $bad $skipped $name $cpu" >"$log.count"
     sed -n "s!^# fault \(.*\)!\1 \`sh tests/run.sh build $name\` |!p" "$log" >"$log.faults"
     cd "$top" && rm -rf "${HOODOO_SCRATCH:?}/$name"
@@ -38,11 +38,11 @@ fi
 build=$(realpath "$1")
 shift
 export HOODOO="$build/hoodoo" HOODOO_LIBEXEC="$build" HOODOO_TOP="$top" CMOCKA_MESSAGE_OUTPUT=tap
-[ -x "$build/hoodoo-read" ] || HOODOO_LIBEXEC=$top/build # the sanitizers' builds have none
+[ -x "$build/hoodoo-read" ] || HOODOO_LIBEXEC=$top/build # sanitizer builds have no readers
 export PYTHONPATH="$top/tests/lib" PYTHONDONTWRITEBYTECODE=1
 HOODOO_SCRATCH=$(mktemp -d "${TMPDIR:-/tmp}/hoodoo-test.XXXXXX")
 export HOODOO_SCRATCH
-export MESA_SHADER_CACHE_DIR="$HOODOO_SCRATCH/shaders" # so that a kernel is compiled once, and not what another run left
+export MESA_SHADER_CACHE_DIR="$HOODOO_SCRATCH/shaders" # tests share compiled kernels, but not those of earlier runs
 trap 'rm -rf "$HOODOO_SCRATCH"' EXIT
 list() {
     for folder in "$@"; do
@@ -55,19 +55,19 @@ list() {
         done
     done
 }
-# Without those that are named in the file $HOODOO_TEST_BUT, one a line, if there is such.
+# Removes the programs listed in the file $HOODOO_TEST_BUT, if it is set.
 wanted() {
     if [ -n "${HOODOO_TEST_BUT:-}" ]; then awk -F '\t' 'NR == FNR { but[$1]; next } !($2 in but)' "$HOODOO_TEST_BUT" -; else cat; fi
 }
 at_once=$(nproc)
-# Those that take long start first: the last to start would be alone at the end.
+# Long programs start first, so that none runs alone at the end.
 list "$@" | wanted | awk -F '\t' 'NR == FNR { rank[$1] = NR; next } { print ($2 in rank ? rank[$2] : 1e6) "\t" $0 }' "$top/tests/longest" - |
     sort -s -n -k 1,1 | cut -f 2- | tr '\t' '\n' | xargs -d '\n' -r -n 2 -P "$at_once" sh "$top/tests/run.sh" --one
 find "$HOODOO_SCRATCH" -name '*.count' -exec cat {} + >"$HOODOO_SCRATCH/counts"
 awk '$3 > 0 { print $4 }' "$HOODOO_SCRATCH/counts" >"$build/skipped"
 find "$HOODOO_SCRATCH" -name '*.faults' -exec cat {} + | sort >"$HOODOO_SCRATCH/faults"
 sh "$top/tests/faults.sh" "$HOODOO_SCRATCH/faults" >>"$HOODOO_SCRATCH/counts"
-echo "of CPU took most, in seconds:$(sort -k 5nr "$HOODOO_SCRATCH/counts" | head -n 10 | awk '{ printf " %s %s", $4, $5 }')"
+echo "most CPU time, in seconds:$(sort -k 5nr "$HOODOO_SCRATCH/counts" | head -n 10 | awk '{ printf " %s %s", $4, $5 }')"
 awk '{ passed += $1; failed += $2; skipped += $3 }
     END {
         if (NR == 0) failed = 1

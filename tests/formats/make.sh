@@ -1,5 +1,5 @@
 #!/bin/sh
-# make.sh VERSION: the files of this folder, made anew by this tree's hoodoo. Only a release that is not out yet may change its own.
+# make.sh VERSION: writes the files of a release with the hoodoo of this tree. Only for a release that has not been published yet.
 set -e
 cd "$(dirname "$0")"
 hoodoo=${HOODOO:-../../build/hoodoo}

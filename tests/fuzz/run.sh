@@ -1,6 +1,6 @@
-# run.sh BUILD: FUZZ_SECONDS (30) of libFuzzer for each target of tests/fuzz, two at a time, from the committed corpus and from what
-# the repository has of such files. An input that crashes, hangs, leaks or asks for too much memory is a failure; it stays in
-# BUILD/fuzz, and belongs into tests/fuzz/corpus/TARGET together with its mending. FUZZ_KEEP=1 merges what was found into the corpus.
+# run.sh BUILD: runs each target of tests/fuzz for FUZZ_SECONDS (30) under libFuzzer, two at a time, starting from the committed corpus
+# and from suitable files of the repository. An input that crashes, hangs, leaks or allocates too much memory is a failure. It stays in
+# BUILD/fuzz; add it to tests/fuzz/corpus/TARGET together with the fix. FUZZ_KEEP=1 merges new inputs into the corpus.
 # The last line is "N passed, N failed".
 set -u
 build=$1 seconds=${FUZZ_SECONDS:-30} top=$(pwd) passed=0 failed=0
@@ -11,7 +11,7 @@ mkdir -p "$found"
 work=$(mktemp -d -p /dev/shm 2>/dev/null || mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 
-# What else there is to begin with.
+# Further initial inputs.
 seeds() {
     case $1 in
     job) ls "$top"/jobs/*.yaml "$top"/tests/formats/*/*/*.yaml ;;
