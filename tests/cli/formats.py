@@ -51,7 +51,7 @@ def continued(version, model):
     code, said = hoodoo("run", f"{out}/{model}.yaml", "--out", out, *ANY)
     verified = hoodoo("verify", out)
     read_as_written_down(version, model, out)
-    ok(code == 0 and "continuing from the checkpoint of frame 1" in said and verified[0] == 0, f"{version}: {model} goes on from its checkpoint", code, said,
+    ok(code == 0 and "continuing from the checkpoint of frame 1" in said and verified[0] == 0, f"{version}: {model} continues from its checkpoint", code, said,
        verified)
 
 

@@ -109,7 +109,7 @@ with open("o/preview/tower.1001.png", "rb") as file:
 os.remove("o/preview/tower.1001.png")
 code, _ = hoodoo("preview", "o", "--resolution", "96x54", *DRAFT)
 with open("o/preview/tower.1001.png", "rb") as file:
-    check(code == 0 and file.read() == first, "made anew it is the same file")
+    check(code == 0 and file.read() == first, "made again, it is the same file")
 before = os.stat("o/preview/tower.1001.png").st_mtime_ns
 code, _ = hoodoo("preview", "o", "--resolution", "96x54", *DRAFT)
 check(code == 0 and os.stat("o/preview/tower.1001.png").st_mtime_ns == before, "a finished still is not made again")

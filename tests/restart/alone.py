@@ -15,7 +15,7 @@ before = tree("out")
 for options in ((), ("--repair",), ("--resume", "never"), ("--frames", "1001-1002", "--repair")):
     code, said = run("out", *options)
     ok(code == OUTPUT and f"process {held.child.pid}" in said and "simulates frames 1001-1012" in said,
-       f"a second run {' '.join(options)} is refused and told by whom", code, said)
+       f"a second run {' '.join(options)} is refused and told the holder", code, said)
 now = tree("out")
 ok({p: d for p, d in before.items() if p in now and p != "lock"} == {p: d for p, d in now.items() if p in before and p != "lock"} and
    before.keys() <= now.keys(), "and has changed nothing")

@@ -28,7 +28,7 @@ say() {
     [ "$1" = 0 ] && echo "ok - $2" || echo "not ok - $2"
 }
 "$HOODOO" run job.yaml --out whole --progress none >log 2>&1
-say $? "in one go"
+say $? "in one run"
 "$HOODOO" run job.yaml --out again --progress none >>log 2>&1
 say $? "once more"
 "$HOODOO" run job.yaml --out pieces --frames 1-4 --progress none >>log 2>&1 &&

@@ -99,7 +99,7 @@ for path in ("points/twelve.1009.vdb.tmp-1-2-3", "frames/twelve.1009.json.tmp-77
         file.write("half a file")
     os.utime(os.path.join("run", path), (0, 0))  # an old file of another machine
 code, said = run("run")
-same("what a dead run left half-written is swept away", code, said)
+same("temporary files of a dead run are removed", code, said)
 
 # ---- another job
 
@@ -133,7 +133,7 @@ code, said = verify("run")
 ok(code == 3 and "damaged frames/twelve.1004.json: it is a frame of another job" in said and "1 damaged" in said and '"hoodoo run" makes' in said,
    "verify: a frame of another job is named", code, said)
 code, said = run("run")
-same("and the next run makes it anew", code, said)
+same("and the next run makes it again", code, said)
 with open("run/job.yaml") as file:
     text = file.read()
 with open("run/job.yaml", "w") as file:
@@ -147,7 +147,7 @@ fresh()
 with open("run/job.yaml", "w") as file:
     file.write("hoodoo: 1\nname: [\n")
 code, said = run("run")
-same("a job.yaml that cannot be read is written anew, for run.json says that the frames are this job's", code, said)
+same("an unreadable job.yaml is rewritten, since run.json shows that the frames belong to this job", code, said)
 fresh()
 with open("run/job.yaml", "w") as file:
     file.write("hoodoo: 1\nname: [\n")

@@ -183,7 +183,7 @@ code, said = run("air", *more, job=job)
 first, _ = run("parts", *more, "--frames", "1004-1006", job=job)
 second, _ = run("parts", *more, job=job)
 ok(code == 0 and "it begins anew" in said and ledger("air", 1008, "air")["deposit"] > 0, "a branch may turn on flowing air and deposits", said)
-ok(first == 0 and second == 0 and tree("parts", *FILES) == tree("air", *FILES), "and goes on from pieces with the same bytes", second)
+ok(first == 0 and second == 0 and tree("parts", *FILES) == tree("air", *FILES), "and resumes in blocks with the same bytes", second)
 
 # ---- refused
 
@@ -198,7 +198,7 @@ for text in ("every", "every@", "@1004", "every@x", "every@1e3", "every@99999999
     refused(f"--from '{text}'", USAGE, "--from", text)
 refused("no such folder", INPUT, "--from", "nothing@1004", says="nothing")
 refused("no output folder", INPUT, "--from", "/tmp@1004")
-refused("no such checkpoint: those there are and the remedy are said", CHECKPOINT, "--from", "whole@1005",
+refused("a missing checkpoint: the error lists the existing ones and the remedy", CHECKPOINT, "--from", "whole@1005",
         says="(there are those of 1007, 1010); to have it, run its job again with checkpoint.mark: [1005]")
 refused("a frame that is not the job's", USAGE, "--from", "every@1004", "--set", "frames=1001-1003", says="1001-1003")
 refused("another spacing", CHECKPOINT, "--from", "every@1004", "--set", "domain.spacing_m=0.25", says="0.25")

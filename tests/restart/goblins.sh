@@ -24,7 +24,7 @@ say() {
     tail -n 5 log | sed 's/^/# /'
 }
 "$HOODOO" run job.yaml --out whole --progress none >log 2>&1
-say $? "in one go"
+say $? "in one run"
 "$HOODOO" run job.yaml --out again --progress none >>log 2>&1
 say $? "once more"
 "$HOODOO" run job.yaml --out pieces --frames 1-4 --progress none >>log 2>&1 &&

@@ -74,7 +74,7 @@ for path in list(whole):
     if "report" not in path and ("preview/" in path or "turntable" in path or "contact" in path):
         os.remove(os.path.join("again", path))
 codes = [hoodoo(words[0], "again", *words[1:]) for words in COMMANDS if words[0] == "preview"]
-ok(all(code == 0 for code, _ in codes) and tree("again", everything) == whole, "made again, pictures, sheets and videos are the same bytes", codes)
+ok(all(code == 0 for code, _ in codes) and tree("again", everything) == whole, "pictures, sheets and videos that are made again are the same bytes", codes)
 
 
 def kind(path):
@@ -136,7 +136,7 @@ else:
 # The command of a product without a record is inferred from similar products.
 if thorough:
     healed("records cut or flipped", any_of(cut_half, flip), one_of_each(records, least=2))
-healed("papers and records flipped", flip, ["job.yaml"] + [f"records/{path}.json" for path in ("run.json", "made.usda", "mesh/made.1001.ply")])
+healed("job.yaml and records flipped", flip, ["job.yaml"] + [f"records/{path}.json" for path in ("run.json", "made.usda", "mesh/made.1001.ply")])
 code, said = hoodoo("run", "made.json", "--out", "out", "--progress", "none", "--resume", "never", "--set", "seed=4")
 code, said = verify()
 ok(code == 0 and said["products"] < 10, "another run in this folder forgets what was made of the one before", code, said)

@@ -85,7 +85,7 @@ def content(path):
     return {key: value for key, value in json.loads(text).items() if key not in ("device_uuid", "device_pci")}
 
 
-def papers(name, path, damage):
+def damaged_provenance(name, path, damage):
     """Damages run.json or job.yaml; a run rewrites it, so that the folder can be identified again."""
     global damaged
     damaged += 1
@@ -111,10 +111,10 @@ def edit(path):
         file.write(text.replace("\nseed: ", "\nseed: 1"))
 
 
-papers("job.yaml is lost", "job.yaml", os.remove)
-papers("job.yaml was edited", "job.yaml", edit)
-papers("run.json is lost", "run.json", os.remove)
-papers("run.json is cut", "run.json", lambda path: os.truncate(path, 10))
+damaged_provenance("job.yaml is lost", "job.yaml", os.remove)
+damaged_provenance("job.yaml was edited", "job.yaml", edit)
+damaged_provenance("run.json is lost", "run.json", os.remove)
+damaged_provenance("run.json is cut", "run.json", lambda path: os.truncate(path, 10))
 fault("files of frames, checkpoints, job.yaml and run.json cut, flipped, edited or gone", damaged,
       "named by `verify`; `run` makes exactly these again with the same bytes")
 finish()

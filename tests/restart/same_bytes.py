@@ -11,7 +11,7 @@ from twelve import *
 truth = Truth()
 frames = [path for path in truth.whole if path.startswith("frames/")]
 ok(len(frames) == 12 and len(truth.whole) == 5 * 12 + 2 + 2 + 2 + 4,
-   "a run leaves 12 frames of five files, 2 checkpoints, 2 papers, USD's stage in two, and a record of each of these four",
+   "a run leaves 12 frames of five files, 2 checkpoints, job.yaml, run.json, a USD stage in two files, and records of these four",
    sorted(truth.whole))
 ok(len({truth.whole[path] for path in truth.whole if path.startswith("volumes/")}) == 12, "every frame differs from the others")
 ok(len(truth.checkpoint) == 12, "checkpoint.every=1 keeps one of each frame", truth.checkpoint.keys())
@@ -39,7 +39,7 @@ ok(truth.differences("blocks") == "", "blocks in sequence are the whole", truth.
 code, said = run("gap", "--frames", "1001-1004")
 code, said = run("gap", "--frames", "1009-1012")
 ok(code == 0 and not os.path.exists(manifest("gap", 1005)) and digest(manifest("gap", 1012)) == truth.whole["frames/twelve.1012.json"],
-   "a block goes on from any checkpoint before it, and writes only its own frames", said)
+   "a block continues from any checkpoint before it and writes only its own frames", said)
 code, said = run("gap", "--frames", "1005-1008")
 ok(code == CHECKPOINT and len(errors(said)) == 1, "a block whose checkpoint is gone by now: 7, in one line", code, said)
 code, said = run("gap")

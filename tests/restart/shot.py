@@ -73,7 +73,7 @@ STOP = 1007  # during the fall
 code, said = run(SHOT, "again", "--from", "years@1003", "--frames", f"1003-{STOP}")
 ok(code == 0 and not os.path.exists(f"again/frames/shot.{STOP + 1}.json"), f"stopped after frame {STOP}", said)
 code, said = run(SHOT, "again", "--from", "years@1003")
-ok(code == 0 and not differences(tree("again", lasting), whole), "gone on with: the same bytes", said, differences(tree("again", lasting), whole))
+ok(code == 0 and not differences(tree("again", lasting), whole), "resumed: the same bytes", said, differences(tree("again", lasting), whole))
 
 code, said = run(BLOCKS, "blocks")
 ok(code == 0, "blocks fall between frames", said)
@@ -89,6 +89,6 @@ for stop, threads in ((max(falls - 1, 1002), ("0", "1")), (min(falls + 1, 1007),
     run(BLOCKS, "again", "--frames", f"1001-{stop}", env={"LP_NUM_THREADS": threads[0]})
     code, said = run(BLOCKS, "again", env={"LP_NUM_THREADS": threads[1]})
     ok(code == 0 and not differences(tree("again", lasting), whole),
-       f"stopped after frame {stop} (it falls in {falls}) in {threads[0]} threads, gone on with in {threads[1]}: the same bytes", said,
+       f"stopped after frame {stop} (it falls in {falls}) with {threads[0]} threads, resumed with {threads[1]}: the same bytes", said,
        differences(tree("again", lasting), whole))
 finish()

@@ -61,6 +61,6 @@ say $? "rock that deposits cover"
 for frame in 2 3; do
     sed "s/name: covered/name: goes_on/" covered.yaml >goes_on.yaml
     "$HOODOO" run goes_on.yaml --out "on$frame" --from "covered@$frame" --progress none >>log 2>&1
-    say $? "goes on from frame $frame"
+    say $? "continues from frame $frame"
 done
 exit 0

@@ -19,7 +19,7 @@ say() {
     [ "$1" = 0 ] && echo "ok - $2" || echo "not ok - $2"
 }
 "$HOODOO" run job.yaml --out whole --progress none >log 2>&1
-say $? "in one go"
+say $? "in one run"
 LP_NUM_THREADS=1 "$HOODOO" run job.yaml --out again --progress none >>log 2>&1
 say $? "once more, with another number of threads"
 "$HOODOO" run job.yaml --out pieces --frames 1-4 --progress none >>log 2>&1 &&

@@ -18,7 +18,7 @@ same() {
 # Runs the job at once, into `whole`, and in two parts.
 in_pieces() {
     "$HOODOO" run job.yaml --out whole --progress none >log 2>&1
-    say $? "in one go"
+    say $? "in one run"
     "$HOODOO" run job.yaml --out pieces --frames 1-2 --progress none >>log 2>&1 &&
         "$HOODOO" run job.yaml --out pieces --progress none >>log 2>&1
     say $? "in two pieces"
