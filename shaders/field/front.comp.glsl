@@ -32,7 +32,7 @@ void main()
     float own = 0.5 - LOAD_F(share, i), inverse = 0.0;
     bool beside = false;
     for (int axis = 0; axis < 3; axis++) {
-        float steepest = 0.0; // share of the way to 1/2 that a voxel along this axis makes
+        float steepest = 0.0; // largest change of the share per voxel along this axis, over own
         for (int side = -1; side <= 1; side += 2) {
             ivec3 d = ivec3(axis == 0, axis == 1, axis == 2) * side;
             float other = 0.5 - share_of(clamp(c + d, ivec3(0), last));

@@ -10,10 +10,10 @@
 // creep as the rock beside it weathers.
 
 const float HEAP_NONE = -1e9;
-const float HEAP_UNIT = 64.0; // to a voxel
-const int HEAP_REACH = 3; // voxels between the heads of neighbours, and that a surface may move
+const float HEAP_UNIT = 64.0; // units per voxel
+const int HEAP_REACH = 3; // voxels: largest height difference of neighbouring heads, and of a surface from its particles
 
-// Where a voxel's sample is, SAMPLE_NONE if it is not kept or not of the domain.
+// Index of a voxel's sample; SAMPLE_NONE if it is not kept or outside the domain.
 const uint SAMPLE_NONE = 0xffffffffu;
 
 uint voxel_sample(ivec3 v)
@@ -26,7 +26,7 @@ uint voxel_sample(ivec3 v)
     return slot_kept(s) ? slot_sample(s, c) : SAMPLE_NONE;
 }
 
-// How far from here the i-th place to look for a head lies: 0, 1, -1, 2, -2, 3, -3.
+// Offset of the i-th place to search for a head: 0, 1, -1, 2, -2, 3, -3.
 int heap_look(int i)
 {
     return (i & 1) == 0 ? -(i >> 1) : (i >> 1) + 1;

@@ -16,7 +16,7 @@ PARAMS(field_params)
 #include "particles/sides.glsl"
 #include "field/heap.glsl"
 
-// What fills a voxel; below the ground is rock.
+// How much of a voxel is filled, negative: by rock. Below z = 0 is rock.
 float filled(ivec3 v)
 {
     uint s = voxel_sample(v);

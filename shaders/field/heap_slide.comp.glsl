@@ -17,16 +17,17 @@ PARAMS(field_params)
 #include "particles/sides.glsl"
 #include "field/heap.glsl"
 
-const float ENOUGH = 7.0; // units beyond repose that make a slide
+const float ENOUGH = 7.0; // units beyond repose from which material slides
 
-// What goes to each of eight neighbours: a tenth of what is too much, which levels the roughest ground, no more than an eighth of what
-// there is, and of the last few units one. Adding half a unit keeps the tenth part away from where rounding could change its floor.
+// Units that slide to each of eight neighbours: a tenth of the excess, which is stable on the roughest ground, at most an eighth of
+// what the column has, and one unit if the excess is only a few. The added half unit keeps the tenth away from integers, where
+// rounding could change its floor.
 float sliding(float over, float thick)
 {
     return min(max(floor(0.1 * (over + 0.5)), over >= ENOUGH ? 1.0 : 0.0), floor(0.125 * thick));
 }
 
-// The sample of the nearest head in the column of v, SAMPLE_NONE if there is none near.
+// Sample of the nearest head in the column of v; SAMPLE_NONE if there is none within HEAP_REACH.
 uint head_near(ivec3 v)
 {
     for (int i = 0; i <= 2 * HEAP_REACH; i++) {

@@ -15,7 +15,7 @@ PARAMS(field_params)
 
 const int FIELD_REACH = 5;
 
-// Does what has this extent in the brick that begins at `first` come near the one that begins at `own`?
+// Whether an extent in the brick that begins at `first` is within reach of the brick that begins at `own`.
 bool comes_near(uint e, ivec3 first, ivec3 own)
 {
     ivec3 low = first + ivec3(e & 7u, (e >> 3) & 7u, (e >> 6) & 7u) - FIELD_REACH;
@@ -30,7 +30,7 @@ void main()
         return;
     ivec3 own = brick_first(brick), last = ivec3(bricks_across()) - 1;
     ivec3 from = max((own >> 3) - 1, ivec3(0)), to = min((own >> 3) + 1, last);
-    // Beyond the lattice nothing is rock.
+    // Beyond the lattice there is no rock.
     bool near_rock = false, near_bare = any(equal(own >> 3, ivec3(0))) || any(equal(own >> 3, last));
     for (int z = from.z; z <= to.z; z++)
         for (int y = from.y; y <= to.y; y++)

@@ -14,7 +14,7 @@ ivec3 brick_first(uint brick)
     return ivec3(uvec3(brick % n.x, brick / n.x % n.y, brick / (n.x * n.y)) << 3);
 }
 
-// Sample s of a brick; maybe beyond the lattice.
+// Coordinates of sample s of a brick; they may be beyond the lattice.
 ivec3 brick_sample(uint brick, uint s)
 {
     return brick_first(brick) + ivec3(s & 7u, (s >> 3) & 7u, s >> 6);
@@ -31,13 +31,13 @@ uint brick_of(ivec3 c)
     return (b.z * n.y + b.y) * n.x + b.x;
 }
 
-// Whether samples of the brick that has this slot are kept. Those of others are all outside, or all inside.
+// Whether the brick with this slot has samples. Others are all outside or all inside.
 bool slot_kept(uint slot)
 {
     return slot != 0u && slot != SLOT_INSIDE;
 }
 
-// What samples that are not kept hold.
+// Value of samples that are not kept.
 float slot_share(uint slot)
 {
     return slot == 0u ? 0.0 : 1.0;
@@ -47,7 +47,7 @@ float slot_distance(uint slot, float voxel)
     return slot == 0u ? 3.0 * voxel : -3.0 * voxel;
 }
 
-// Where a sample is in the buffers, by the slot of its brick.
+// Index of a sample in the buffers, by the slot of its brick.
 uint slot_sample(uint slot, ivec3 c)
 {
     return (slot - 1u) * BRICK_SAMPLES + uint(((c.z & 7) << 6) | ((c.y & 7) << 3) | (c.x & 7));

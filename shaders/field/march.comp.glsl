@@ -15,25 +15,24 @@ WRITE_V(3, facing)
 PARAMS(march_params)
 #include "field/trilinear.glsl"
 
-// A softer sun than the real one, whose shadows have edges of half a degree: haze.
+// The sun's disc is larger than the real one (half a degree), as in haze, for softer shadows.
 const float SUN_RADIUS = 0.02;
 
-// Two numbers for a sample, even over the samples of a pixel and between pixels (a Kronecker sequence, moved by
-// a hash).
+// Two numbers per sample, evenly distributed over a pixel's samples and between pixels: a Kronecker sequence, shifted by a hash.
 vec2 even(uint pixel, uint purpose)
 {
     vec2 start = vec2(random_float(random_hash(pixel, purpose, 0u, 0u)), random_float(random_hash(pixel, purpose, 1u, 0u)));
     return fract(start + float(k.ray) * vec2(0.7548776662, 0.5698402910));
 }
 
-// Directions across n.
+// Two unit vectors perpendicular to n and to each other.
 void across(vec3 n, out vec3 a, out vec3 b)
 {
     a = normalize(abs(n.z) < 0.9 ? cross(n, vec3(0.0, 0.0, 1.0)) : cross(n, vec3(1.0, 0.0, 0.0)));
     b = cross(n, a);
 }
 
-// `lift`: how far off the surface, in voxels, rays begin. The field is smooth over one and a half; the ground is not in it.
+// `lift`: distance from the surface, in voxels, at which rays begin. The field is smoothed over 1.5 voxels; the ground is not in it.
 float lit(uint i, vec3 x, vec3 n, float lift)
 {
     vec3 sun = vec3(k.sun_x, k.sun_y, k.sun_z), lifted = x + lift * k.voxel * n, a, b;
@@ -48,7 +47,7 @@ float lit(uint i, vec3 x, vec3 n, float lift)
         sum += LIT_SUN;
     if (k.rays == 1u)
         return sum + LIT_SKY;
-    // As much of the sky as lies over the surface: directions by the cosine.
+    // Cosine-weighted direction of the sky above the surface.
     vec2 u = even(i, 2u);
     float r = sqrt(u.x), turn = 6.28318530718 * u.y;
     across(n, a, b);

@@ -24,7 +24,7 @@ uint extent(ivec3 low, ivec3 high)
                                           (high.z << 15));
 }
 
-// Has the row of eight samples from this voxel on anything in words of bits that it is in?
+// Whether any of the words that the row of eight samples from this voxel is in has bits set.
 bool row_holds(ivec3 v)
 {
     if (any(lessThan(v.yz, ivec2(0))) || any(greaterThanEqual(v.yz, ivec2(k.ny, k.nz))))
@@ -43,7 +43,7 @@ void main()
         return;
     ivec3 first = brick_first(brick) - int(k.margin);
     ivec3 rock_low = ivec3(8), rock_high = ivec3(-1), bare_low = ivec3(8), bare_high = ivec3(-1);
-    // Where walls go on with the rock at their sides, air beyond them has to be looked at, too.
+    // Rock continues beyond walls, so samples beyond them must be read, too.
     bool holds = k.walls != 0u;
     for (int row = 0; row < 64 && !holds; row++)
         holds = row_holds(first + ivec3(0, row & 7, row >> 3));
@@ -61,7 +61,7 @@ void main()
                     rock_low = min(rock_low, c);
                     rock_high = max(rock_high, c);
                 }
-                if (share < 1.0 || !voxel_inside(first + c)) { // walls cut it off at the domain's sides
+                if (share < 1.0 || !voxel_inside(first + c)) { // at walls the field is cut off (field/cut)
                     bare_low = min(bare_low, c);
                     bare_high = max(bare_high, c);
                 }

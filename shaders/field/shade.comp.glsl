@@ -45,7 +45,7 @@ vec3 light_on(vec4 normal)
     bool sun_seen = mod(normal.w, 2.0) >= LIT_SUN, sky_seen = normal.w >= LIT_SKY;
     float sun = sun_seen ? max(dot(normal.xyz, vec3(k.sun_x, k.sun_y, k.sun_z)), 0.0) : 0.0;
     float up = 0.5 + 0.5 * normal.z;
-    // What does not see the sky sees rock, which sends back a part.
+    // Directions that do not see the sky see rock, which reflects a part.
     float open = k.rays == 1u || sky_seen ? 1.0 : 0.12;
     return sun * vec3(k.sun_r, k.sun_g, k.sun_b) +
            open * mix(vec3(k.bounce_r, k.bounce_g, k.bounce_b), vec3(k.sky_r, k.sky_g, k.sky_b), up);
@@ -57,7 +57,7 @@ void main()
     if (i >= k.n)
         return;
     vec4 where = LOAD_V(hit, i);
-    if (k.ray + 1u == k.rays) // the first to come
+    if (k.ray + 1u == k.rays) // samples come in descending order: this is the first
         AT(color, i) = vec4(0.0);
     if (where.w < 0.0) {
         if (where.w <= HIT_GROUND)
@@ -71,9 +71,9 @@ void main()
     ivec3 v = voxel_of(x), last = ivec3(k.nx, k.ny, k.nz) - 1;
     float nearest = 1e30, weighed = 0.0;
     uint found = 0u;
-    // The colour is that of the particles around, weighed by how near they are: beds and heaps go over into each other, whatever the
-    // particles' places. Voxels next to x's hold all within a spacing, beyond which hardly any weight is left; farther ones are searched
-    // where there is none.
+    // Colour: mean over the particles around, weighted by distance, so that beds and heaps blend whatever the particles' positions.
+    // The voxels around that of x hold all particles within a spacing, beyond which the weight is small; farther ones are searched
+    // only if there are none.
     vec3 stone = vec3(0.0);
     for (int reach = 1; reach <= 2 && nearest > k.h * k.h; reach++) {
         ivec3 low = clamp(v - reach, ivec3(0), last), high = clamp(v + reach, ivec3(0), last);
@@ -105,7 +105,7 @@ void main()
         vec3 near = mix(1.0 - f, f, vec3(corner));
         uint brick = LOAD_U(slot, brick_of(c + corner));
         vec4 mean = slot_kept(brick) ? LOAD_V(means, slot_sample(brick, c + corner)) : vec4(0.0);
-        float weight = mean.z > 0.0 ? near.x * near.y * near.z : 0.0; // no particle near: nothing to say
+        float weight = mean.z > 0.0 ? near.x * near.y * near.z : 0.0; // without particles near: 0
         weights += weight;
         sum += weight * mean;
     }

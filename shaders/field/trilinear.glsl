@@ -20,7 +20,7 @@ float distance_at(vec3 x)
     ivec3 c = ivec3(at);
     vec3 f = at - vec3(c);
     vec4 low, high;
-    if (all(lessThan(c & 7, ivec3(7)))) { // all eight are in one brick
+    if (all(lessThan(c & 7, ivec3(7)))) { // all eight samples are in one brick
         uint s = LOAD_U(slot, brick_of(c));
         if (!slot_kept(s))
             return slot_distance(s, k.voxel);
@@ -47,7 +47,7 @@ vec3 gradient_at(vec3 x)
                 distance_at(x + vec3(0, 0, e)) - distance_at(x - vec3(0, 0, e)));
 }
 
-// Where the ray enters and leaves the field's box; enter > leave if it misses.
+// Distances at which the ray enters and leaves the field's box; enter > leave if it misses.
 vec2 box_span(vec3 from, vec3 along)
 {
     vec3 low = vec3(k.origin_x, k.origin_y, k.origin_z), high = low + (vec3(k.fx, k.fy, k.fz) - 1.0) * k.voxel;
@@ -57,9 +57,8 @@ vec2 box_span(vec3 from, vec3 along)
     return vec2(max(max(first.x, first.y), max(first.z, 0.0)), min(second.x, min(second.y, second.z)));
 }
 
-// Where between two points along the ray, one outside and one inside, the distance is 0: the Illinois method, which on a field as
-// smooth as this one has it to a millionth of a sample. Halving would place surfaces on its own steps, and pixels of a
-// surface that creeps would jump between them from frame to frame.
+// Root of the distance between two points of the ray, one outside and one inside, by the Illinois method: accurate to a millionth of
+// a sample on this smooth field. Bisection would quantise surfaces, and pixels of a slowly moving surface would jump between frames.
 float crossing(vec3 from, vec3 along, float outside, float d_outside, float inside, float d_inside)
 {
     float at = inside, side = 0.0;
@@ -81,7 +80,7 @@ float crossing(vec3 from, vec3 along, float outside, float d_outside, float insi
     return at;
 }
 
-// The distance along the ray to the surface, or -1.
+// Distance along the ray to the surface, or -1 if it misses.
 float march(vec3 from, vec3 along, vec2 span)
 {
     float t = span.x, before = span.x, d_before = 0.0;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per surface particle of rock: seepage q, m/yr; and wet rock's erodibility, whose interlocking threshold is
-// lowered with its strength.
+// Per surface particle of rock: seepage q, m/yr, the largest over the beds; and the erodibility of wet rock,
+// which has lost strength and interlocks only under more stress, T strength > I.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 #include "erosion/rate.glsl"

@@ -12,7 +12,7 @@ PARAMS(numbers_params)
 void main()
 {
     uint first = 0xffffffffu;
-    // Not "> most": that is false of what is no number.
+    // Not "> most", which is false for NaN.
     for (uint i = THREAD; i < k.n; i += NUMBERS_THREADS)
         if (!(abs(LOAD_F(value, i)) <= k.most))
             first = min(first, i);

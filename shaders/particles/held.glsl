@@ -6,7 +6,7 @@
 
 const uint NOT_HELD = 0xffffffffu;
 
-// How many voxels are held before this one, which may be one past the end of its row.
+// Number of held voxels before this one, which may be one past the end of its row.
 uint voxel_rank(ivec3 v)
 {
     uint w = HELD_STRIDE * voxel_word(v);
@@ -19,13 +19,13 @@ uint voxel_slot(ivec3 v)
     return (bits & own) == 0u ? NOT_HELD : LOAD_U(words, w + 1u) + uint(bitCount(bits & (own - 1u)));
 }
 
-// The deep voxels of a word.
+// Bits of the deep voxels of a word.
 uint deep_word(uint word)
 {
     return LOAD_U(words, HELD_STRIDE * word + 2u) & ~LOAD_U(words, HELD_STRIDE * word);
 }
 
-// Is it rock that no weather has come near, which has no particle yet? Of a voxel of the domain.
+// Whether a voxel of the domain is deep: full of rock, without a particle so far.
 bool voxel_deep(ivec3 v)
 {
     return (deep_word(voxel_word(v)) & voxel_bit(v)) != 0u;

@@ -16,7 +16,7 @@ uint occupied(uint word)
     return AT(words, HELD_STRIDE * word + 2u);
 }
 
-// 32 voxels of a row, and those before and behind them.
+// Bits of 32 voxels of a row or'ed with those of the voxels before and after them.
 uint along(int x, uint y, uint z)
 {
     int across = int((k.nx + 31u) >> 5);

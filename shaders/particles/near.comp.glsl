@@ -10,7 +10,7 @@ READ_U(0, before)
 WRITE_U(1, near)
 PARAMS(near_params)
 
-// The empty voxels of a word of its row, which has `across` of them.
+// Bits of the empty voxels of word w of a row of `across` words.
 uint empty_of(int x, int across, uint row)
 {
     if (x < 0 || x >= across)
@@ -29,7 +29,7 @@ uint along_x(uint i, int across)
     return sum;
 }
 
-// Along y or z: words `step` apart, of which there are `most`, this one being number `at`.
+// Search along y or z: among `most` words `step` apart, of which this is number `at`.
 uint along(uint i, uint step, int at, int most)
 {
     uint sum = LOAD_U(before, i);

@@ -23,7 +23,7 @@ PARAMS(voxel_params)
 const uint NEIGHBOURS = 20u;
 const float REACH2 = 6.25; // h^2
 
-// Calls BODY for each other particle j near i, of the rock and its images in walls; d is its offset in units of h.
+// Runs BODY for each other particle j near i, images in walls included; d is its offset in units of h.
 #define EACH_NEIGHBOUR(BODY)                                                                              \
     for (int image = 0; image < (k.walls == 0u ? 1 : SIDE_IMAGES); image++) {                             \
         vec3 at = x / k.h, flip;                                                                          \
@@ -44,14 +44,14 @@ const float REACH2 = 6.25; // h^2
             }                                                                                             \
     }
 
-// Sixteen counters of eight bits.
+// Sixteen 8-bit counters.
 void count(inout uvec4 bins, uint bin)
 {
     uint one = 1u << ((bin & 3u) * 8u), word = bin >> 2;
     bins += uvec4(word == 0u ? one : 0u, word == 1u ? one : 0u, word == 2u ? one : 0u, word == 3u ? one : 0u);
 }
 
-// The bin in which the count, begun at `before`, reaches NEIGHBOURS; 16 if it never does.
+// The bin in which the cumulative count, starting from `before`, reaches NEIGHBOURS; 16 if it does not.
 uint reached(uvec4 bins, inout uint before)
 {
     uint found = 16u;

@@ -18,9 +18,8 @@ ivec3 side_voxel(ivec3 v)
     return v;
 }
 
-// Images of a point in walls: 0 is the point itself, 1 and 2 behind those across x, 3 and 6 across y, the others
-// behind one of each. Where it is seen, in voxels; `flip` turns directions around as the image does. False where there is
-// no such wall.
+// Position in voxels of image i of a point in the walls: 0 is the point itself, 1 and 2 are beyond the walls across x, 3 and 6 across
+// y, the others beyond one of each. `flip` multiplies directions as the image does. Returns false if there is no such wall.
 const int SIDE_IMAGES = 9;
 
 bool side_image(int image, inout vec2 at, out vec3 flip)

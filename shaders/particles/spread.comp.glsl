@@ -23,7 +23,7 @@ void main()
     if (i >= k.n)
         return;
     ivec3 v = voxel_at(LOAD_U(list, i));
-    // The ground holds what would lie below it, and a wall what would lie beyond it.
+    // What would be below the ground or beyond a wall stays in the voxel on this side.
     vec3 least = vec3((k.walls & WALL_X_MIN) != 0u ? 0.0 : -1e9, (k.walls & WALL_Y_MIN) != 0u ? 0.0 : -1e9, 0.0);
     vec3 most = vec3((k.walls & WALL_X_MAX) != 0u ? float(k.nx) - 1.0 : 1e9,
                      (k.walls & WALL_Y_MAX) != 0u ? float(k.ny) - 1.0 : 1e9, 1e9);

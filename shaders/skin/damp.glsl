@@ -4,7 +4,7 @@
 const int DAMP_PAIRS = 48;              // points of the ball, and those opposite: on a plane one of each is rock
 const float DRY = 0.5, WET = 0.8; // shares of rock
 
-// Points spread evenly through a ball of radius 1: along a spiral, shells by turns.
+// Points spread evenly through the unit ball: directions on a spiral, radii in turn from a set of shells.
 vec3 damp_point(int i)
 {
     float t = (float(i) + 0.5) / float(DAMP_PAIRS), up = t, turn = 2.39996323 * float(i);
@@ -12,7 +12,7 @@ vec3 damp_point(int i)
     return r * vec3(level * cos(turn), level * sin(turn), up);
 }
 
-// What is below the domain is its mirror image, as behind a wall.
+// Below z = 0 is the mirror image, as beyond a wall.
 float damp_fill(vec3 x)
 {
     ivec3 v = ivec3(floor(x / k.h));

@@ -21,7 +21,7 @@ PARAMS(skin_params)
 #include "particles/held.glsl"
 #include "particles/within.glsl"
 
-const float JUST_NOW = 1e-9; // kyr: bare, and no longer new
+const float JUST_NOW = 1e-9; // kyr: least age of a particle that is no longer new
 
 void main()
 {
@@ -46,7 +46,7 @@ void main()
                 float other = LOAD_F(exposed, j);
                 if (other <= age || LOAD_V(normal, j).xyz == vec3(0.0) || LOAD_U(phase, j) == PHASE_DEPOSIT)
                     continue;
-                // the face is where the particle is worn down to
+                // the face's height follows the particle's viability
                 float below = distance(x, LOAD_V(position, j).xyz) + (LOAD_F(viability, j) - 0.5) * k.h;
                 age = max(age, other * exp(-max(below, 0.0) / k.depth));
             }

@@ -24,8 +24,8 @@ MUST_USE status groundwater_create(struct gpu *gpu, const struct job *job, const
                                    struct groundwater *out);
 void groundwater_destroy(struct gpu *gpu, struct groundwater *g);
 
-/* Computes the particles' field `seepage`, m/yr, for the current shape, and the erodibility of wet rock, which has a lower interlocking
- * threshold. Call after erosion_interlock(). Needs surface, stress and `layers` (struct erosion's). Waits for the device. */
+/* Computes the particles' field `seepage`, m/yr, for the current shape, and the erodibility of wet rock, which is weaker: it interlocks
+ * only under more stress. Call after erosion_interlock(). Needs surface, stress and `layers` (struct erosion's). Waits for the device. */
 MUST_USE status groundwater_find(struct gpu *gpu, struct groundwater *g, const struct job *job, int frame,
                                  struct gpu_buffer *layers, struct particles *p);
 
