@@ -13,7 +13,7 @@ READ_U(2, solid)
 READ_U(3, root)
 WRITE_U(4, pointer)
 WRITE_U(5, counts)
-READ_U(6, parted) // geology/maps.h; none of its words means anything where k.parted is 0
+READ_U(6, parted) // geology/maps.h; not read if k.parted is 0
 PARAMS(join_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"

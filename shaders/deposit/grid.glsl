@@ -20,7 +20,7 @@ bool cell_inside(ivec3 c)
     return all(greaterThanEqual(c, ivec3(0))) && all(lessThan(c, ivec3(k.cx, k.cy, k.cz)));
 }
 
-// A cell's lowest voxel; it may lie outside the domain.
+// A cell's lowest voxel; it may be outside the domain.
 ivec3 cell_base(ivec3 c)
 {
     return 2 * c - ivec3(k.sx, k.sy, k.sz);

@@ -8,13 +8,13 @@ READ_V(0, position)
 WRITE_V(1, normal)
 READ_U(2, start)
 READ_F(3, erodibility)
-READ_F(4, unspent) // of those that went in the round before
+READ_F(4, unspent) // rest of the step of particles that vanished in the last round
 WRITE_F(5, viability)
-WRITE_U(6, shares) // of the particles that are gone: by what
+WRITE_U(6, shares) // of vanished particles: the processes' shares
 WRITE_U(7, spent)  // quanta
-WRITE_U(8, parts)  // by what
+WRITE_U(8, parts)  // the processes' shares
 READ_U(9, words)
-WRITE_F(10, next) // what those leave that go in this round
+WRITE_F(10, next) // rest of the step of particles that vanish now
 WRITE_U(11, counts)
 WRITE_F(12, vegetation)
 READ_U(13, phase)

@@ -21,8 +21,8 @@ WRITE_F(6, viability)
 WRITE_F(7, unspent)
 WRITE_U(8, counts)
 WRITE_U(9, parts)   // by place in the list
-WRITE_U(10, spent)  // likewise: quanta
-WRITE_U(11, shares) // of those that are gone: their parts
+WRITE_U(10, spent)  // by place in the list: quanta
+WRITE_U(11, shares) // by particle, of those that vanish: their parts
 READ_U(12, phase)
 PARAMS(erosion_params)
 #include "particles/voxel.glsl"

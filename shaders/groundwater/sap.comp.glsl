@@ -13,7 +13,7 @@ READ_U(3, words)
 READ_U(4, phase)
 READ_V(5, wet)
 WRITE_F(6, intensity) // by place in the list
-WRITE_U(7, parts)     // deflation's and water's share in it
+WRITE_U(7, parts)     // the processes' shares
 PARAMS(seep_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"

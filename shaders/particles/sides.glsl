@@ -1,7 +1,7 @@
 // Boundary of the domain. Beyond an open side there is no rock; beyond a wall there is the mirror image, so
 // lookups across a wall read the voxel on this side. Needs k.walls and particles/bits.glsl.
 
-// The voxel of the domain that is seen at v; v itself where there is none.
+// The voxel to read for v: beyond a wall the mirror image, else v itself.
 ivec3 side_voxel(ivec3 v)
 {
     if (k.walls == 0u)

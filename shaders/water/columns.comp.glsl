@@ -5,7 +5,7 @@
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_U(0, rows) // words of bits along x; where cells are voxels, those of particles/held.glsl
+READ_U(0, rows) // words of bits along x; for cells of one voxel those of particles/held.glsl
 WRITE_U(1, occupied)
 WRITE_U(2, floors)
 WRITE_U(3, count)

@@ -18,9 +18,9 @@ READ_F(7, erodibility)
 READ_U(8, layer)
 READ_V(9, layers)
 WRITE_F(10, intensity)
-WRITE_U(11, parts)    // deflation's and water's share in it
+WRITE_U(11, parts)    // the processes' shares
 READ_F(12, drop)
-WRITE_F(13, slopes) // 1/kyr, by place in the list, 0 before: how fast the floor's slope follows its height
+WRITE_F(13, slopes) // 1/kyr, by place in the list: rate of change of the drop, relative to it; 0 before
 READ_U(14, phase)
 PARAMS(water_surface_params)
 #include "particles/voxel.glsl"

@@ -17,8 +17,8 @@ READ_U(5, level)
 READ_U(6, heading)
 READ_V(7, stream)
 READ_F(8, width)
-WRITE_V(9, pull) // Pa in the stream, and beside it; its share; m3/yr, within the water's width
-WRITE_F(10, drop) // m: how far it is down to the floors below that its slope is of
+WRITE_V(9, pull) // Pa in the stream, Pa beside it, its share of the floor, m3/yr within its width
+WRITE_F(10, drop) // m: drop to the floors downstream
 READ_U(11, middle)
 PARAMS(water_stream_params)
 #include "water/cell_of.glsl"

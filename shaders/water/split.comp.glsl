@@ -16,11 +16,11 @@ READ_U(4, altitude)
 READ_U(5, basin)
 READ_U(6, spill)
 READ_U(7, receiver)
-WRITE_U(8, level)   // of the water: the altitude, or that of the pass over which its basin overflows
-WRITE_U(9, to)     // [4]: spans, or NONE
-WRITE_U(10, shares) // [2]: of four, two in a word
-WRITE_U(11, heading) // [2]: the way of rain and of springs, as packSnorm2x16
-WRITE_U(12, donors) // how many spans give to each
+WRITE_U(8, level)   // of the water: altitude of the floor or, in a pit, of the highest pass on its path out
+WRITE_U(9, to)     // [4]: receiving spans, or NONE
+WRITE_U(10, shares) // [2]: four shares, two to a word
+WRITE_U(11, heading) // [2]: directions of rain and of springs, packSnorm2x16
+WRITE_U(12, donors) // number of donors
 PARAMS(water_params)
 #include "water/cell_of.glsl"
 #include "water/columns.glsl"

@@ -15,7 +15,7 @@ READ_U(6, spring)
 WRITE_V(7, stream) // radius in cells; 1 / sum of weights; m3/yr of rain and of springs
 WRITE_F(8, width)  // m
 READ_U(9, receiver)
-WRITE_U(10, middle) // cells: where the stream's middle is, from the span's, as packSnorm2x16
+WRITE_U(10, middle) // cells: offset of the stream's centre line from the span, packSnorm2x16
 PARAMS(water_stream_params)
 #include "water/cell_of.glsl"
 #include "water/columns.glsl"

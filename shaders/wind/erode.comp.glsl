@@ -13,7 +13,7 @@ READ_U(4, words)
 READ_U(5, layer)
 READ_V(6, layers)
 WRITE_F(7, intensity)
-WRITE_U(8, parts) // deflation's and water's share in it
+WRITE_U(8, parts) // the processes' shares
 PARAMS(wind_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"

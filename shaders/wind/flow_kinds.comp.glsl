@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per cell of the box: its kind for the initial air. It is rock if rock lies within half a spacing of its
+// Per cell of the box: its kind for the initial air. It is rock if there is rock within half a spacing of its
 // centre along any axis.
 #include "shared/buffers.glsl"
 #include "shared/params.h"

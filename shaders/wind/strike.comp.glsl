@@ -19,7 +19,7 @@ READ_V(5, air)
 READ_U(6, layer)
 READ_V(7, layers)
 WRITE_F(8, intensity)
-WRITE_U(9, parts) // deflation's and water's share in it
+WRITE_U(9, parts) // the processes' shares
 PARAMS(wind_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"

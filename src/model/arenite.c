@@ -286,7 +286,7 @@ status arenite_settle(struct arenite *a, bool solved)
     TRY(find_surface(a));
     gpu_stage(a->m.gpu, "stress");
     if (!arenite_rests(a->m.job))
-        TRY(elastic_forget(a->m.gpu, &a->elastic));
+        TRY(elastic_clear(a->m.gpu, &a->elastic));
     if (!a->collapse.shot)
         TRY(solve(a, solved));
     if (a->elastic.iterations >= a->elastic.options.max_iterations)

@@ -297,7 +297,7 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
         mpm_obstacle(gpu, &c->mpm, p);
         TRY(fall_to_rest(gpu, work, c, &seconds));
         mpm_store(gpu, &c->mpm, p, false);
-        TRY(mpm_settle(gpu, &c->mpm, p, c->rubble));
+        TRY(mpm_classify(gpu, &c->mpm, p, c->rubble));
         mpm_obstacle(gpu, &c->mpm, NULL);
         gpu_fill(gpu, p->field[ROCK_v], 0);
         TRY(particles_index(gpu, work, p));

@@ -14,12 +14,12 @@ struct mpm_params mpm_params_of(const struct mpm *m, size_t n, double dt);
 /* Speed of pressure waves, m/s: sqrt((lambda + 2 mu) / density). */
 double mpm_wave(const struct mpm_options *o);
 
-/* Tables of pieces and joints. mpm_pieces_look() breaks joints of which enough particles have cracked, and finds the bodies; it
+/* Tables of pieces and joints. mpm_pieces_update() breaks joints of which enough particles have cracked, and finds the bodies; it
  * waits for the device. */
 MUST_USE status mpm_pieces_create(struct gpu *gpu, struct mpm *m);
 void mpm_pieces_destroy(struct gpu *gpu, struct mpm *m);
 uint64_t mpm_pieces_bytes(const int voxels[3], double h, double block);
-MUST_USE status mpm_pieces_look(struct gpu *gpu, struct mpm *m);
+MUST_USE status mpm_pieces_update(struct gpu *gpu, struct mpm *m);
 struct mpm_load_params mpm_load_params_of(const struct mpm *m, size_t n);
 
 /* Sorts the points and finds parts, nodes and entries. Points that have left the domain are dropped. Waits for the device. */

@@ -102,10 +102,10 @@ struct mpm {
         uint32_t *body; /* by piece: its body, the same for pieces that joints connect */
     } pieces;
     size_t n_parts, n_nodes, n_entries, n_mixed;
-    size_t room_parts, room_entries; /* allocated */
-    size_t n_left;                   /* particles that have left the domain since mpm_load() */
-    double fastest, mean_speed;      /* m/s, after the last batch of steps */
-    long steps;                      /* in the last mpm_run() */
+    size_t parts_allocated, entries_allocated; /* allocated */
+    size_t n_left;                             /* particles that have left the domain since mpm_load() */
+    double fastest, mean_speed;                /* m/s, after the last batch of steps */
+    long steps;                                /* in the last mpm_run() */
 };
 
 /* Number of nodes; the caller's gpu_work must be created for at least as many items. */
@@ -135,7 +135,7 @@ void mpm_store(struct gpu *gpu, struct mpm *m, struct particles *p, bool moving)
 /* After mpm_store(), at the end of a fall: classifies fragments, which are whole rock of one body connected across voxel faces.
  * Those with at least the volume of a cube of `rubble` m become rubble (PHASE_FALLING), smaller ones and loose grains become
  * deposits. Waits for the device. */
-MUST_USE status mpm_settle(struct gpu *gpu, struct mpm *m, struct particles *p, double rubble);
+MUST_USE status mpm_classify(struct gpu *gpu, struct mpm *m, struct particles *p, double rubble);
 
 /* After p was indexed: finds each point's particle again, by id. `table` is scratch with an item for every id. Records only. */
 void mpm_follow(struct gpu *gpu, struct mpm *m, struct particles *p, struct gpu_buffer *table);

@@ -120,7 +120,7 @@ bool mpm_joint_fits(const struct mpm *m, uint32_t piece, uint32_t joint)
     return piece - 1 == j / MPM_JOINTS || piece - 1 == beyond(s->n, j);
 }
 
-status mpm_pieces_look(struct gpu *gpu, struct mpm *m)
+status mpm_pieces_update(struct gpu *gpu, struct mpm *m)
 {
     status st = OK;
     struct mpm_pieces *s = &m->pieces;

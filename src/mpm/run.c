@@ -17,7 +17,7 @@ static long steps_until_sort(const struct mpm *m, double dt, long left)
 }
 
 /* Updates speeds and bodies after a batch of steps. */
-static status look(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
+static status measure(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
 {
     status st = OK;
     float speed[2]; /* the largest, the sum */
@@ -32,7 +32,7 @@ static status look(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
     }
     m->fastest = (double)speed[0];
     m->mean_speed = m->n > 0 ? (double)speed[1] / (double)m->n : 0;
-    TRY(mpm_pieces_look(gpu, m));
+    TRY(mpm_pieces_update(gpu, m));
 done:
     return st;
 }
@@ -80,7 +80,7 @@ status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double sec
     double dt = seconds / (double)n;
     m->steps = 0;
     prime(gpu, m, dt);
-    TRY(mpm_pieces_look(gpu, m));
+    TRY(mpm_pieces_update(gpu, m));
     while (m->steps < n && m->n > 0) {
         TRY(mpm_sort(gpu, work, m));
         long batch = steps_until_sort(m, dt, n - m->steps);
@@ -88,7 +88,7 @@ status mpm_run(struct gpu *gpu, struct gpu_work *work, struct mpm *m, double sec
         k.fastest = (float)(MOST * m->dx / (dt * (double)batch));
         for (long i = 0; i < batch; i++)
             mpm_step(gpu, m, &k, m->steps + 1 == n);
-        TRY(look(gpu, work, m));
+        TRY(measure(gpu, work, m));
     }
     /* Drop points that left in the last steps. */
     TRY(mpm_sort(gpu, work, m));

@@ -11,40 +11,40 @@ static void reorder(struct gpu *gpu, struct mpm *m, struct gpu_buffer **item)
 }
 
 /* Grow the buffers by part, and by entry. */
-static status room_for_parts(struct gpu *gpu, struct mpm *m)
+static status reserve_parts(struct gpu *gpu, struct mpm *m)
 {
     status st = OK;
-    if (m->n_parts <= m->room_parts)
+    if (m->n_parts <= m->parts_allocated)
         return OK;
     gpu_buffer_destroy(gpu, &m->partial);
     gpu_buffer_destroy(gpu, &m->reach);
-    m->room_parts = 0;
-    size_t room = m->n_parts + m->n_parts / 4;
-    TRY(gpu_buffer_create(gpu, "mpm partial sums", 27 * room, 16, &m->partial));
-    TRY(gpu_buffer_create(gpu, "mpm reach", 28 * room, 4, &m->reach));
-    m->room_parts = room;
+    m->parts_allocated = 0;
+    size_t most = m->n_parts + m->n_parts / 4;
+    TRY(gpu_buffer_create(gpu, "mpm partial sums", 27 * most, 16, &m->partial));
+    TRY(gpu_buffer_create(gpu, "mpm reach", 28 * most, 4, &m->reach));
+    m->parts_allocated = most;
 done:
     return st;
 }
 
-static status room_for_entries(struct gpu *gpu, struct mpm *m)
+static status reserve_entries(struct gpu *gpu, struct mpm *m)
 {
     status st = OK;
-    if (m->n_entries <= m->room_entries)
+    if (m->n_entries <= m->entries_allocated)
         return OK;
     gpu_buffer_destroy(gpu, &m->entry_node);
     gpu_buffer_destroy(gpu, &m->entry_body);
     gpu_buffer_destroy(gpu, &m->entry_group);
     gpu_buffer_destroy(gpu, &m->mass);
     gpu_buffer_destroy(gpu, &m->velocity);
-    m->room_entries = 0;
-    size_t room = m->n_entries + m->n_entries / 4;
-    TRY(gpu_buffer_create(gpu, "mpm entries", room, 4, &m->entry_node));
-    TRY(gpu_buffer_create(gpu, "mpm entries' bodies", room, 4, &m->entry_body));
-    TRY(gpu_buffer_create(gpu, "mpm entries' groups", room, 4, &m->entry_group));
-    TRY(gpu_buffer_create(gpu, "mpm entries' mass", room, 4, &m->mass));
-    TRY(gpu_buffer_create(gpu, "mpm entries' velocity", room, 16, &m->velocity));
-    m->room_entries = room;
+    m->entries_allocated = 0;
+    size_t most = m->n_entries + m->n_entries / 4;
+    TRY(gpu_buffer_create(gpu, "mpm entries", most, 4, &m->entry_node));
+    TRY(gpu_buffer_create(gpu, "mpm entries' bodies", most, 4, &m->entry_body));
+    TRY(gpu_buffer_create(gpu, "mpm entries' groups", most, 4, &m->entry_group));
+    TRY(gpu_buffer_create(gpu, "mpm entries' mass", most, 4, &m->mass));
+    TRY(gpu_buffer_create(gpu, "mpm entries' velocity", most, 16, &m->velocity));
+    m->entries_allocated = most;
 done:
     return st;
 }
@@ -60,7 +60,7 @@ static status find_parts(struct gpu *gpu, struct gpu_work *work, struct mpm *m)
     gpu_fill(gpu, m->slot, 0);
     each.n = (uint)m->n_parts;
     GPU_RUN(gpu, mpm_slots, m->n_parts, each, m->part_cell, m->slot, m->many);
-    TRY(room_for_parts(gpu, m));
+    TRY(reserve_parts(gpu, m));
 done:
     return st;
 }
@@ -88,7 +88,7 @@ static status find_entries(struct gpu *gpu, struct gpu_work *work, struct mpm *m
         TRY(gpu_download(gpu, m->start, m->n_nodes - 1, &last[1], 1));
         m->n_entries = (size_t)last[0] + last[1];
     }
-    TRY(room_for_entries(gpu, m));
+    TRY(reserve_entries(gpu, m));
     gpu_fill(gpu, m->meeting, 0);
     GPU_RUN(gpu, mpm_entries, m->n_nodes, k, m->node_list, m->slot, m->many, m->part_body, m->start, m->first,
             m->meeting, m->entry_node, m->entry_body);

@@ -74,7 +74,7 @@ MUST_USE status elastic_assemble(struct gpu *gpu, struct gpu_work *work, struct 
                                  const struct particles *p);
 
 /* Empties the grid and frees its memory: no shape, no displacement. */
-MUST_USE status elastic_forget(struct gpu *gpu, struct elastic *e);
+MUST_USE status elastic_clear(struct gpu *gpu, struct elastic *e);
 
 /* Displacement of the moving nodes, vec4 [lattice.n_active], m, in the order of the grid: the checkpoint's section. */
 MUST_USE status elastic_download(struct gpu *gpu, struct elastic *e, void *out);

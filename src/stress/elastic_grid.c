@@ -120,7 +120,7 @@ done:
     return st;
 }
 
-status elastic_forget(struct gpu *gpu, struct elastic *e)
+status elastic_clear(struct gpu *gpu, struct elastic *e)
 {
     status st = OK;
     const struct elastic was = *e;

@@ -60,7 +60,7 @@ enum water_node_array {
 struct water {
     int size; /* voxels along a cell's side: 1, or 2 for fragments */
 
-    /* Of the last routing: voxels / size, one more on shifted axes. Voxel v lies in cell (v + shift) / size. */
+    /* Of the last routing: voxels / size, one more on shifted axes. Voxel v is in cell (v + shift) / size. */
     int cells[3], shift[3];
 
     /* By cell; created by the first routing with `cells` set, and filled by each such routing:

@@ -23,7 +23,7 @@ status flow_add_block(struct gpu *gpu, struct flow *f, int steps, double *error)
     k.keep = (float)(before / all);
     k.gain = (float)(steps / (all * f->samples));
     k.warm = (float)(1.0 / f->samples);
-    GPU_RUN(gpu, wind_flow_settle, k.n, k, f->surface, f->block, f->sums, apart, size);
+    GPU_RUN(gpu, wind_flow_add_block, k.n, k, f->surface, f->block, f->sums, apart, size);
     gpu_fill(gpu, f->block, 0);
     gpu_sum(gpu, f->work, apart, k.n, f->squares, 0);
     gpu_sum(gpu, f->work, size, k.n, f->squares, 1);

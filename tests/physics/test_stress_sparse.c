@@ -212,7 +212,7 @@ static void rock_comes_and_goes(void **state)
     carries(&s, table, TABLE);
     solve(&s);
     carries(&s, table + 2, 1); /* nothing holds it: what is not joined to the ground is not taken out here */
-    assert_ok(elastic_forget(s.gpu, &s.e));
+    assert_ok(elastic_clear(s.gpu, &s.e));
     assert_int_equal(s.e.lattice.n_active, 0);
     assert_true(stress_taken(&s.e, true) < least / 5); /* the table of the whole grid */
     /* From nothing again: the first frame's bits. */

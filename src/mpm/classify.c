@@ -74,7 +74,7 @@ static void connect(struct fragments *f, double h)
         f->size[root_of(f->parent, i)]++;
 }
 
-status mpm_settle(struct gpu *gpu, struct mpm *m, struct particles *p, double rubble)
+status mpm_classify(struct gpu *gpu, struct mpm *m, struct particles *p, double rubble)
 {
     status st = OK;
     struct fragments f = {.n = m->n, .voxels = p->voxels, .pieces = &m->pieces};
@@ -103,7 +103,7 @@ status mpm_settle(struct gpu *gpu, struct mpm *m, struct particles *p, double ru
         f.next[i] = block ? PHASE_FALLING : PHASE_DEPOSIT;
     }
     TRY(gpu_upload(gpu, m->part, 0, f.next, f.n));
-    GPU_RUN(gpu, mpm_settle, f.n, all, m->word[MPM_ORIGIN], m->part, p->field[ROCK_phase]);
+    GPU_RUN(gpu, mpm_classify, f.n, all, m->word[MPM_ORIGIN], m->part, p->field[ROCK_phase]);
 done:
     free(f.place);
     free(f.apart);
