@@ -1,6 +1,7 @@
 #!/bin/sh
 # lint.sh: a TAP line for each rule: warnings of both compilers, the layout, headers that compile alone, boundaries between
-# folders, and the prose of pages (prose.py). Needs DEV_PACKAGES of the Makefile, build/gen and build/hoodoo.
+# folders, and the prose of pages (prose.py). Exits with 1 if a rule fails. Needs DEV_PACKAGES of the Makefile, build/gen and
+# build/hoodoo.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 flags="-std=c11 -D_GNU_SOURCE -Isrc -Ishaders -I. -Ibuild/gen -Itests -isystem /usr/include/OpenEXR -isystem /usr/include/Imath"
@@ -8,6 +9,7 @@ warnings="-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror"
 # shellcheck disable=SC2089 # the quotes are the compiler's
 version='-DHOODOO_VERSION="" -DHOODOO_COMMIT="" -DHOODOO_BUILD=""'
 said=$(mktemp)
+failed=0
 trap 'rm -f "$said"' EXIT
 
 # rule NAME COMMAND...: the rule holds if the command succeeds without output.
@@ -18,6 +20,7 @@ rule() {
         echo "ok $name"
     else
         echo "not ok $name"
+        failed=1
         sed 's/^/# /' "$said"
     fi
 }
@@ -78,4 +81,5 @@ scripts() {
 }
 rule "shell scripts parse" scripts
 
-/usr/bin/python3 tests/prose.py build/hoodoo || echo "not ok prose.py ran to its end"
+/usr/bin/python3 tests/prose.py build/hoodoo || failed=1
+exit $failed

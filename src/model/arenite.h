@@ -38,8 +38,8 @@
     PART(water, LASTS_JOB, arenite_ever(job, water_ever_flows) ? water_bytes(voxels, 1) : 0,                 \
          water_ever_flows(a->m.job) ? water_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, 1, &a->water)    \
                                     : OK)                                                                    \
-    PART(fragments, LASTS_JOB, arenite_ever(job, deposit_wanted) ? water_bytes(voxels, 2) : 0,                  \
-         a->deposits ? fragments_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->fragments) : OK)              \
+    PART(fragments, LASTS_JOB, arenite_ever(job, deposit_wanted) ? water_bytes(voxels, 2) : 0,               \
+         a->deposits ? fragments_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->fragments) : OK)        \
     PART(groundwater, LASTS_JOB, groundwater_bytes(job, voxels),                                             \
          groundwater_create(a->m.gpu, a->m.job, a->m.voxels, &a->groundwater))                               \
     PART(erosion, LASTS_ROCK, erosion_bytes(n),                                                              \
