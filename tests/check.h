@@ -1,4 +1,4 @@
-/* cmocka, with its fail() out of the way of ours. Include first. */
+/* Includes cmocka without its macro fail(), which conflicts with ours. Include this first. */
 #ifndef HOODOO_CHECK_H
 #define HOODOO_CHECK_H
 
@@ -12,7 +12,7 @@
 
 #include "base/status.h"
 
-/* The call succeeds; otherwise the test fails with its sentence. */
+/* Fails the test with the error message unless the call succeeds. */
 #define assert_ok(call)                                                                                      \
     do {                                                                                                     \
         if ((call) != OK) {                                                                                  \

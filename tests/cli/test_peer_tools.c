@@ -1,5 +1,4 @@
-/* What other programs make of our files: OpenVDB's and OpenEXR's own tools, OpenImageIO, and OpenVDB's
- * Python. */
+/* hoodoo's files in other programs: the tools of OpenVDB and OpenEXR, OpenImageIO, and OpenVDB's Python module. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,7 +7,7 @@
 #include <stdlib.h>
 
 #include <cmocka.h>
-#undef fail /* ours is another */
+#undef fail /* conflicts with our fail() */
 
 #include "base/atomic_file.h"
 #include "exr/exr.h"
@@ -46,7 +45,7 @@ static int write_volumes_and_points(void **state)
 static void run(const char *command)
 {
     char line[1024];
-    /* its words on stdout go to stderr: stdout is for TAP */
+    /* its stdout goes to stderr, since ours is for TAP */
     snprintf(line, sizeof line, "(%s) >&2", command);
     if (system(line) != 0) {
         print_error("failed: %s\n", command);
@@ -119,7 +118,7 @@ static void exr_tools_read_the_pictures(void **state)
         run("exrheader aov.1001.exr >h && grep -q 'time 00:00:41:17' h && grep -q 'framesPerSecond.*24/1' h "
             "&&"
             " grep -q 'layer.id, 32-bit unsigned' h");
-        /* Its exit code is a number that it never sets. */
+        /* Its exit code is uninitialised. */
         run("exrinfo aov.1001.exr >i 2>&1; grep -q aov.1001.exr i && ! grep -qiE 'error|invalid' i");
         /* top row first, values where they belong */
         run(layout == AOV_LAYOUT_MULTI ? "oiiotool aov.1001.exr --subimage 1 -o z.exr"

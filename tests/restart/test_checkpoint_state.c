@@ -1,5 +1,5 @@
-/* Checkpoints whose hashes are right and whose state is not: whatever a section holds, a model refuses it, or ends in
- * numbers that blow up, or goes on; it does not crash. The sections are those of small runs with everything on. */
+/* Checkpoints with correct hashes and a wrong state: whatever a section contains, the model refuses it, detects diverging numbers, or continues;
+ * it never crashes. The sections are those of small runs with all processes on. */
 #include "check.h"
 
 #include <float.h>
@@ -109,7 +109,7 @@ static struct checkpoint state_of(const struct job *job)
     return c;
 }
 
-/* From this state to the next frame and its files' content. */
+/* Continues from this state to the next frame and the contents of its files. */
 static status go_on(const struct job *job, const struct checkpoint *c)
 {
     status st = OK;
@@ -134,7 +134,7 @@ static struct checkpoint_section *section(struct checkpoint *c, const char *name
     return NULL;
 }
 
-/* E_CHECKPOINT, and the sentence names the section. */
+/* Expects E_CHECKPOINT and a message that names the section. */
 static void assert_refused(const struct job *job, const struct checkpoint *c, const char *name)
 {
     status st = go_on(job, c);
@@ -144,9 +144,9 @@ static void assert_refused(const struct job *job, const struct checkpoint *c, co
     }
 }
 
-/* ---- what each section may not hold */
+/* ---- invalid contents of each section */
 
-/* Sections in which any word is one that there may be: refused or not, they do no harm. */
+/* Sections in which every word is possible; whether refused or not, they must do no harm. */
 static bool any_word(const char *name)
 {
     return strcmp(name, "air") == 0 || strcmp(name, "change") == 0 || strcmp(name, "air id") == 0 ||
@@ -161,7 +161,7 @@ static uint32_t next_random(uint32_t *x)
     return *x;
 }
 
-/* Item i becomes what no section may hold: not a number and the largest word, infinite, the largest number. */
+/* Sets item i to values that are always invalid: NaN (which is also the largest word), infinity, the largest number. */
 static void put_extreme(struct checkpoint_section *s, size_t i, int kind)
 {
     static const uint32_t word[3] = {UINT32_MAX, 0x7f800000, 0x7f7fffff};
@@ -172,7 +172,7 @@ static void put_extreme(struct checkpoint_section *s, size_t i, int kind)
         ((uint64_t *)s->data)[i] = wide[kind];
 }
 
-/* Item i becomes what might be: one more, one less, negative, nothing; of words and of numbers. */
+/* Sets item i to plausible values: one more, one less, negative, zero; as words and as numbers. */
 static void put_other(struct checkpoint_section *s, size_t i, int kind)
 {
     static const float number[] = {-1, 0, 1, FLT_TRUE_MIN, 1e6F};
@@ -209,7 +209,7 @@ static void every_section(const char *text)
                 assert_true(go_on(job, &c) != E_MEMORY);
             memcpy(s->data, copy, s->n * s->item);
         }
-        for (int kind = (int)(k % 4); kind < 7; kind += 4) { /* a sample: two of them */
+        for (int kind = (int)(k % 4); kind < 7; kind += 4) { /* a sample of two items */
             put_other(s, next_random(&random) % s->n, kind);
             status st = go_on(job, &c);
             if (st != OK && st != E_CHECKPOINT && st != E_NUMERIC) {
@@ -220,7 +220,7 @@ static void every_section(const char *text)
             tried++;
             memcpy(s->data, copy, s->n * s->item);
         }
-        /* One item less. */
+        /* Removes one item. */
         s->n--;
         assert_int_equal(go_on(job, &c), E_CHECKPOINT);
         s->n++;
@@ -255,7 +255,7 @@ static void arches_sections(void **state)
     every_section(arches);
 }
 
-/* ---- what fits section by section, but not together */
+/* ---- valid sections that contradict each other */
 
 static void goblin_ledger(void **state)
 {
@@ -307,7 +307,7 @@ static void ids(void **state)
     job_destroy(&job);
 }
 
-/* Of a shot: all points at once. */
+/* In a shot: all points at once. */
 static void all_points(void **state)
 {
     (void)state;

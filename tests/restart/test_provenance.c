@@ -1,5 +1,5 @@
-/* What another build or device made is not continued without a word: refused with 7, or continued when told to, and
- * recorded in run.json. Checkpoints of other makers are this one's with other names in them and right hashes. */
+/* Checkpoints of another build or device are refused with exit code 7, or accepted on request and recorded in run.json. The test makes them from
+ * its own checkpoints by replacing names and hashes. */
 #include "check.h"
 
 #include <stdarg.h>
@@ -46,7 +46,7 @@ static bool holds(const char *path, const char *text)
     return found;
 }
 
-/* The exit code; what is said goes to the file `said`. */
+/* Runs hoodoo with its output in the file `said`. Returns the exit code. */
 static int shell(const char *format, ...) PRINTF_LIKE(1, 2);
 static int shell(const char *format, ...)
 {
@@ -65,7 +65,7 @@ static int run(const char *options)
     return shell("\"$HOODOO\" run tiny.yaml --out x --progress none %s >said 2>&1", options);
 }
 
-/* x: the run up to frame 1002, with the checkpoint of that frame changed. */
+/* Makes x: the run up to frame 1002, with a modified checkpoint of that frame. */
 static void begin(const char *build, const char *commit, const char *device)
 {
     struct checkpoint c;
@@ -106,7 +106,7 @@ static void same_build(void **state)
     assert_int_equal(shell("\"$HOODOO\" inspect whole/checkpoint/tiny.1003.ckpt >said"), 0);
     assert_true(holds("said", hoodoo_build));
     assert_true(holds("whole/run.json", hoodoo_build));
-    /* Another commit of the same code is nothing to speak of. */
+    /* Another commit of the same code makes no difference. */
     begin(NULL, "deadbeef0000", NULL);
     assert_int_equal(run(""), 0);
     assert_int_equal(shell("grep -q deadbeef0000 said x/run.json"), 1);
@@ -127,11 +127,11 @@ static void other_build(void **state)
     assert_true(holds("said", "not bit for bit"));
     assert_true(holds("x/run.json", "\"continued\": [\n    {\n      \"frame\": 1002,"));
     assert_true(holds("x/run.json", "\"build\": \"00000000deadbeef\""));
-    /* It stays on record, and is there once. */
+    /* The entry remains in run.json and is not duplicated. */
     assert_int_equal(shell("rm x/frames/tiny.1003.json"), 0);
     assert_int_equal(run(""), 0);
     assert_int_equal(shell("test $(grep -c 00000000deadbeef x/run.json) = 1"), 0);
-    /* Starting over is another matter. */
+    /* Starting over is always allowed. */
     assert_int_equal(run("--resume never"), 0);
     assert_int_equal(shell("grep -q continued x/run.json"), 1);
     /* Version 0.1.0 had no build. */
@@ -157,7 +157,7 @@ static void other_device(void **state)
     assert_true(holds("x/run.json", "\"build\": \"00000000deadbeef\""));
 }
 
-/* Frames whose checkpoints are gone cannot be made again by another build, either. */
+/* Another build cannot make frames again either if their checkpoints are lost. */
 static void without_checkpoints(void **state)
 {
     (void)state;
