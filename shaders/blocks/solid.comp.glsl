@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Per held voxel: 1 if the surface field is inside the rock there (share >= 1/2), so that rock is connected
-// where the visible surface is. Threads thinner than a voxel hold nothing. Below z = 0 is rock.
+// where the visible surface is. Threads thinner than a voxel support nothing. Below z = 0 columns continue as
+// in their lowest voxel.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -13,7 +14,7 @@ PARAMS(voxel_params)
 #include "particles/voxel.glsl"
 #include "particles/bits.glsl"
 #include "particles/held.glsl"
-#define GROUND_IS_ROCK
+#define GROUND_CONTINUES
 #include "particles/fill.glsl"
 #include "particles/share.glsl"
 

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per sample: how much of its voxel is filled: by deposits, or as a negative number by rock. A deposit fills
-// its voxel by its viability, which only water reduces.
+// Per sample: how much of its voxel is filled: 1 if there are only deposits in it, or as a negative number by
+// rock. Deposits fill their voxel until water has removed them: their viability is what is left of their life,
+// not their volume.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

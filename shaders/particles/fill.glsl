@@ -1,10 +1,10 @@
-// Fill of a voxel. With GROUND_IS_ROCK, voxels below z = 0 are full. Needs READ_U(words), READ_F(fill),
-// k.walls, particles/voxel.glsl and particles/held.glsl.
+// Fill of a voxel. With GROUND_CONTINUES, columns continue below z = 0 as in their lowest voxel. Needs
+// READ_U(words), READ_F(fill), k.walls, particles/voxel.glsl and particles/held.glsl.
 #include "particles/sides.glsl"
 
 float fill_at(ivec3 v)
 {
-#ifdef GROUND_IS_ROCK
+#ifdef GROUND_CONTINUES
     v.z = max(v.z, 0);
 #endif
     v = side_voxel(v);

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per word of bits: the voxel of each of its held voxels' slots.
+// Per word of bits: writes the number of each of its held voxels to the list, at the voxel's slot.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

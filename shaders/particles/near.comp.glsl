@@ -10,7 +10,7 @@ READ_U(0, before)
 WRITE_U(1, near)
 PARAMS(near_params)
 
-// Bits of the empty voxels of word w of a row of `across` words.
+// Bits of the empty voxels of word x of a row of `across` words.
 uint empty_of(int x, int across, uint row)
 {
     if (x < 0 || x >= across)

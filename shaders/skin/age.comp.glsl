@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per surface particle of rock: exposure age after a step, the exact solution of A' = 1 - R A / d for constant
-// retreat R. R includes the crust as it is half-way through the step. Water's erosion of deposits does not
-// count.
+// Per surface particle: exposure age after a step. On rock the exact solution of A' = 1 - R A / d for constant
+// retreat R, which includes the crust as it is half-way through the step. Deposits age by the step's length,
+// whatever water removes from them.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 

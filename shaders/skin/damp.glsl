@@ -4,7 +4,7 @@
 const int DAMP_PAIRS = 48;              // points of the ball, and those opposite: on a plane one of each is rock
 const float DRY = 0.5, WET = 0.8; // shares of rock
 
-// Points spread evenly through the unit ball: directions on a spiral, radii in turn from a set of shells.
+// Points spread evenly through half of the unit ball: directions on a spiral, radii by a low-discrepancy sequence.
 vec3 damp_point(int i)
 {
     float t = (float(i) + 0.5) / float(DAMP_PAIRS), up = t, turn = 2.39996323 * float(i);
