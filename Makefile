@@ -7,8 +7,8 @@ TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools op
 	libcgal-dev libeigen3-dev gdal-bin
 LONG_PACKAGES = libcgal-demo
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
-BENCH_PACKAGES = python3-petsc4py python3-venv
-BENCH_WHEELS = taichi==1.7.4 fastscapelib==0.3.0 pyamg
+BENCH_PACKAGES = python3-petsc4py-real python3-venv
+BENCH_WHEELS = taichi==1.7.4 fastscapelib==0.3.0 pyamg==5.4.1 'numpy<2'
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0
 DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev codespell
 
