@@ -2,7 +2,7 @@
 
 #include <zstd.h>
 
-/* Higher levels cost the next frame more time than they save of the disk. */
+/* Higher levels take more time from the next frame than their smaller files are worth. */
 enum { LEVEL = 1 };
 
 size_t chunk_raw_size(size_t item)
@@ -32,7 +32,7 @@ static void unshuffle(const unsigned char *shuffled, size_t n, size_t item, unsi
 size_t chunk_pack(const void *raw, size_t n_raw, size_t item, void *scratch, void *out)
 {
     shuffle(raw, n_raw / item, item, scratch);
-    /* A new context each time: what an old one remembers must not reach the bytes. */
+    /* A new context for each chunk, so that the bytes do not depend on chunks packed before. */
     size_t size = ZSTD_compress(out, chunk_bound(n_raw), scratch, n_raw, LEVEL);
     return ZSTD_isError(size) ? 0 : size;
 }

@@ -1,4 +1,4 @@
-/* Reading a checkpoint: the end, the hash over all, the index, and only then the sections. */
+/* Reading a checkpoint: first its end, then the hash of the file, then the index, and last the sections. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -21,38 +21,39 @@ status read_at(int fd, const char *path, uint64_t at, void *bytes, size_t n)
         if (k < 0 && errno == EINTR)
             continue;
         if (k <= 0)
-            return fail(E_CHECKPOINT, "%s: %s at byte %llu", path, k < 0 ? strerror(errno) : "it ends",
+            return fail(E_CHECKPOINT, "%s: %s at byte %llu", path, k < 0 ? strerror(errno) : "the file ends",
                         (unsigned long long)(at + got));
         got += (size_t)k;
     }
     return OK;
 }
 
-/* ---- the frame around the sections */
+/* ---- head, end and index */
 
 static status read_ends(int fd, const char *path, uint64_t size, struct file_end *end)
 {
     status st = OK;
     struct file_head head;
     if (size < sizeof head + sizeof *end)
-        return fail(E_CHECKPOINT, "%s: %llu bytes are no checkpoint", path, (unsigned long long)size);
+        return fail(E_CHECKPOINT, "%s: not a checkpoint: only %llu bytes", path, (unsigned long long)size);
     TRY(read_at(fd, path, 0, &head, sizeof head));
     if (memcmp(head.magic, head_magic, sizeof head.magic) != 0)
         return fail(E_CHECKPOINT, "%s: not a checkpoint, or its first bytes are damaged", path);
     if (head.format != CHECKPOINT_FORMAT)
-        return fail(E_CHECKPOINT, "%s: checkpoint format %u; this hoodoo reads format %d", path, head.format,
-                    CHECKPOINT_FORMAT);
+        return fail(E_CHECKPOINT, "%s: checkpoint format %u; this version of hoodoo reads format %d", path,
+                    head.format, CHECKPOINT_FORMAT);
     TRY(read_at(fd, path, size - sizeof *end, end, sizeof *end));
     if (memcmp(end->magic, end_magic, sizeof end->magic) != 0)
-        return fail(E_CHECKPOINT, "%s: truncated or overwritten: %llu bytes without the end mark", path,
-                    (unsigned long long)size);
+        return fail(E_CHECKPOINT, "%s: truncated or overwritten: its %llu bytes do not end with the end mark",
+                    path, (unsigned long long)size);
     uint64_t inside = size - sizeof *end;
     if (end->index_at < sizeof head || end->index_at > inside || end->index_size != inside - end->index_at ||
         end->index_size > INDEX_SIZE_MAX)
-        return fail(E_CHECKPOINT,
-                    "%s: the end says the index is at byte %llu, %llu bytes long, in a file of %llu", path,
-                    (unsigned long long)end->index_at, (unsigned long long)end->index_size,
-                    (unsigned long long)size);
+        return fail(
+            E_CHECKPOINT,
+            "%s: damaged: its end says that the index is at byte %llu and has %llu bytes, in a file of %llu bytes",
+            path, (unsigned long long)end->index_at, (unsigned long long)end->index_size,
+            (unsigned long long)size);
 done:
     return st;
 }
@@ -75,7 +76,7 @@ static status check_hash(int fd, const char *path, uint64_t size, uint64_t expec
         at += n;
     }
     if (XXH3_64bits_digest(hash) != expected)
-        st = fail(E_CHECKPOINT, "%s: the content's hash is not the one it was written with", path);
+        st = fail(E_CHECKPOINT, "%s: damaged: its content does not match its hash", path);
 done:
     XXH3_freeState(hash);
     free(block);
@@ -90,7 +91,7 @@ status layout_open(const char *path, struct checkpoint *c, struct layout *layout
     struct file_end end;
     *c = (struct checkpoint){0};
     *layout = (struct layout){0};
-    /* Nonblocking: a pipe of that name must not hang the run. */
+    /* Nonblocking, so that a pipe of that name does not hang the run. */
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file < 0 || fstat(file, &info) != 0) {
         st = fail(E_CHECKPOINT, "%s: %s", path, strerror(errno));
@@ -143,8 +144,7 @@ static status read_section(int fd, const char *path, const struct layout *layout
         }
     }
     if (hash_bytes(s->data, s->n * s->item) != layout->hash[i])
-        st = fail(E_CHECKPOINT, "%s: section '%s': its content's hash is not the one it was written with",
-                  path, s->name);
+        st = fail(E_CHECKPOINT, "%s: damaged: section '%s' does not match its hash", path, s->name);
 done:
     free(packed);
     free(scratch);
@@ -156,15 +156,14 @@ status checkpoint_read(const char *path, struct checkpoint *c)
     status st = OK;
     struct layout layout;
     int fd = -1;
-    size_t need = 0, have = memory_available() / 4 * 3; /* the run wants some, too */
+    size_t need = 0, have = memory_available() / 4 * 3; /* the rest is for the run */
     TRY(layout_open(path, c, &layout, &fd));
-    /* zstd can promise thirty thousand times a file's size: what cannot fit is refused before it is
-     * allocated. */
+    /* A small file may claim to unpack to thirty thousand times its size, so check that it fits before allocating. */
     for (size_t i = 0; i < c->n_sections && need <= have; i++)
         need += c->section[i].n * c->section[i].item;
     if (need > have) {
-        st = fail(E_MEMORY, "%s: the state needs more than the %zu MB of memory that can be spared", path,
-                  have / 1000000);
+        st = fail(E_MEMORY, "%s: the state needs more than the %zu MB of memory that are available for it",
+                  path, have / 1000000);
         goto done;
     }
     for (size_t i = 0; i < c->n_sections; i++)

@@ -1,5 +1,5 @@
-/* A checkpoint's bytes. Chunks are packed by all threads, each into a place of its own, and then moved
- * together: the bytes do not depend on how many threads there were. */
+/* Encoding a checkpoint. Chunks are packed in parallel, each into a slot of its own, and then moved together, so the bytes do not
+ * depend on the number of threads. */
 #include <assert.h>
 #include <math.h>
 #include <stdbool.h>
@@ -25,8 +25,8 @@ static void check(const struct checkpoint *c)
     }
 }
 
-/* Packs one section's chunks, from its own first place of `stride` bytes each. */
-static status pack_section(const struct checkpoint_section *s, struct chunk *chunk, unsigned char *places,
+/* Packs the chunks of one section into slots of `stride` bytes each. */
+static status pack_section(const struct checkpoint_section *s, struct chunk *chunk, unsigned char *slots,
                            size_t stride)
 {
     bool out_of_memory = false;
@@ -36,14 +36,13 @@ static status pack_section(const struct checkpoint_section *s, struct chunk *chu
 #pragma omp parallel if (n > 1) reduction(|| : out_of_memory)
     {
         void *scratch = malloc(section_chunk_raw(s, 0));
-        /* Whether or not this thread gets a chunk, so that it does not depend on which thread lacks memory. */
+        /* Set even if this thread would get no chunk, so that the result does not depend on the scheduling. */
         out_of_memory = !scratch;
 #pragma omp for schedule(dynamic)
         for (size_t k = 0; k < n; k++) {
             const unsigned char *from = (const unsigned char *)s->data + k * raw;
             chunk[k].size =
-                scratch ? chunk_pack(from, section_chunk_raw(s, k), s->item, scratch, places + k * stride)
-                        : 0;
+                scratch ? chunk_pack(from, section_chunk_raw(s, k), s->item, scratch, slots + k * stride) : 0;
             out_of_memory = out_of_memory || chunk[k].size == 0;
         }
         free(scratch);
@@ -51,24 +50,24 @@ static status pack_section(const struct checkpoint_section *s, struct chunk *chu
     return out_of_memory ? fail(E_MEMORY, "out of memory: packing '%s' for a checkpoint", s->name) : OK;
 }
 
-/* Moves the places' content together from `at`; returns where it ends. */
-static size_t gather(unsigned char *file, size_t at, size_t places, size_t stride, struct chunk *chunk,
+/* Moves the content of the slots together, beginning at `at`; returns the offset behind it. */
+static size_t gather(unsigned char *file, size_t at, size_t slots, size_t stride, struct chunk *chunk,
                      size_t n)
 {
     for (size_t k = 0; k < n; k++) {
-        memmove(file + at, file + places + k * stride, chunk[k].size);
+        memmove(file + at, file + slots + k * stride, chunk[k].size);
         chunk[k].at = at;
         at += chunk[k].size;
     }
     return at;
 }
 
-static size_t section_room(const struct checkpoint_section *s)
+static size_t section_bound(const struct checkpoint_section *s)
 {
     return section_chunks(s) * chunk_bound(chunk_raw_size(s->item));
 }
 
-/* Head and sections in `file`; *size becomes where the index goes. */
+/* Writes head and sections to `file`; *size is then the offset of the index. */
 static status pack_sections(const struct checkpoint *c, struct layout *layout, unsigned char *file,
                             size_t *size)
 {
@@ -80,7 +79,7 @@ static status pack_sections(const struct checkpoint *c, struct layout *layout, u
         const struct checkpoint_section *s = &c->section[i];
         struct chunk *chunk = layout->chunk + layout->first[i];
         size_t n = section_chunks(s), stride = chunk_bound(chunk_raw_size(s->item));
-        /* The places begin at `at`, and a chunk never outgrows its place: gathering only moves bytes down. */
+        /* The slots begin at `at`, and a chunk is never larger than its slot, so gather() only moves bytes down. */
         status st = pack_section(s, chunk, file + at, stride);
         if (st != OK)
             return st;
@@ -97,25 +96,25 @@ status checkpoint_encode(const struct checkpoint *c, void *bytes, size_t *size)
     struct layout layout = {0};
     struct text index = {0};
     unsigned char *file = NULL;
-    /* The most any section needs while it is packed, behind all before it. Pages never written cost nothing.
-     */
-    size_t room = sizeof(struct file_head) + sizeof(struct file_end);
+    /* An upper bound for the slots of all sections. Pages that are never written take no memory. */
+    size_t bound = sizeof(struct file_head) + sizeof(struct file_end);
     check(c);
     if (!isfinite(c->years))
-        return fail(E_NUMERIC, "frame %d: the years are not finite; no checkpoint is written", c->frame);
+        return fail(E_NUMERIC, "frame %d: its number of years is not finite; no checkpoint is written",
+                    c->frame);
     for (size_t i = 0; i < c->n_sections; i++) {
         layout.first[i + 1] = layout.first[i] + section_chunks(&c->section[i]);
-        room += section_room(&c->section[i]);
+        bound += section_bound(&c->section[i]);
     }
     layout.n_chunks = layout.first[c->n_sections];
     TRY(memory_alloc(layout.n_chunks, sizeof *layout.chunk, "the chunk table", &layout.chunk));
-    TRY(memory_alloc(room, 1, "a checkpoint", &file));
+    TRY(memory_alloc(bound, 1, "a checkpoint", &file));
 
     size_t at = 0;
     TRY(pack_sections(c, &layout, file, &at));
     TRY(index_write(c, &layout, &index));
     if (index.size > INDEX_SIZE_MAX) {
-        st = fail(E_MEMORY, "frame %d: the state has %zu chunks, more than a checkpoint holds", c->frame,
+        st = fail(E_MEMORY, "frame %d: the state has %zu chunks, more than a checkpoint can hold", c->frame,
                   layout.n_chunks);
         goto done;
     }

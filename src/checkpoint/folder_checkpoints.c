@@ -26,8 +26,8 @@ status checkpoint_list(const char *root, const char *name, int **frames, size_t 
     return st;
 }
 
-/* Of the checkpoints up to `saved`, leaves the newest `keep`. Later ones are another run's, or the same job's
- * before it was told to start over: they do not count, lest the one just written be the oldest. */
+/* Of the checkpoints up to frame `saved`, keeps the newest `keep`. Later ones are left from a run that got farther and was started
+ * over; they are not counted, since the checkpoint just written would otherwise be the oldest and be removed. */
 static status prune(const char *root, const char *name, int saved, int keep)
 {
     status st = OK;
@@ -43,7 +43,7 @@ static status prune(const char *root, const char *name, int saved, int keep)
             continue;
         TRY(folder_path(&path, root, name, FILE_CHECKPOINT, frames[i], NULL));
         if (unlink(path.text) != 0 && errno != ENOENT)
-            log_warn("%s: an old checkpoint cannot be removed: %s", path.text, strerror(errno));
+            log_warn("%s: cannot remove this old checkpoint: %s", path.text, strerror(errno));
     }
 done:
     free(frames);
@@ -75,9 +75,9 @@ status checkpoint_save(const char *root, const char *name, const struct checkpoi
     TRY(folder_make(folder.text));
     TRY(checkpoint_encode(c, &bytes, &size));
     TRY(atomic_file_write(path.text, bytes, size));
-    /* The work is safe: what goes wrong from here on costs disk space, not the run. */
+    /* The checkpoint is written, so failing to remove old ones only costs disk space. */
     if (prune(root, name, c->frame, keep > 0 ? keep : 1) != OK)
-        log_warn("%s: old checkpoints stay: %s", root, status_message());
+        log_warn("%s: old checkpoints are not removed: %s", root, status_message());
 done:
     free(bytes);
     return st;

@@ -1,4 +1,4 @@
-/* A checkpoint's index: JSON, written by us and believed by nobody. */
+/* The index of a checkpoint, in JSON. Reading it trusts nothing. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +43,7 @@ status index_write(const struct checkpoint *c, const struct layout *layout, stru
         json_integer(out, "item", (int64_t)s->item);
         json_integer(out, "count", (int64_t)s->n);
         json_text(out, "hash", hash_text(layout->hash[i], hash));
-        /* Offset and size by turns. */
+        /* Offsets and sizes alternate. */
         json_array(out, "chunks");
         for (size_t k = layout->first[i]; k < layout->first[i + 1]; k++) {
             json_integer(out, NULL, (int64_t)layout->chunk[k].at);
@@ -63,7 +63,7 @@ static status get_text(const struct json *object, const char *key, char *out, si
 {
     const char *text = json_to_text(json_member(object, key));
     if (!text || strlen(text) >= size)
-        return fail(E_CHECKPOINT, "'%s' is missing, no text, or longer than %zu bytes", key, size - 1);
+        return fail(E_CHECKPOINT, "'%s' is missing, not a text, or longer than %zu bytes", key, size - 1);
     memcpy(out, text, strlen(text) + 1);
     return OK;
 }
@@ -98,9 +98,9 @@ static status read_provenance(const struct json *object, struct checkpoint *c)
     struct maker *maker = &c->maker;
     const struct json *years = json_member(object, "years");
     if (!json_to_integer(json_member(object, "frame"), -FRAME_LIMIT, FRAME_LIMIT, &frame))
-        return fail(E_CHECKPOINT, "'frame' is missing or no frame number");
+        return fail(E_CHECKPOINT, "'frame' is missing or not a frame number");
     if (!years || years->kind != JSON_NUMBER || !isfinite(years->number))
-        return fail(E_CHECKPOINT, "'years' is missing or no number");
+        return fail(E_CHECKPOINT, "'years' is missing or not a finite number");
     c->frame = (int)frame;
     c->years = years->number;
     TRY(get_hash(object, "job_hash", &c->job_hash));
@@ -114,7 +114,7 @@ done:
     return st;
 }
 
-/* The section's chunks, each beginning at *at, where the one before ended. */
+/* Reads the list of a section's chunks. Each must begin at *at, where the previous one ends. */
 static status read_chunks(const struct json *object, const struct checkpoint_section *s,
                           struct layout *layout, size_t *capacity, uint64_t *at, uint64_t limit)
 {
@@ -122,7 +122,8 @@ static status read_chunks(const struct json *object, const struct checkpoint_sec
     const struct json *list = json_member(object, "chunks");
     size_t n = section_chunks(s);
     if (!list || list->kind != JSON_ARRAY || list->n / 2 != n || list->n % 2)
-        return fail(E_CHECKPOINT, "section '%s': %zu items of %zu bytes need %zu chunks, not those listed",
+        return fail(E_CHECKPOINT,
+                    "section '%s': %zu items of %zu bytes need %zu chunks, but the list has another number",
                     s->name, s->n, s->item, n);
     TRY(memory_grow(&layout->chunk, capacity, layout->n_chunks + n, sizeof *layout->chunk,
                     "the chunk table"));
@@ -172,13 +173,14 @@ status index_read(const char *text, size_t size, uint64_t index_at, struct check
     TRY(read_provenance(json, c));
     const struct json *sections = json_member(json, "sections");
     if (!sections || sections->kind != JSON_ARRAY || sections->n > CHECKPOINT_SECTIONS_MAX) {
-        st = fail(E_CHECKPOINT, "'sections' is missing, no list, or longer than %d", CHECKPOINT_SECTIONS_MAX);
+        st = fail(E_CHECKPOINT, "'sections' is missing, not a list, or longer than %d",
+                  CHECKPOINT_SECTIONS_MAX);
         goto done;
     }
     for (const struct json *v = sections->first; v; v = v->next)
         TRY(read_section(v, c, layout, &capacity, &at, index_at));
     if (at != index_at)
-        st = fail(E_CHECKPOINT, "%llu bytes before the index belong to no section",
+        st = fail(E_CHECKPOINT, "%llu bytes before the index do not belong to any section",
                   (unsigned long long)(index_at - at));
 done:
     json_free(&json);

@@ -1,4 +1,4 @@
-/* Inside a checkpoint file: its fixed parts, and its index. See checkpoint.h for the layout. */
+/* The fixed parts of a checkpoint file and its index, shared by the files of src/checkpoint/. checkpoint.h describes the layout. */
 #ifndef HOODOO_CHECKPOINT_LAYOUT_H
 #define HOODOO_CHECKPOINT_LAYOUT_H
 
@@ -6,12 +6,12 @@
 #include "checkpoint/checkpoint.h"
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
-#error "checkpoints are little endian, and so must this machine be"
+#error "checkpoints are little endian; this code needs a little-endian machine"
 #endif
 
 enum {
     CHECKPOINT_FORMAT = 1,
-    /* Enough for the chunks of 400 GB; parsing costs a multiple of it. */
+    /* Enough for the chunks of 400 GB. Parsing takes a multiple of it in memory. */
     INDEX_SIZE_MAX = 4 << 20,
 };
 
@@ -36,31 +36,30 @@ struct chunk {
     uint64_t at, size; /* in the file */
 };
 
-/* What the index says beyond struct checkpoint. */
+/* What the index has beyond the members of struct checkpoint. */
 struct layout {
     uint64_t hash[CHECKPOINT_SECTIONS_MAX];    /* of the raw bytes */
-    size_t first[CHECKPOINT_SECTIONS_MAX + 1]; /* section i has chunks first[i] .. first[i + 1] - 1 */
+    size_t first[CHECKPOINT_SECTIONS_MAX + 1]; /* section i has the chunks first[i] .. first[i + 1] - 1 */
     struct chunk *chunk;                       /* owned */
     size_t n_chunks;
 };
 
+/* The number of chunks of a section, and the raw bytes of its k-th chunk. */
 size_t section_chunks(const struct checkpoint_section *s);
-/* Raw bytes of the section's k-th chunk. */
 size_t section_chunk_raw(const struct checkpoint_section *s, size_t k);
 
 MUST_USE status index_write(const struct checkpoint *c, const struct layout *layout, struct text *out);
 
-/* Fills *c (no data) and *layout from the index's text, and checks it: every name, size and count, and that
- * the chunks are one behind the other from the head to `index_at`. E_CHECKPOINT; the message lacks the path.
- */
+/* Parses the text of the index into *c (without data) and *layout, and checks every name, size and count, and that the chunks follow
+ * each other without gaps from the head to `index_at`. E_CHECKPOINT; the message does not name the file. */
 MUST_USE status index_read(const char *text, size_t size, uint64_t index_at, struct checkpoint *c,
                            struct layout *layout);
 
-/* Reads everything of `path` but the sections: *c without data, and *layout (free layout->chunk). When fd is
- * not NULL, the file stays open there. */
+/* Reads everything of `path` but the sections: *c without data, and *layout, whose `chunk` the caller frees. If fd is not NULL, the
+ * file stays open and *fd is its descriptor. */
 MUST_USE status layout_open(const char *path, struct checkpoint *c, struct layout *layout, int *fd);
 
-/* n bytes at `at`. E_CHECKPOINT. */
+/* Reads n bytes at offset `at`. E_CHECKPOINT if the file is too short or cannot be read. */
 MUST_USE status read_at(int fd, const char *path, uint64_t at, void *bytes, size_t n);
 
 #endif

@@ -7,8 +7,8 @@
 #include "field/channels.h"
 #include "field/mattes.h"
 
-/* Against exact particles with blosc, measured on jobs of 3,000 to 500,000 particles. Without blosc points are as
- * large as they are in memory: zip leaves them alone. */
+/* Size of points relative to exact precision with blosc, measured on jobs of 3,000 to 500,000 particles. Without blosc, points take as
+ * much as in memory, since zip does not compress them. */
 static double packed(const struct job_vdb *vdb, bool inside)
 {
     const bool small = vdb->precision == VDB_PRECISION_16_BIT, raw = vdb->codec != VDB_CODEC_BLOSC;
@@ -22,7 +22,7 @@ static double points_bytes(const struct job_vdb *vdb, const struct scene_size *s
     const double bare = (double)size->n_surface, inside = (double)size->n_particles - bare;
     if (vdb->points == VDB_POINTS_NONE)
         return 0;
-    /* Alone they need no zeros for those inside. */
+    /* Without particles inside, their zeros in surface attributes are not stored. */
     if (vdb->points == VDB_POINTS_SURFACE)
         return bare * p->bare * (vdb->codec == VDB_CODEC_BLOSC ? 0.93 : 0.77) * packed(vdb, false);
     return inside * p->inside * packed(vdb, true) + bare * p->bare * packed(vdb, false);
@@ -33,7 +33,7 @@ static double volumes_bytes(const struct job *job, const struct scene_size *size
 {
     static const double codec[] = {[VDB_CODEC_BLOSC] = 1, [VDB_CODEC_ZIP] = 1.05, [VDB_CODEC_NONE] = 1.25};
     const struct job_vdb *vdb = &job->output.vdb;
-    /* Measured with this many grids: each further one holds a tenth of what the surface takes. */
+    /* The measurements had this many grids; each further grid adds a tenth of the bytes at the surface. */
     enum { MEASURED = 5 };
     const double further = 0.1 * ((double)value_grids(HAS_ALWAYS | p->has) - MEASURED);
     return ((double)size->n_near * p->volumes_inside +
@@ -41,7 +41,7 @@ static double volumes_bytes(const struct job *job, const struct scene_size *size
            codec[vdb->codec] * (vdb->half ? 0.75 : 1);
 }
 
-/* The share of a picture that is rock: of its 32 x 18 parts, those that a point of it is in. */
+/* The share of a picture that shows rock: of its 32 x 18 tiles, those into which a point of the scene projects. */
 static double covered(const struct job_camera *camera, int frame, const struct scene_size *size)
 {
     enum { WIDE = 32, HIGH = 18 };
@@ -62,8 +62,8 @@ static double covered(const struct job_camera *camera, int frame, const struct s
     return (double)n / (WIDE * HIGH);
 }
 
-/* Pixels without rock are alike and take next to nothing. Mattes are pairs of an id and a share, most of both
- * alike. */
+/* Pixels without rock are uniform and take almost nothing. The channels of mattes, pairs of an id and a share, are mostly uniform
+ * too. */
 static double pictures_bytes(const struct job *job, const struct scene_size *size, double channel)
 {
     double bytes = 0;

@@ -12,7 +12,7 @@ uint64_t host_rock_bytes(size_t n)
     return bytes;
 }
 
-/* How thick a layer of air and of rock bricks take with them: the band around the surface, and half a brick. */
+/* Voxels that bricks store beyond the surface, in air and in rock: the narrow band and, on average, half a brick. */
 enum { AIR = GRID_BAND + BRICK_SIDE / 2 };
 
 uint64_t host_grid_samples(const int voxels[3], uint64_t rock, uint64_t bare)
@@ -30,7 +30,7 @@ static uint64_t most(uint64_t a, uint64_t b)
     return a > b ? a : b;
 }
 
-/* What comes and goes while a frame is made: the vectors that the channels of a picture are taken from. */
+/* Temporary memory while a frame is made: the vectors from which the channels of a picture are taken. */
 static uint64_t making(const struct job *job)
 {
     enum { VECTOR = 16, IDS = 12, SOURCES = 4 };
@@ -44,10 +44,10 @@ static uint64_t shown(const struct job *job, const struct scene_size *size)
     return job->output.vdb.points == VDB_POINTS_ALL ? size->n_particles : size->n_kept;
 }
 
-/* The same while it is written, file by file. Points, a piece at a time: an order of eight bytes, and what is not alike in
- * a whole leaf of the file's tree: six numbers and a position inside, a normal and more on the surface. Volumes: one grid
- * at a time, which may be full, and its leaves that the surface runs through, each six times as large as what is in it.
- * Pictures: their packed rows, and the file these are put together in. */
+/* Temporary memory while a frame is written, one file at a time. Points are written piece by piece: 8 bytes of sort order per particle,
+ * and the attributes that are not uniform within a leaf of the file's tree: 32 bytes for all, 32 more at the surface. Volumes are
+ * written one grid at a time; a grid may be full, and the leaves at the surface take six times the size of their content. Pictures need
+ * their compressed rows and the file assembled from them. */
 static uint64_t writing(const struct job *job, const struct scene_size *size, const struct disk_frame *files)
 {
     const uint64_t n = shown(job, size), bare = size->n_surface, cameras = job->output.aov.n_cameras;

@@ -18,13 +18,13 @@
 #include "stacks/material.h"
 #include "vdb/vdb.h"
 
-/* What vertices carry. A job without water, plants or deposits has no such grids: 0. Where rock moves, the three components of
- * its velocity come after the n. */
+/* The values that vertices have. Values whose grid the job does not have, such as those of water or plants, are 0. Where rock moves,
+ * the three components of its velocity follow the n values. */
 enum { VELOCITY = 3 };
 struct carried {
     enum value_id id[VALUES];
     const char *name[VALUES];
-    size_t n, n_velocity, n_optional; /* the last n_optional may be missing */
+    size_t n, n_velocity, n_optional; /* the grids of the last n_optional may be missing */
 };
 
 static struct carried carried_by(const struct job *job)
@@ -56,7 +56,7 @@ static size_t layer_at(const struct job *job, const float x[3])
 
 struct labels {
     const struct job *job;
-    const struct layers *layers; /* NULL: by place */
+    const struct layers *layers; /* NULL: layers follow from the position */
 };
 
 static status set_labels(void *user, const float (*vertex)[3], size_t n, uint32_t *label)
@@ -70,7 +70,8 @@ static status set_labels(void *user, const float (*vertex)[3], size_t n, uint32_
     return OK;
 }
 
-/* The layer's; on terrain mixed by the materials' shares, the rest being the layer's. */
+/* The colour of the vertex's layer. On terrain, the colours of the materials are mixed by their shares; the remainder has the colour of
+ * the layer. */
 static void color_of(const struct job *job, const struct carried *carried, const struct vdb_mesh *m, size_t i,
                      float rgb[3])
 {
@@ -98,7 +99,7 @@ static void color_of(const struct job *job, const struct carried *carried, const
 
 /* ---- files */
 
-/* What the names of the rocks' files have after the job's. */
+/* The part of the files' names that follows the job's name. */
 static const char *part(bool rocks)
 {
     return rocks ? "rocks" : NULL;
@@ -112,7 +113,7 @@ static status put(const struct recipe *recipe, const struct meshes *m, enum fold
     return st == OK ? product_write(recipe, path.text, bytes, n) : st;
 }
 
-/* Rocks are in USD already, as instances. */
+/* Rocks get no USD mesh, since rocks/NAME.FRAME.usdc has them as instances. */
 static status write_files(const struct meshes *m, bool rocks, int frame, struct mesh_file *file)
 {
     status st = OK;
@@ -203,7 +204,7 @@ done:
 
 /* ---- rocks */
 
-/* A tile's rock, simplified like the surface, and by a share of its radius at least: there may be thousands. */
+/* A rock of the tile, simplified like the surface and by at least 2 % of its radius, because there may be thousands of rocks. */
 static status rock_shape(const struct meshes *m, const struct pile_tile *tile, size_t which,
                          struct trimesh *out)
 {
@@ -222,7 +223,7 @@ done:
     return st;
 }
 
-/* All of them in one mesh. */
+/* Joins all rocks into one mesh. */
 static status join_rocks(const struct rock *at, const struct trimesh *shape, size_t n_shapes,
                          struct trimesh *out)
 {
@@ -230,17 +231,18 @@ static status join_rocks(const struct rock *at, const struct trimesh *shape, siz
     struct trimesh all = {0};
     for (size_t i = 0; i < at->n; i++) {
         if (at->layer[i] >= n_shapes) {
-            st = fail(E_INPUT, "a rock of shape %u, of %zu there are: not of this job", at->layer[i],
-                      n_shapes);
+            st = fail(E_INPUT,
+                      "a rock has shape %u, but the job has %zu shapes: the file belongs to another job",
+                      at->layer[i], n_shapes);
             goto done;
         }
         all.n_vertices += shape[at->layer[i]].n_vertices;
         all.n_triangles += shape[at->layer[i]].n_triangles;
     }
     if (all.n_vertices > INT32_MAX) {
-        st =
-            fail(E_OUTPUT, "%zu vertices of rocks are too many for one mesh; use --adaptivity, or --no-rocks",
-                 all.n_vertices);
+        st = fail(E_OUTPUT,
+                  "the rocks have %zu vertices, too many for one mesh; use --adaptivity or --no-rocks",
+                  all.n_vertices);
         goto done;
     }
     TRY(memory_alloc(all.n_vertices, 3 * sizeof *all.vertex, "rocks", &all.vertex));

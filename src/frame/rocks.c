@@ -8,7 +8,7 @@
 #include "particles/particles.h"
 #include "scene/scene.h"
 
-/* Places for rocks side by side in a domain; a layer takes a few of those above each other. */
+/* The most places for rocks in a horizontal section of the domain; a layer has a few of these above each other. */
 static const double MOST_PLACES = 1 << 25;
 
 status rocks_tile(const struct job *job, struct pile_tile *out)
@@ -30,7 +30,7 @@ status rocks_tile(const struct job *job, struct pile_tile *out)
     if (places > MOST_PLACES || places * ceil(size[2] / out->side) > UINT32_MAX) {
         st = fail(
             E_USAGE,
-            "piles.rock_m: rocks of %g m have %.3g places side by side in this domain; raise it, at most %.3g can be told apart",
+            "piles.rock_m: rocks of %g m have %.3g places side by side in this domain, more than the %.3g that ids can number; raise it",
             p->rock_m, places, MOST_PLACES);
         pile_tile_destroy(out);
     }
@@ -44,7 +44,7 @@ uint32_t rocks_layer(const struct job *job)
                                               : job->n_strata - 1);
 }
 
-/* The corners of every shape. */
+/* The bounding box of every shape. */
 static status bound(const struct pile_tile *tile, struct frame_rocks *out)
 {
     status st = memory_alloc(tile->n, sizeof *out->box, "rocks", &out->box);
@@ -119,9 +119,9 @@ status rocks_on_stacks(const struct job *job, const struct stacks *s, const stru
 
 enum { WIDEST = 3 };
 
-/* Which voxels hold deposits, and which other rock, a bit each, column by column with a free word around it. */
+/* One bit per voxel for deposits and one for other rock, stored by column, with an empty word at both ends of each column. */
 struct held {
-    int n[3], reach; /* voxels: of the box around a voxel */
+    int n[3], reach; /* voxels: half the width of the box that is averaged */
     double h;
     size_t words; /* of a column */
     uint64_t *loose, *solid;
@@ -144,7 +144,7 @@ static void hold(const struct rock *rock, struct held *d)
     }
 }
 
-/* How many of the voxels lo..lo + n - 1 of a column are set; n < 64, lo >= -64. */
+/* The number of voxels lo .. lo + n - 1 of a column that are set; n < 64, lo >= -64. */
 static int count(const uint64_t *column, int lo, int n)
 {
     size_t word = (size_t)(lo + 64) / 64, shift = (size_t)(lo + 64) % 64;
@@ -152,8 +152,8 @@ static int count(const uint64_t *column, int lo, int n)
     return __builtin_popcountll(bits & ((1ULL << n) - 1));
 }
 
-/* Is voxel k of column (i, j) in the deposits, smoothed: of what is not rock around it, is half deposit? A
- * surface that loses a grain here and gains one there keeps its rocks. Below the floor is rock. */
+/* Whether voxel k of column (i, j) is in a smoothed layer of deposits: of the voxels around it that are not rock, at least half are
+ * deposit. Rocks then do not change when the surface loses a grain here and gains one there. Below the floor is rock. */
 static bool is_deposit(const struct held *d, int i, int j, int k)
 {
     const int wide = 2 * d->reach + 1, below = k < d->reach ? d->reach - k : 0;

@@ -1,7 +1,7 @@
-/* The rocks that frames show: piles of them over rock layers (arches), and lying on deposits (arenite).
+/* The rocks that frames show as instances: piles of them in rock layers (arches), or on deposits (arenite).
  *
- * The tile of rocks repeats through space, and layers only choose among the places there are: so a rock stays
- * where it is as long as what it lies in stays, and has the same id whenever it is there.
+ * A tile of rocks repeats through space, and layers only select among the places of the tile. So a rock stays where it is as long as
+ * the layer around it does, and has the same id whenever it appears.
  */
 #ifndef HOODOO_ROCKS_H
 #define HOODOO_ROCKS_H
@@ -11,18 +11,19 @@
 #include "piles/piles.h"
 #include "stacks/stacks.h"
 
-/* The tile of the job's piles (job_piles()); n = 0 if it has none. E_USAGE: rocks too small for the domain. */
+/* The tile of the job's piles (job_piles()); out->n is 0 if the job has none. Free with pile_tile_destroy(). E_USAGE: the rocks are too
+ * small for the domain. */
 MUST_USE status rocks_tile(const struct job *job, struct pile_tile *out);
 
-/* The layer (palette.h) whose colour they have: rock's, or that of the top stratum, which they fell from. */
+/* The layer (job/palette.h) whose colour the rocks have: rock's own in arches, else the top stratum, from which they fell. */
 uint32_t rocks_layer(const struct job *job);
 
-/* The rocks where the stacks have rock layers. Nothing where the tile has none. */
+/* The rocks in the rock layers of the stacks. Does nothing if the tile is empty. */
 MUST_USE status rocks_on_stacks(const struct job *job, const struct stacks *s, const struct pile_tile *tile,
                                 struct frame_rocks *out);
 
-/* The rocks where particles are deposits: a layer is voxels above each other around which half of what is not
- * rock is deposit, so that rocks do not come and go with grains. */
+/* The rocks in deposits of particles. A layer is a vertical run of voxels in whose neighbourhood at least half of what is not rock is
+ * deposit; the average keeps rocks from appearing and vanishing with single grains. */
 MUST_USE status rocks_on_deposits(const struct job *job, const struct rock *rock,
                                   const struct pile_tile *tile, struct frame_rocks *out);
 

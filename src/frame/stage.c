@@ -23,7 +23,7 @@ enum { MAX_FIELDS = VALUES };
 struct stage {
     const struct job *job;
     const char *root;
-    bool last; /* it is not written again after this */
+    bool last; /* this is the final stage of a run */
     struct usd_sequence sequence;
     struct usd_field field[MAX_FIELDS];
     int *volumes, *meshes, *points, *rocks; /* frames */
@@ -33,7 +33,8 @@ struct stage {
 
 /* ---- frames */
 
-/* A run does not fail of a file that was sound once, and at its end everything is read again. */
+/* Reports a frame that is not listed. A run does not fail because an earlier file was damaged; at the end all manifests are read
+ * again. */
 static void left_out(const struct stage *s, int frame, const char *why)
 {
     if (s->last)
@@ -42,7 +43,7 @@ static void left_out(const struct stage *s, int frame, const char *why)
         log_info("frame %d is not in %s.usda yet: %s", frame, s->job->name, why);
 }
 
-/* *sound: the frame is done, and of this job. */
+/* *sound: the frame is done and belongs to this job. */
 static status read_frame(const struct stage *s, uint64_t job_hash, int number, struct stage_frame *out,
                          bool *sound)
 {
@@ -70,7 +71,7 @@ done:
     return st;
 }
 
-/* Into `known`, ascending: manifests of frames that it has are not read again. */
+/* Updates `known`, in ascending order; the manifests of frames that it has already are not read again. */
 static status find_frames(const struct stage *s, uint64_t job_hash, struct stage_frames *known)
 {
     status st = OK;
@@ -118,16 +119,16 @@ done:
     return st;
 }
 
-/* Meshes are nobody's frame's, and come later: those that were made of the frames that are there. */
+/* Meshes are products that are made after the frames; those made from the listed frames are listed. */
 static status list_meshes(struct stage *s, const struct stage_frames *known)
 {
     status st = OK;
     struct usd_sequence *q = &s->sequence;
-    int *there = NULL;
+    int *existing = NULL;
     size_t n, k = 0;
-    st = folder_list(s->root, s->job->name, FILE_MESH_USD, &there, &n);
-    if (st == E_INPUT) { /* what stands in their place is no reason for a run to fail */
-        log_info("no meshes are in %s.usda: %s", s->job->name, status_message());
+    st = folder_list(s->root, s->job->name, FILE_MESH_USD, &existing, &n);
+    if (st == E_INPUT) { /* a run must not fail because its mesh folder cannot be read */
+        log_info("%s.usda has no meshes: %s", s->job->name, status_message());
         st = OK;
         n = 0;
     }
@@ -136,13 +137,13 @@ static status list_meshes(struct stage *s, const struct stage_frames *known)
     for (size_t i = 0; i < n; i++) {
         struct path path;
         struct product product = {0};
-        while (k < known->n && known->frame[k].number < there[i])
+        while (k < known->n && known->frame[k].number < existing[i])
             k++;
-        if (k == known->n || known->frame[k].number != there[i])
+        if (k == known->n || known->frame[k].number != existing[i])
             continue;
-        /* Reading a record for each at every checkpoint would be quadratic over a run: only at its end. */
+        /* Records are read only at the end: reading all of them at every checkpoint would be quadratic over a run. */
         if (s->last) {
-            TRY(folder_name(&path, s->job->name, FILE_MESH_USD, there[i], NULL));
+            TRY(folder_name(&path, s->job->name, FILE_MESH_USD, existing[i], NULL));
             st = product_read(s->root, path.text, &product);
             if (st == OK)
                 st = product_check(s->root, s->job->name, &product, false);
@@ -151,13 +152,13 @@ static status list_meshes(struct stage *s, const struct stage_frames *known)
         if (st == E_MEMORY)
             goto done;
         if (st == OK)
-            s->meshes[q->n_meshes++] = there[i];
+            s->meshes[q->n_meshes++] = existing[i];
         st = OK;
     }
     meshes_prim(s->job, &q->mesh);
     q->meshes_frame = s->meshes;
 done:
-    free(there);
+    free(existing);
     return st;
 }
 
@@ -167,7 +168,7 @@ void stage_frames_free(struct stage_frames *frames)
     *frames = (struct stage_frames){0};
 }
 
-/* ---- fields: as the last volumes have them */
+/* ---- fields: those of the last volumes */
 
 static bool to_vector(const struct json *array, double out[3])
 {
@@ -218,9 +219,9 @@ static status find_fields(struct stage *s)
     st = vdb_describe_lattices(path.text, &t);
     if (st == OK)
         st = json_read(path.text, t.data, t.size, &json);
-    /* A run does not fail of a file that was sound once; `hoodoo verify` tells. */
+    /* A run does not fail because an earlier file was damaged; `hoodoo verify` reports it. */
     if (st != OK && st != E_MEMORY) {
-        log_warn("%s.usda: no volumes in it: %s", s->job->name, status_message());
+        log_warn("%s.usda has no volumes: %s", s->job->name, status_message());
         st = OK;
         goto done;
     }
@@ -237,7 +238,7 @@ done:
 
 /* ---- cameras */
 
-/* USD's camera looks along its -z. */
+/* Sets m to the camera's transform. A USD camera looks along its -z axis. */
 static void to_world(const struct camera *c, int up, double m[16])
 {
     double wide = 0, high = 0, row[3][3];
@@ -265,8 +266,8 @@ static struct usd_key key_at(const struct job_camera *from, int up, int frame)
     return key;
 }
 
-/* A camera that stands still has one key, another one for every frame, so that between frames it is where a
- * picture's would be. */
+/* A static camera has one key. A moving camera has one for every frame, so that between frames USD interpolates it as motion blur
+ * expects. */
 static status add_camera(struct stage *s, const struct job_camera *from)
 {
     status st = OK;
@@ -282,7 +283,7 @@ static status add_camera(struct stage *s, const struct job_camera *from)
             memcmp(other.to_world, first.to_world, sizeof first.to_world) != 0)
             n = (size_t)(frames.last - frames.first) + 1;
     }
-    TRY(memory_alloc(n, sizeof *key, "a camera's way", &key));
+    TRY(memory_alloc(n, sizeof *key, "a camera's keys", &key));
     for (size_t i = 0; i < n; i++)
         key[i] = key_at(from, up, frames.first + (int)i);
     *to = (struct usd_camera){.name = from->name,
@@ -295,7 +296,7 @@ done:
     return st;
 }
 
-/* USD's sun shines along its -z, and which way up it stands is nothing to it. */
+/* A USD distant light shines along its -z axis; its rotation about that axis is arbitrary. */
 static struct usd_light light_at(const struct job *job, int frame)
 {
     const struct light light = light_of(job, frame);
@@ -363,7 +364,7 @@ done:
     return st;
 }
 
-/* What the rocks look like: the same for all frames. */
+/* The rocks' shapes, which are the same for all frames. */
 static status put_shapes(struct stage *s)
 {
     status st = OK;

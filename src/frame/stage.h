@@ -1,28 +1,28 @@
-/* The sequence as one USD stage, root/NAME.usda: what a lighter opens.
+/* The USD stage of a run, root/NAME.usda: the whole sequence as one file for other programs to open.
  *
- * It names the frames that are done, so that a run that goes on can be looked at, and the meshes made of them. It is no frame's
- * file: no manifest lists it. The same frames give the same bytes.
+ * It lists only completed frames and the meshes made from them, so it can be opened while a run is in progress. It does not belong to
+ * any frame, and no manifest lists it. The same frames give the same bytes.
  */
 #ifndef HOODOO_STAGE_H
 #define HOODOO_STAGE_H
 
 #include "job/job.h"
 
-/* Frames that were sound when they were read. */
+/* Frames whose manifests and files were sound when they were read. */
 struct stage_frame {
     int number;
-    bool volumes, points, rocks; /* which files it lists */
+    bool volumes, points, rocks; /* the kinds of files that it has */
 };
 struct stage_frames {
-    struct stage_frame *frame; /* ascending */
+    struct stage_frame *frame; /* ascending; owned, stage_frames_free() */
     size_t n;
 };
 void stage_frames_free(struct stage_frames *frames);
 
-/* From the manifests in `root` (frames of another job are left out) and the job's cameras; nothing while no
- * frame is done. `known`, or NULL for none: frames whose manifests need not be read again; those found are added to
- * it, and those that are gone leave it. A run keeps it, or else each of its checkpoints reads all manifests.
- * E_OUTPUT: it cannot be written. */
+/* Writes the stage from the manifests in `root` and the job's cameras, sun and sky. Frames of other jobs are left out; while no frame
+ * is done, nothing is written. `known` holds the frames found by the previous call, whose manifests are not read again, and is
+ * updated; without it, each checkpoint of a run would read all manifests. NULL: all manifests and the records of meshes are read.
+ * E_OUTPUT: the file cannot be written. */
 MUST_USE status stage_write(const struct job *job, uint64_t job_hash, const char *root,
                             struct stage_frames *known);
 

@@ -1,4 +1,4 @@
-/* Buffers on the device, and the bytes that travel to and from them. */
+/* Buffers on the device, and transfers to and from them. */
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,11 +35,11 @@ void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags u
     if (allocate.memoryTypeIndex == UINT32_MAX)
         allocate.memoryTypeIndex = memory_type(gpu, need.memoryTypeBits, wanted);
     if (allocate.memoryTypeIndex == UINT32_MAX) {
-        gpu_break(gpu, VK_ERROR_FEATURE_NOT_PRESENT, "no memory of the wanted kind");
+        gpu_break(gpu, VK_ERROR_FEATURE_NOT_PRESENT, "the device has no suitable kind of memory");
         goto done;
     }
     if (gpu->options.allocation_limit && bytes > gpu->options.allocation_limit) {
-        gpu_break(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "as a test asks");
+        gpu_break(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "limit set by a test");
         goto done;
     }
     VK_TRY(gpu, vkAllocateMemory(gpu->device, &allocate, NULL, memory));
@@ -48,14 +48,15 @@ void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags u
 done:;
 }
 
-/* Why the device did not allocate a buffer. Many devices allocate more at once than they promise, so that is tried. */
+/* The error for a buffer that the device did not allocate. Larger buffers than the device's promised limit are still tried, because
+ * many devices allocate more. */
 static status refused(const struct gpu *gpu, const struct gpu_buffer *b)
 {
-    char why[160] = "the device does not have them";
+    char why[160] = "the device could not allocate it";
     if (b->bytes > gpu->allocation_limit)
-        snprintf(why, sizeof why, "the device promises no more than %.1f MB in one piece",
+        snprintf(why, sizeof why, "the device promises at most %.1f MB per allocation",
                  (double)gpu->allocation_limit / 1e6);
-    return fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, and %s: %s", gpu->info.name, b->name,
+    return fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, but %s: %s", gpu->info.name, b->name,
                 (double)b->bytes / 1e6, why, gpu->message);
 }
 
@@ -68,7 +69,7 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
     if (n > GPU_ITEMS_MAX)
         return fail(
             E_MEMORY,
-            "the %s buffer needs %.1f MB for %zu items, and kernels count up to %zu: raise domain.spacing_m",
+            "the %s buffer needs %.1f MB for %zu items, but kernels can address at most %zu items; raise domain.spacing_m",
             name, (double)n * (double)item / 1e6, n, GPU_ITEMS_MAX);
     TRY(memory_alloc(1, sizeof *b, name, &b));
     snprintf(b->name, sizeof b->name, "%s", name);
@@ -76,13 +77,13 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
     b->item = item;
     b->bytes = (n ? n : 1) * item;
     if (b->bytes > gpu_memory_free(gpu)) {
-        st = fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, and %.1f MB are free", gpu->info.name, name,
-                  (double)b->bytes / 1e6, (double)gpu_memory_free(gpu) / 1e6);
+        st = fail(E_MEMORY, "%s: the %s buffer needs %.1f MB, but only %.1f MB are free", gpu->info.name,
+                  name, (double)b->bytes / 1e6, (double)gpu_memory_free(gpu) / 1e6);
         goto done;
     }
     if (gpu->n_allocations >= gpu->allocations_limit) {
         st = fail(E_MEMORY,
-                  "%s: no room for the %s buffer: the device allows %u allocations, and all are taken",
+                  "%s: cannot allocate the %s buffer: the device allows %u allocations, and all are in use",
                   gpu->info.name, name, gpu->allocations_limit);
         goto done;
     }
@@ -95,7 +96,7 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
         gpu->info.is_cpu ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0,
         &b->handle, &b->memory);
     if (gpu->st == E_MEMORY) {
-        /* Not sticky: the caller may ask for less. */
+        /* Not sticky, since the caller may try with less. */
         st = refused(gpu, b);
         gpu->st = OK;
         goto done;
@@ -176,7 +177,7 @@ void gpu_copy(struct gpu *gpu, struct gpu_buffer *to, const struct gpu_buffer *f
     vkCmdCopyBuffer(commands, from->handle, to->handle, 1, &region);
 }
 
-/* One piece through the staging buffer, where device memory is out of the host's reach. */
+/* Transfers at most STAGING_BYTES through the staging buffer, for device memory that the host cannot map. */
 static void stage(struct gpu *gpu, struct gpu_buffer *b, VkDeviceSize offset, VkDeviceSize bytes, bool upload)
 {
     VkCommandBuffer commands = record_begin(gpu);

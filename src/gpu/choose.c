@@ -18,13 +18,13 @@ static int preference(const struct gpu_info *info)
     return info->usable ? rank : 99;
 }
 
-/* Some drivers give no address, or zeros. */
+/* Some drivers report no PCI address, or zeros. */
 static bool has_address(const struct gpu_info *info)
 {
     return info->pci[0] && strcmp(info->pci, "0000:00:00.0") != 0;
 }
 
-/* "2,3" or "2-3": the first number, and how many there are; false if it is anything else. */
+/* Parses "2,3" or "2-3" into the first number and the count; false for anything else. */
 static bool read_ids(const char *ids, int *first, int *count)
 {
     int value[2], n = 0;
@@ -52,9 +52,9 @@ static bool read_ids(const char *ids, int *first, int *count)
     }
 }
 
-/* Slurm numbers its GPUs by PCI address, over the whole machine; Vulkan does not, and sees what the control
- * group lets through. Where the two cannot be matched for certain there is no answer: the wrong GPU is
- * another job's. */
+/* Slurm numbers the GPUs of the whole machine by PCI address. Vulkan orders them differently, and sees only those that the job's
+ * control group allows. If the two cannot be matched with certainty, this returns -1, because the wrong GPU may belong to another
+ * job. */
 static int slurm_device(const char *ids, const struct gpu_info *info, size_t n, const char **why)
 {
     int gpu[GPUS_MAX], n_gpus = 0, first = 0, count = 0;
@@ -65,7 +65,7 @@ static int slurm_device(const char *ids, const struct gpu_info *info, size_t n, 
     if (n_gpus == 0)
         return -1;
     if (n_gpus == 1)
-        return gpu[0]; /* all others are kept from this job */
+        return gpu[0]; /* the control group hides all others */
     *why = "neither SLURM_STEP_GPUS nor SLURM_JOB_GPUS is set";
     if (!ids)
         return -1;
@@ -73,11 +73,11 @@ static int slurm_device(const char *ids, const struct gpu_info *info, size_t n, 
     if (!read_ids(ids, &first, &count))
         return -1;
     *why =
-        "GPUs of several types are here, and which of them Slurm counts is not known; name one by uuid: or pci:";
+        "there are GPUs of several types, and it is not known which of them Slurm counts; select one with uuid: or pci:";
     for (int i = 1; i < n_gpus; i++)
         if (strcmp(info[gpu[i]].type, info[gpu[0]].type) != 0)
             return -1;
-    *why = "the GPUs' PCI addresses are unknown or alike, so Slurm's numbers cannot be matched";
+    *why = "the PCI addresses of the GPUs are unknown or equal, so Slurm's numbers cannot be matched";
     for (int i = 0; i < n_gpus; i++) {
         if (!has_address(&info[gpu[i]]))
             return -1;
@@ -93,8 +93,8 @@ static int slurm_device(const char *ids, const struct gpu_info *info, size_t n, 
         }
     }
     if (count == n_gpus)
-        return gpu[0]; /* exactly this job's are visible: its first is the first */
-    *why = "Slurm's number is not one of the GPUs seen here";
+        return gpu[0]; /* only this job's GPUs are visible, so its first is the first visible */
+    *why = "Slurm's number does not match any visible GPU";
     return first < n_gpus ? gpu[first] : -1;
 }
 

@@ -39,10 +39,10 @@ void gpu_break(struct gpu *gpu, VkResult result, const char *call)
         return;
     bool memory = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY;
     gpu->st = memory ? E_MEMORY : E_DEVICE;
-    snprintf(gpu->message, sizeof gpu->message, "%s: %s (%.200s)%s", gpu->info.name, vk_result_text(result),
-             call,
-             result == VK_ERROR_DEVICE_LOST ? "; run the same command again to go on from the last checkpoint"
-                                            : "");
+    snprintf(
+        gpu->message, sizeof gpu->message, "%s: %s (%.200s)%s", gpu->info.name, vk_result_text(result), call,
+        result == VK_ERROR_DEVICE_LOST ? "; run the same command again to continue from the last checkpoint"
+                                       : "");
 }
 
 status gpu_status(const struct gpu *gpu)
@@ -69,7 +69,8 @@ static status instance_create(VkInstance *out)
     return OK;
 }
 
-/* Into an array of fixed size: without memory a device would seem to have none. Devices have a few hundred at most. */
+/* Uses an array of fixed size, because running out of memory here would look like a missing extension. Devices have a few hundred at
+ * most. */
 static bool has_extension(VkPhysicalDevice physical, const char *name)
 {
     enum { MOST_EXTENSIONS = 1024 };

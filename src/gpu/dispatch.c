@@ -1,11 +1,11 @@
-/* Kernels: pipelines made when first used, and the one wrapper that binds buffers and launches them. */
+/* Kernels: pipelines are created when first used; gpu_dispatch() binds their buffers and launches them. */
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "gpu/internal.h"
 
-/* "rF wV " -> binding i is bindings[3 i], bindings[3 i + 1] */
+/* In "rF wV ", binding i is described by bindings[3 i] and bindings[3 i + 1]. */
 static uint32_t binding_count(enum gpu_kernel kernel)
 {
     return (uint32_t)(strlen(kernel_source[kernel]->bindings) / 3);
@@ -82,7 +82,7 @@ void pipelines_destroy(struct gpu *gpu)
         }
 }
 
-/* The device's own variant, unless a buffer is larger than it can bind. */
+/* The device's preferred variant, or VARIANT_WIDE if a buffer is larger than the device can bind. */
 static enum kernel_variant fitting_variant(const struct gpu *gpu, enum gpu_kernel kernel,
                                            struct gpu_buffer *const *buffers, uint32_t n)
 {
@@ -141,7 +141,7 @@ void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const
     for (uint32_t i = 0; i < n; i++)
         assert(buffers[i]->item == (binding_letter(kernel, i) == 'V' ? 16 : 4));
     if (threads > GPU_ITEMS_MAX) {
-        gpu_break(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "more threads than 32 bits count");
+        gpu_break(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "more than 2^32 threads");
         return;
     }
     VkCommandBuffer commands = threads ? record_begin(gpu) : VK_NULL_HANDLE;

@@ -1,4 +1,4 @@
-/* What the files of src/gpu/ share. Nothing outside this folder includes it. */
+/* Declarations shared by the files of src/gpu/; no other folder includes this. */
 #ifndef HOODOO_GPU_INTERNAL_H
 #define HOODOO_GPU_INTERNAL_H
 
@@ -9,9 +9,9 @@
 
 enum {
     SLOTS = 3,                /* command buffers in flight */
-    DISPATCHES_PER_SLOT = 96, /* a submission stays well under a second, which some drivers insist on */
+    DISPATCHES_PER_SLOT = 96, /* keeps a submission well under a second; some drivers abort longer ones */
     BINDINGS_MAX = 16,
-    PARAMS_MAX = 128, /* bytes of push constants every device has */
+    PARAMS_MAX = 128, /* bytes of push constants that every device supports */
     GROUP = 64,       /* shaders/shared/buffers.glsl: local_size_x */
     STAGES_MAX = 32
 };
@@ -22,9 +22,9 @@ struct gpu_buffer {
     VkDeviceSize bytes;
     VkBuffer handle;
     VkDeviceMemory memory;
-    void *mapped; /* where device memory is host memory, else NULL */
+    void *mapped; /* NULL unless the host can map this memory */
     VkDeviceAddress address;
-    VkBufferView view[3];   /* by letter: F, U, V; made when first read as texels */
+    VkBufferView view[3];   /* for F, U, V; created when first read as texels */
     uint64_t read, written; /* the barrier epoch in which it was last read or written */
 };
 
@@ -39,7 +39,7 @@ struct slot {
     VkFence fence;
     VkDescriptorPool pool;
     VkQueryPool queries;
-    VkBuffer addresses; /* for VARIANT_WIDE: BINDINGS_MAX addresses a dispatch */
+    VkBuffer addresses; /* for VARIANT_WIDE: BINDINGS_MAX addresses per dispatch */
     VkDeviceMemory addresses_memory;
     char *addresses_mapped;
     bool submitted;
@@ -59,7 +59,7 @@ struct gpu {
     VkQueue queue;
     uint32_t family;
     VkPhysicalDeviceMemoryProperties memory;
-    uint64_t range_limit, texel_limit, allocation_limit; /* of bytes, texels, bytes */
+    uint64_t range_limit, texel_limit, allocation_limit; /* in bytes, texels, bytes */
     uint32_t group_limit, timestamp_bits, n_allocations, allocations_limit, subgroup;
     double timestamp_ns;
     bool has_budget;
@@ -85,7 +85,7 @@ enum { STAGING_BYTES = 16 << 20 };
 
 const char *vk_result_text(VkResult result);
 
-/* Notes the first failure of the device; everything after does nothing. */
+/* Records the first failure of the device, after which all commands do nothing. */
 void gpu_break(struct gpu *gpu, VkResult result, const char *call);
 #define VK_TRY(gpu, call)                                                                                    \
     do {                                                                                                     \
@@ -96,30 +96,31 @@ void gpu_break(struct gpu *gpu, VkResult result, const char *call);
         }                                                                                                    \
     } while (0)
 
-/* The sticky error, said again on this thread. */
+/* The recorded failure, with its message set for this thread. */
 status gpu_status(const struct gpu *gpu);
 
-/* A Vulkan buffer with bound memory that has all of `wanted`, preferably `preferred` too. */
+/* Creates a Vulkan buffer bound to memory with the properties `wanted` and, if there is such memory, `preferred`. */
 void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags usage,
                        VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred, VkBuffer *buffer,
                        VkDeviceMemory *memory);
 
-/* The current slot's command buffer, recording. NULL after an error. */
+/* The command buffer of the current slot, in the recording state. NULL after an error. */
 VkCommandBuffer record_begin(struct gpu *gpu);
 
-/* What one command does to a buffer. */
+/* One command's access to a buffer. */
 struct access {
     struct gpu_buffer *buffer;
-    bool write; /* else it only reads */
+    bool write; /* false: it only reads */
 };
 
-/* Puts a barrier before a command if any of its accesses conflicts with one since the last barrier. */
+/* Records a barrier before a command if one of its accesses conflicts with one since the last barrier. */
 void record_accesses(struct gpu *gpu, VkCommandBuffer commands, const struct access *access, size_t n);
 
 const struct pipeline *pipeline_get(struct gpu *gpu, enum gpu_kernel kernel, enum kernel_variant variant);
 VkBufferView buffer_view(struct gpu *gpu, struct gpu_buffer *buffer, char letter);
 
-/* Before an instance is made: where Mesa keeps compiled kernels, or that it keeps none. After a device is: room for that. */
+/* Before the instance is created: tells Mesa where to cache compiled kernels, or not to. After the device is created: allocates disk
+ * space for the cache. */
 void shader_cache_choose(void);
 void shader_cache_hold(void);
 

@@ -7,17 +7,17 @@
 
 #include "gpu/kernels.h"
 
-/* How a kernel reaches its buffers: the same GLSL, compiled three ways (shaders/shared/buffers.glsl). */
+/* How a kernel accesses its buffers: the same GLSL is compiled three times (shaders/shared/buffers.glsl). */
 enum kernel_variant {
-    VARIANT_TEXEL,   /* reads through texel buffers, writes through storage buffers: fastest on lavapipe */
-    VARIANT_STORAGE, /* storage buffers for all */
-    VARIANT_WIDE,    /* device addresses for all: buffers beyond the device's storage-buffer range */
+    VARIANT_TEXEL, /* reads through texel buffers, writes through storage buffers: the fastest on lavapipe */
+    VARIANT_STORAGE, /* storage buffers only */
+    VARIANT_WIDE,    /* device addresses only: for buffers larger than the device's storage-buffer range */
     VARIANTS
 };
 
 struct kernel_source {
     const char *name;     /* "stress_dot" */
-    const char *bindings; /* "rF wV ": read or write; F float, U uint, V vec4 */
+    const char *bindings; /* such as "rF wV ": r read, w written; F float, U uint, V vec4 */
     const uint32_t *spirv[VARIANTS];
     size_t size[VARIANTS]; /* bytes */
 };

@@ -8,7 +8,7 @@
 enum { LEVELS_MAX = 8, WORDS = 64 };
 
 struct gpu_work {
-    struct gpu_buffer *sums[LEVELS_MAX]; /* of ever longer runs */
+    struct gpu_buffer *sums[LEVELS_MAX]; /* per level: sums of the groups of the level below */
     int n_levels;
     size_t n_max;
     struct gpu_buffer *partial, *words;
@@ -169,7 +169,7 @@ status gpu_double_pointers(struct gpu *gpu, struct gpu_work *work, struct gpu_bu
     status st = OK;
     struct count_params k = {(uint32_t)n};
     uint32_t changed = 1;
-    /* Two passes a round, so that the result ends where it began. 2^64 items is more than there are. */
+    /* Two passes per round, so that the result ends in `pointer`. 32 rounds suffice for chains of 2^64 items. */
     for (int round = 0; changed && round < 32; round++) {
         gpu_fill(gpu, work->words, 0);
         GPU_RUN(gpu, gpu_double, n, k, pointer, other, work->words);

@@ -1,28 +1,27 @@
-/* Building blocks over buffers: scan, stable counting sort, compaction, fixed-tree reductions, pointer
- * doubling.
+/* Parallel primitives on buffers: prefix sum, stable counting sort, compaction, reductions over a fixed tree, pointer doubling.
  *
- * All record only, unless they say that they wait. Results do not depend on threads or timing: sums of floats
- * follow one fixed tree, and items of one key are ordered by id.
+ * All of them only record work, unless they say that they wait. Results do not depend on threads or timing: sums of floats follow one
+ * fixed tree, and items with equal keys are ordered by id.
  */
 #ifndef HOODOO_PRIMITIVES_H
 #define HOODOO_PRIMITIVES_H
 
 #include "gpu/gpu.h"
 
-/* Scratch for the functions below, for up to n_max values and keys. */
+/* Scratch memory for the functions below, for up to n_max values and keys. */
 struct gpu_work;
 MUST_USE status gpu_work_create(struct gpu *gpu, size_t n_max, struct gpu_work **out);
 void gpu_work_destroy(struct gpu *gpu, struct gpu_work **work);
 
-/* Bytes gpu_work_create() takes on the device. */
+/* Bytes that gpu_work_create() allocates on the device. */
 uint64_t gpu_work_bytes(size_t n_max);
 
-/* values[i] (uint) becomes the sum of all before it; n values. */
+/* Exclusive prefix sum, in place: values[i] (uint) becomes the sum of values[0 .. i - 1]; n values. */
 void gpu_scan(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n);
 
-/* Sorts n items by key < n_keys: order[rank] = item. start[key] is the first rank of a key; it has n_keys + 1
- * items, the last the total. Items of one key are ordered by id, but for keys from n_ordered on (the dead),
- * which come in any order. `start` is overwritten; `taken` is scratch of n_keys items, `unordered` of n. */
+/* Sorts n items by key < n_keys: order[rank] = item. start[key] is the first rank of a key; start has n_keys + 1 items, of which the
+ * last is n. Items with equal keys are ordered by id, except for keys >= n_ordered (dead items), whose order is arbitrary. `taken`
+ * (n_keys items) and `unordered` (n items) are scratch. */
 struct gpu_sort {
     struct gpu_buffer *keys, *ids, *start, *order, *taken, *unordered;
     size_t n, n_keys, n_ordered;
@@ -33,12 +32,12 @@ void gpu_sort(struct gpu *gpu, struct gpu_work *work, const struct gpu_sort *sor
 void gpu_gather(struct gpu *gpu, struct gpu_buffer *order, struct gpu_buffer *from, struct gpu_buffer *to,
                 size_t n);
 
-/* list = the numbers i < n with flags[i] = 1, ascending. `place` (n items) is scratch. Waits, to know how many. */
+/* list = the numbers i < n for which flags[i] is 1, ascending; *n_list of them. `place` (n items) is scratch. Waits for the count. */
 MUST_USE status gpu_compact(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *flags,
                             struct gpu_buffer *place, struct gpu_buffer *list, size_t n, size_t *n_list);
 
-/* scalars[slot] = the sum (or largest absolute value) of n floats. gpu_partial_sums() is for kernels that do
- * the last step themselves: REDUCE_THREADS partial sums in the work's buffer. */
+/* scalars[slot] = the sum, or the largest absolute value, of n floats. gpu_partial_sums() leaves the last step to the caller's kernel:
+ * it returns the buffer of REDUCE_THREADS partial sums, which belongs to `work`. */
 void gpu_sum(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n,
              struct gpu_buffer *scalars, uint32_t slot);
 void gpu_max(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, size_t n,
@@ -46,12 +45,12 @@ void gpu_max(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, 
 struct gpu_buffer *gpu_partial_sums(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values,
                                     size_t n);
 
-/* Doubles n pointers until they stand still: pointer[i] becomes the end of i's chain, which must not be a
- * cycle. `other` is scratch of n items. Waits. */
+/* Pointer doubling: pointer[i] becomes the end of the chain that starts at i. Chains must not have cycles. `other` is scratch of n
+ * items. Waits. */
 MUST_USE status gpu_double_pointers(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *pointer,
                                     struct gpu_buffer *other, size_t n);
 
-/* A small buffer of words for flags and counters that the host reads. */
+/* A small buffer of uints, for flags and counters that the host reads. */
 struct gpu_buffer *gpu_work_words(struct gpu_work *work);
 
 #endif

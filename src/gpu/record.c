@@ -1,4 +1,4 @@
-/* Recording: commands into slots, barriers between those that touch the same buffer, submission, timers. */
+/* Recording: command buffers in slots, barriers between commands that access the same buffer, submission, timestamps. */
 #include <assert.h>
 #include <stdio.h>
 #include <string.h>
@@ -141,7 +141,7 @@ void gpu_submit(struct gpu *gpu)
                                .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
     if (gpu->st != OK || !gpu->recording)
         return;
-    /* The next slot's commands may touch the same buffers, and the host may read them after the fence. */
+    /* Commands of the next slot may access the same buffers, and the host may read them after the fence. */
     barrier(gpu, s->commands);
     vkCmdPipelineBarrier(s->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                          VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &to_host, 0, NULL, 0, NULL);
@@ -167,7 +167,7 @@ void gpu_watch(struct gpu *gpu, status (*ended)(void *user, const char *stage, c
     gpu->ended_user = user;
 }
 
-/* "stress level 1" is a part of "stress". */
+/* Whether one name is the other's or a part of it, as "stress level 1" is of "stress". */
 static bool same_stage(const char *a, const char *b)
 {
     const size_t n = strcspn(a, " ");

@@ -1,6 +1,6 @@
-/* Where Mesa keeps the kernels that it has compiled. It maps a file of a megabyte, whose room it does not ask for: written on a
- * full disk, such as a home at its quota, that ends the process without a word. So the folder is ours, room in it is asked for
- * before, and where there is none nothing is kept. */
+/* Selects the folder in which Mesa caches compiled kernels. Mesa maps a file of a megabyte there without allocating its blocks, so on a
+ * full disk (such as a home folder at its quota) writing to it kills the process without a message. Therefore hoodoo chooses the
+ * folder and allocates the blocks first; if that fails, the cache is disabled. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -14,13 +14,13 @@
 #include "base/path.h"
 #include "gpu/internal.h"
 
-/* What Mesa puts into the folder that it is told, and the file in that which it maps. */
+/* The folder that Mesa creates in the given one, and the file in it that Mesa maps. */
 static const char inside[] = "mesa_shader_cache", mapped[] = "mesa_shader_cache/index";
 
-/* In bytes: the mapped file, and kernels. */
-enum { ROOM = 4 << 20 };
+/* Bytes for the mapped file and kernels. */
+enum { SPACE = 4 << 20 };
 
-/* What the user has told Mesa itself comes behind what hoodoo was told. */
+/* HOODOO_CACHE takes precedence over Mesa's own variable. */
 static bool find_folder(struct path *out)
 {
     const char *hoodoo = getenv("HOODOO_CACHE"), *mesa = getenv("MESA_SHADER_CACHE_DIR");
@@ -37,14 +37,14 @@ static bool has_room(const char *folder)
     int fd = open(probe.text, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (fd < 0)
         return false;
-    bool good = posix_fallocate(fd, 0, ROOM) == 0;
+    bool good = posix_fallocate(fd, 0, SPACE) == 0;
     close(fd);
     unlink(probe.text);
     return good;
 }
 
-/* Room for all of the mapped file, if there is one. */
-static bool hold_room(const char *folder)
+/* Allocates the blocks of the mapped file, if it exists. */
+static bool allocate_blocks(const char *folder)
 {
     struct path path;
     struct stat is;
@@ -64,7 +64,7 @@ void shader_cache_choose(void)
     if (getenv("MESA_SHADER_CACHE_DISABLE"))
         return;
     if (find_folder(&folder) && path_join(&whole, folder.text, inside) == OK &&
-        folder_make(whole.text) == OK && has_room(folder.text) && hold_room(folder.text))
+        folder_make(whole.text) == OK && has_room(folder.text) && allocate_blocks(folder.text))
         setenv("MESA_SHADER_CACHE_DIR", folder.text, 1);
     else
         setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
@@ -73,6 +73,6 @@ void shader_cache_choose(void)
 void shader_cache_hold(void)
 {
     const char *folder = getenv("MESA_SHADER_CACHE_DIR");
-    if (folder && !getenv("MESA_SHADER_CACHE_DISABLE") && !hold_room(folder))
-        log_warn("%s has no room for compiled kernels; name another folder in HOODOO_CACHE", folder);
+    if (folder && !getenv("MESA_SHADER_CACHE_DISABLE") && !allocate_blocks(folder))
+        log_warn("%s has no space for compiled kernels; set HOODOO_CACHE to another folder", folder);
 }

@@ -154,7 +154,7 @@ static status ask(const struct image_wish *w, const struct converted *c, struct 
     return reader_ask(&(struct reader_question){.program = "hoodoo-read-image",
                                                 .kind = "image",
                                                 .path = w->file,
-                                                .word = word,
+                                                .argument = word,
                                                 .input = c->bytes,
                                                 .n_input = c->size},
                       answer);
@@ -167,7 +167,7 @@ static status take(const struct image_wish *w, struct reader_answer *answer, str
     struct text said = {0};
     TRY(reader_take(answer, &p, sizeof p));
     if (p.width < 1 || p.height < 1 || p.width > IMAGE_MAX_PIXELS / p.height || p.map > IMAGE_MAP_TURNED) {
-        st = reader_nonsense(answer);
+        st = reader_bad_answer(answer);
         goto done;
     }
     TRY(reader_take_text(answer, &said));

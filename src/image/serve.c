@@ -27,10 +27,10 @@ static status read_image(const struct serve_question *question, struct serve_ans
     status st = OK;
     struct image_made m = {.path = question->path,
                            .open = question->path,
-                           .word = question->word,
+                           .word = question->argument,
                            .max_pixels = IMAGE_MAX_PIXELS};
-    if (question->n_words != ASK_WORDS)
-        return fail(E_INPUT, "%s: its reader is asked in %zu words", question->path, question->n_words);
+    if (question->n_arguments != ASK_WORDS)
+        return fail(E_INPUT, "%s: its reader is asked in %zu words", question->path, question->n_arguments);
     if (image_asks(&m, ASK_FORM, "tiff"))
         m.open = READER_INPUT_PATH;
     TRY(decode(&m));
@@ -38,9 +38,9 @@ static status read_image(const struct serve_question *question, struct serve_ans
         image_note(&m, false, "%llu of %llu pixels are outside of its data window: %s",
                    (unsigned long long)m.part.n_outside, (unsigned long long)(m.width * m.height),
                    m.drops_outside && m.is_height ? "they have no value" : "black");
-    TRY(serve_put(answer, &m.part, sizeof m.part));
-    TRY(serve_put(answer, m.said, strlen(m.said)));
-    TRY(serve_put(answer, m.value, m.width * m.height * sizeof *m.value));
+    TRY(serve_add_part(answer, &m.part, sizeof m.part));
+    TRY(serve_add_part(answer, m.said, strlen(m.said)));
+    TRY(serve_add_part(answer, m.value, m.width * m.height * sizeof *m.value));
 done:
     free(m.value);
     return st;

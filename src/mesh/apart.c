@@ -5,7 +5,7 @@
 
 #include "base/vector.h"
 
-/* Doubt, as a share of the triangles' size: above the rounding of what is computed here. */
+/* Tolerance relative to the size of the triangles, larger than the rounding errors here. Results within it are doubtful. */
 static const double DOUBT = 1e-9;
 
 static double largest(const double (*v)[3], int n)
@@ -17,8 +17,8 @@ static double largest(const double (*v)[3], int n)
     return most;
 }
 
-/* Lies all of a on one side of a plane across `axis`, and all of b on the other? */
-static bool parts(const double axis[3], const double a[3][3], const double b[3][3], double size)
+/* Whether a plane perpendicular to `axis` has all of a on one side and all of b on the other. */
+static bool separates(const double axis[3], const double a[3][3], const double b[3][3], double size)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     for (int i = 0; i < 3; i++) {
@@ -30,11 +30,12 @@ static bool parts(const double axis[3], const double a[3][3], const double b[3][
     return gap > DOUBT * size * sqrt(dot3(axis, axis));
 }
 
-/* Nothing shared: separating axes, those within the planes for triangles in one plane. */
+/* Triangles without common corners: tests all separating axes, including those within their planes for coplanar triangles. */
 static bool apart(const double a[3][3], const double b[3][3])
 {
     double p[3][3], q[3][3], e[3][3], f[3][3], n[2][3], axis[3];
-    for (int i = 0; i < 3; i++) { /* from one corner, so that rounding is of their own size */
+    for (int i = 0; i < 3;
+         i++) { /* relative to one corner, so that rounding errors scale with the triangles */
         minus3(a[i], a[0], p[i]);
         minus3(b[i], a[0], q[i]);
     }
@@ -46,34 +47,35 @@ static bool apart(const double a[3][3], const double b[3][3])
     }
     cross3(e[0], e[1], n[0]);
     cross3(f[0], f[1], n[1]);
-    if (parts(n[0], s, t, size) || parts(n[1], s, t, size))
+    if (separates(n[0], s, t, size) || separates(n[1], s, t, size))
         return true;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             cross3(e[i], f[j], axis);
-            if (parts(axis, s, t, size))
+            if (separates(axis, s, t, size))
                 return true;
         }
     for (int i = 0; i < 3; i++) {
         cross3(n[0], e[i], axis);
-        if (parts(axis, s, t, size))
+        if (separates(axis, s, t, size))
             return true;
         cross3(n[1], f[i], axis);
-        if (parts(axis, s, t, size))
+        if (separates(axis, s, t, size))
             return true;
     }
     return false;
 }
 
-/* -1, 0 for doubt, or 1: the side of the plane across `axis` that x is on. */
+/* The side of the plane perpendicular to `axis` on which x is: -1, 1, or 0 if doubtful. */
 static int side(const double axis[3], const double x[3], double size)
 {
     double s = dot3(axis, x), doubt = DOUBT * size * sqrt(dot3(axis, axis));
     return s > doubt ? 1 : s < -doubt ? -1 : 0;
 }
 
-/* A corner is shared: a and b are the other two corners, seen from it. Two cones meet only in their tip if a
- * plane through it parts them: one turned until it touches both, one in the plane of both, or one between. */
+/* Triangles with one common corner; a and b are their other two corners relative to it. The cones that they span meet only in their apex
+ * if a plane through it separates them. It suffices to test planes through an edge of each, perpendicular planes if both are coplanar,
+ * and one between them. */
 static bool cones_apart(const double a[2][3], const double b[2][3])
 {
     double size = fmax(largest(a, 2), largest(b, 2)), n[2][3], axis[3];
@@ -109,7 +111,7 @@ static bool cones_apart(const double a[2][3], const double b[2][3])
            side(axis, b[1], size) < 0;
 }
 
-/* An edge is shared: they are folded onto each other, or apart. */
+/* Triangles with a common edge: they are either folded onto each other or apart. */
 static bool unfolded(const double a[3][3], const double b[3][3])
 {
     double e[3], p[3], q[3], n[3], m[3], fold[3];

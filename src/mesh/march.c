@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "mesh/trimesh.h"
 
-/* ---- no ambiguous faces */
+/* ---- removing ambiguous faces */
 
 struct samples {
     const struct trimesh_lattice *l;
@@ -16,7 +16,7 @@ struct samples {
     size_t n;
 };
 
-/* The sample at *at (from, from + a, from + b, from + a + b) that must become inside, or -1. */
+/* If the face with the corners from, from + a, from + b, from + a + b is ambiguous, the corner that must become inside, else -1. */
 static ptrdiff_t ambiguous(const struct samples *s, size_t from, int a, int b)
 {
     const float *v = s->value + from;
@@ -30,12 +30,12 @@ static ptrdiff_t ambiguous(const struct samples *s, size_t from, int a, int b)
     return (ptrdiff_t)from + (v[one] <= v[other] ? one : other);
 }
 
-/* A stack of samples whose faces are to be looked at again. */
+/* A stack of samples whose faces must be checked again. */
 struct pending {
     size_t *at, n, capacity;
 };
 
-/* Samples just inside: as little is added as can be. */
+/* Makes a sample barely inside, so that as little volume as possible is added. */
 static status turn_inside(struct samples *s, size_t at, struct pending *p)
 {
     status st = OK;
@@ -46,8 +46,8 @@ done:
     return st;
 }
 
-/* Monotone: samples only ever become inside, so it ends. Those of the border never do: a face with a side on the
- * border has no diagonal inside. */
+/* Terminates, because samples only change from outside to inside. Samples at the border never change, because a face with an edge on the
+ * border cannot be ambiguous. */
 static status make_unambiguous(struct samples *s)
 {
     status st = OK;
@@ -65,7 +65,7 @@ static status make_unambiguous(struct samples *s)
                     }
     while (p.n) {
         size_t at = p.at[--p.n];
-        /* The twelve faces it is a corner of; inside samples are never at the border. */
+        /* The twelve faces with this corner; inside samples are never at the border. */
         for (int a = 0; a < 3; a++)
             for (int b = a + 1; b < 3; b++)
                 for (int c = 0; c < 4; c++) {
@@ -82,12 +82,11 @@ done:
 
 /* ---- the cases */
 
-/* Corners of a cell are numbered by their bits x, y, z; edges axis * 4 + the bits of the other two axes, lower
- * axis first. */
+/* Corners of a cell are numbered with the bits x, y, z; edges with axis * 4 + the bits of the other two axes, lower axis first. */
 enum { EDGES = 12, CASES = 256, NONE = -1 };
 
 struct polygons {
-    int8_t n, size[4]; /* of the polygons, at most four */
+    int8_t n, size[4]; /* at most four polygons, and the number of their edges */
     int8_t edge[EDGES];
 };
 
@@ -98,8 +97,8 @@ static int edge_between(int c, int d)
     return 4 * axis + other;
 }
 
-/* The polygons of a case: on each face with crossed edges one segment, and segments make cycles. None for a case
- * with an ambiguous face, which does not occur. */
+/* The polygons of a case. Each face with crossed edges has one segment, and the segments form cycles. Cases with an ambiguous face do
+ * not occur and get no polygons. */
 static struct polygons trace(unsigned inside)
 {
     struct polygons p = {0};
@@ -108,7 +107,7 @@ static struct polygons trace(unsigned inside)
     memset(next, NONE, sizeof next);
     for (int axis = 0; axis < 3; axis++)
         for (int side = 0; side < 2; side++) {
-            /* Counter-clockwise from outside the cell. */
+            /* Counter-clockwise as seen from outside the cell. */
             int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, base = side << axis;
             int ring[4] = {base, base | u, base | u | v, base | v}, in = NONE, out = NONE;
             if (!side)
@@ -145,7 +144,7 @@ static struct polygons trace(unsigned inside)
 struct march {
     struct samples s;
     struct polygons cases[CASES];
-    size_t *first_vertex, *first_triangle; /* of each layer of samples, and of cells above it */
+    size_t *first_vertex, *first_triangle; /* for each layer of samples, and of the cells above it */
     struct trimesh *out;
 };
 
@@ -154,7 +153,7 @@ static bool crossed(const struct march *m, size_t at, int axis)
     return (m->s.value[at] < 0) != (m->s.value[at + (size_t)m->s.step[axis]] < 0);
 }
 
-/* A vertex on the edge from sample (x) along `axis`. */
+/* Sets the position of the vertex on the edge from sample x along `axis`. */
 static void place(const struct march *m, const int x[3], size_t at, int axis, float to[3])
 {
     const struct trimesh_lattice *l = m->s.l;
@@ -164,8 +163,8 @@ static void place(const struct march *m, const int x[3], size_t at, int axis, fl
         to[d] = (float)(l->origin[d] + l->voxel * (x[d] + (d == axis ? t : 0)));
 }
 
-/* The vertices of layer k in their order: counts them, places them if `vertex`, and notes their numbers in
- * id[axis][j nx + i] if `id`. */
+/* Visits the vertices of layer k in order and returns their number. Writes their positions to `vertex` and their indices to
+ * id[axis][j nx + i], unless these are NULL. */
 static size_t layer_vertices(const struct march *m, int k, float *vertex, uint32_t *id[3])
 {
     const int *n = m->s.l->n;
@@ -218,7 +217,7 @@ static double squared_distance(const float *a, const float *b)
     return sum;
 }
 
-/* Cuts the polygon's corner with the shortest diagonal until a triangle is left. Returns behind the last. */
+/* Triangulates a polygon by cutting off the corner with the shortest diagonal. Returns the end of the triangles written. */
 static uint32_t *cut(const float *vertex, uint32_t *corner, int n, uint32_t *to)
 {
     while (n >= 3) {
@@ -242,7 +241,7 @@ static uint32_t *cut(const float *vertex, uint32_t *corner, int n, uint32_t *to)
     return to;
 }
 
-/* The cells between layers k and k + 1; id[layer][axis]. */
+/* Writes the triangles of the cells between layers k and k + 1; id[layer][axis] are the indices of their vertices. */
 static void fill_triangles(const struct march *m, int k, uint32_t *id[2][3])
 {
     const int *n = m->s.l->n;
@@ -265,7 +264,7 @@ static void fill_triangles(const struct march *m, int k, uint32_t *id[2][3])
         }
 }
 
-/* Numbers of the vertices of two layers at a time, by edge: every thread has its own. */
+/* Each thread keeps the vertex indices of two layers at a time, by edge. */
 static status all_triangles(const struct march *m)
 {
     const int *n = m->s.l->n;
@@ -295,7 +294,7 @@ static status all_triangles(const struct march *m)
     return failed == OK ? OK : fail(failed, "out of memory for the surface's edges");
 }
 
-/* Outside: the border, and what is no number. */
+/* Makes the border and samples that are not finite outside. */
 static void close_border(struct samples *s)
 {
     const int *n = s->l->n;
@@ -316,7 +315,8 @@ static status check_lattice(const struct trimesh_lattice *l)
     for (int a = 0; a < 3; a++) {
         double far = fmax(fabs(l->origin[a]), fabs(l->origin[a] + l->voxel * l->n[a]));
         if (!(l->voxel * TRIMESH_CLEARANCE > 4 * (double)FLT_EPSILON * far))
-            return fail(E_INPUT, "voxels of %g m lie %g m from the origin: floats do not tell them apart",
+            return fail(E_INPUT,
+                        "voxels of %g m at %g m from the origin are too small for the precision of floats",
                         l->voxel, far);
     }
     return OK;
@@ -348,7 +348,7 @@ status trimesh_march(float *field, const struct trimesh_lattice *l, struct trime
     out->n_vertices = m.first_vertex[layers];
     out->n_triangles = m.first_triangle[layers];
     if (out->n_vertices > UINT32_MAX) {
-        st = fail(E_INPUT, "its surface has more than 2^32 vertices");
+        st = fail(E_INPUT, "the surface has more than 2^32 vertices");
         goto done;
     }
     TRY(memory_alloc(out->n_vertices, 3 * sizeof *out->vertex, "the surface's vertices", &out->vertex));

@@ -3,16 +3,16 @@
 
 #include "base/vector.h"
 #include "mesh/apart.h"
-#include "mesh/near.h"
+#include "mesh/boxes.h"
 
-/* Serial, in the triangles' order, so that sums have one value. */
+/* Serial, in the order of the triangles, so that sums are reproducible. */
 void trimesh_normals(const struct trimesh *mesh, float *normal)
 {
     memset(normal, 0, 3 * mesh->n_vertices * sizeof *normal);
     for (size_t t = 0; t < mesh->n_triangles; t++) {
         const uint32_t *c = mesh->triangle + 3 * t;
         double x[3][3], e[3][3], n[3];
-        near_corners(mesh, c, x);
+        boxes_corners(mesh, c, x);
         for (int k = 0; k < 3; k++)
             minus3(x[(k + 1) % 3], x[k], e[k]);
         cross3(e[0], e[1], n);
@@ -35,7 +35,7 @@ double trimesh_volume(const struct trimesh *mesh)
     double sum = 0;
     for (size_t t = 0; t < mesh->n_triangles; t++) {
         double x[3][3], n[3];
-        near_corners(mesh, mesh->triangle + 3 * t, x);
+        boxes_corners(mesh, mesh->triangle + 3 * t, x);
         cross3(x[1], x[2], n);
         sum += dot3(x[0], n);
     }

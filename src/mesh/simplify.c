@@ -5,13 +5,13 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "mesh/apart.h"
-#include "mesh/near.h"
+#include "mesh/boxes.h"
 
-/* Passes go from gentle to the full tolerance, so that what changes the surface least goes first. */
+/* Steps of increasing tolerance, so that the collapses that change the surface least come first. */
 static const double share_of_tolerance[] = {0.1, 0.3, 1};
 enum { STEPS = sizeof share_of_tolerance / sizeof *share_of_tolerance, SWEEPS = 12 };
 
-/* No vertex gets more triangles than this, and no triangle turns farther than that. */
+/* Limits: triangles of a vertex, vertices around it, rotation of a triangle's normal (60 degrees), and the quality of triangles. */
 enum { MOST_TRIANGLES = 14, RING = 64 };
 static const double COS_TURN = 0.5, LEAST_QUALITY = 0.02;
 
@@ -25,19 +25,19 @@ struct star {
 struct simplify {
     struct trimesh *mesh;
     double tolerance2, longest2;
-    struct near near;
+    struct boxes boxes;
     struct star *star; /* the triangles of every vertex */
     uint32_t *pool;
     size_t pool_n, pool_capacity;
-    uint32_t *head, *next; /* vertices that went, by the triangle nearest to them: lists */
-    float *normal;         /* of the vertices at first */
-    uint8_t *keep;         /* vertices that stay */
-    uint32_t *changed;     /* the sweep in which its surroundings last changed */
-    uint32_t *tried;       /* the sweep in which it was last tried in vain */
-    uint32_t *mark, stamp; /* vertices, for sets */
+    uint32_t *head, *next; /* linked lists of removed vertices, by the triangle nearest to them */
+    float *normal;         /* of the original vertices */
+    uint8_t *keep;         /* vertices that must not be removed */
+    uint32_t *changed;     /* the sweep in which a vertex's neighbourhood last changed */
+    uint32_t *tried;       /* the sweep in which a vertex was last tried in vain */
+    uint32_t *mark, stamp; /* sets of vertices: those with mark == stamp */
     uint32_t sweep;
-    struct near_found found;
-    /* Vertices that went around the one in question, itself first, and which of the fan each is nearest to. */
+    struct boxes_found found;
+    /* The vertex being tried and those removed around it, and the triangle of the fan that each is nearest to. */
     uint32_t *lost, *nearest;
     size_t n_lost, lost_capacity, nearest_capacity;
 };
@@ -62,7 +62,7 @@ static status pool_reserve(struct simplify *s, size_t n)
     return memory_grow(&s->pool, &s->pool_capacity, s->pool_n + n, sizeof *s->pool, "stars of vertices");
 }
 
-/* The vertices around v, each once, and marked; -1 if they are too many. */
+/* Lists and marks the vertices around v; returns their number, or -1 if there are too many. */
 static int ring_of(struct simplify *s, uint32_t v, uint32_t ring[RING])
 {
     int n = 0;
@@ -81,10 +81,10 @@ static int ring_of(struct simplify *s, uint32_t v, uint32_t ring[RING])
     return n;
 }
 
-/* What drawing v into u makes. */
+/* The result of collapsing v into u. */
 struct fan {
     int n;
-    uint32_t old[MOST_TRIANGLES]; /* the triangles that turn */
+    uint32_t old[MOST_TRIANGLES]; /* the triangles that are replaced */
     uint32_t corner[MOST_TRIANGLES][3];
     double cost;
 };
@@ -97,8 +97,8 @@ static double squared(const double a[3], const float b[3])
     return sum;
 }
 
-/* Does a triangle with this normal look the way its corners did at first? Else small bodies could turn inside
- * out, a little each time. */
+/* Whether a triangle's normal agrees with the original normals of its corners. Without this test, small bodies could turn inside out over
+ * several collapses. */
 static bool looks_out(const struct simplify *s, const uint32_t corner[3], const double n[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -109,7 +109,7 @@ static bool looks_out(const struct simplify *s, const uint32_t corner[3], const 
     return true;
 }
 
-/* Twice the area over the longest edge squared, 0.87 at best; and the normal. */
+/* Twice the area divided by the square of the longest edge, at most 0.87; also returns the normal. */
 static double quality(const double x[3][3], double normal[3])
 {
     double e[3], f[3], longest = 0;
@@ -123,7 +123,7 @@ static double quality(const double x[3][3], double normal[3])
     return longest > 0 ? sqrt(dot3(normal, normal)) / longest : 0;
 }
 
-/* May v be drawn into u, going by shapes alone? `ring` of v is marked. */
+/* Whether v may be collapsed into u, judging by the shapes of the triangles alone. `ring` of v is marked. */
 static bool make_fan(struct simplify *s, uint32_t v, uint32_t u, struct fan *fan)
 {
     const struct trimesh *m = s->mesh;
@@ -138,7 +138,7 @@ static bool make_fan(struct simplify *s, uint32_t v, uint32_t u, struct fan *fan
         uint32_t t = star_of(s, v)[i];
         const uint32_t *c = corners(s, t);
         double x[3][3], n[3], turned[3];
-        near_corners(m, c, x);
+        boxes_corners(m, c, x);
         double q = quality((const double(*)[3])x, n), length = sqrt(dot3(n, n));
         if (length > 0)
             farthest = fmax(farthest, fabs(dot3(n, move)) / length);
@@ -173,7 +173,7 @@ static bool make_fan(struct simplify *s, uint32_t v, uint32_t u, struct fan *fan
         return false;
     if (s->star[u].n + s->star[v].n > MOST_TRIANGLES + 4)
         return false;
-    /* Their rings share the two vertices opposite of their edge, and no others; those keep three triangles. */
+    /* The rings of u and v must share only the two vertices opposite their edge, and these must keep three triangles. */
     for (uint32_t i = 0; i < s->star[u].n; i++) {
         const uint32_t *c = corners(s, star_of(s, u)[i]);
         for (int k = 0; k < 3; k++)
@@ -196,7 +196,7 @@ done:
     return st;
 }
 
-/* Those that went around v. */
+/* Lists the removed vertices around v. */
 static status gather_lost(struct simplify *s, uint32_t v)
 {
     status st = OK;
@@ -210,12 +210,12 @@ done:
     return st;
 }
 
-/* Is the fan near enough to all that went? */
+/* Whether the fan is within the tolerance of all removed vertices. */
 static bool is_true(const struct simplify *s, const struct fan *fan)
 {
     double x[MOST_TRIANGLES][3][3];
     for (int f = 0; f < fan->n; f++)
-        near_corners(s->mesh, fan->corner[f], x[f]);
+        boxes_corners(s->mesh, fan->corner[f], x[f]);
     for (size_t i = 0; i < s->n_lost; i++) {
         double p[3], least = INFINITY;
         for (int d = 0; d < 3; d++)
@@ -233,23 +233,23 @@ static bool is_true(const struct simplify *s, const struct fan *fan)
     return true;
 }
 
-/* Does the fan cross nothing, itself included? */
+/* *yes: the fan does not intersect itself or other triangles. */
 static status is_free(struct simplify *s, uint32_t v, const struct fan *fan, bool *yes)
 {
     status st = OK;
     *yes = false;
     for (int f = 0; f < fan->n; f++)
         for (int g = 0; g < f; g++)
-            if (!near_apart(s->mesh, fan->corner[f], fan->corner[g]))
+            if (!boxes_apart(s->mesh, fan->corner[f], fan->corner[g]))
                 return OK;
     for (int f = 0; f < fan->n; f++) {
         float box[6];
-        near_box(s->mesh, fan->corner[f], box);
+        boxes_of(s->mesh, fan->corner[f], box);
         s->found.n = 0;
-        TRY(near_find(&s->near, box, &s->found));
+        TRY(boxes_find(&s->boxes, box, &s->found));
         for (size_t i = 0; i < s->found.n; i++) {
             const uint32_t *c = corners(s, s->found.triangle[i]);
-            if (!has(c, v) && !near_apart(s->mesh, fan->corner[f], c))
+            if (!has(c, v) && !boxes_apart(s->mesh, fan->corner[f], c))
                 return OK;
         }
     }
@@ -276,7 +276,7 @@ static status draw(struct simplify *s, uint32_t v, uint32_t u, const struct fan 
         s->head[t] = GONE;
         if (!has(c, u))
             continue;
-        near_remove(&s->near, t);
+        boxes_remove(&s->boxes, t);
         for (int k = 0; k < 3; k++)
             if (c[k] != v)
                 leave_star(s, c[k], t);
@@ -290,7 +290,7 @@ static status draw(struct simplify *s, uint32_t v, uint32_t u, const struct fan 
     s->star[v].n = 0;
     for (int f = 0; f < fan->n; f++) {
         memcpy(corners(s, fan->old[f]), fan->corner[f], sizeof fan->corner[f]);
-        TRY(near_add(&s->near, fan->old[f]));
+        TRY(boxes_add(&s->boxes, fan->old[f]));
         for (int k = 0; k < 3; k++)
             s->changed[fan->corner[f][k]] = s->sweep;
     }
@@ -303,7 +303,7 @@ done:
     return st;
 }
 
-/* Draws v into the neighbour where it costs least, of those that are allowed. */
+/* Collapses v into the allowed neighbour with the least cost. */
 static status try_vertex(struct simplify *s, uint32_t v, bool *drawn)
 {
     enum { TRIES = 3 };
@@ -344,7 +344,7 @@ done:
     return st;
 }
 
-/* No two neighbours go in the same sweep, so that what is left is spread evenly. */
+/* Never removes two neighbours in the same sweep, so that the remaining vertices are evenly distributed. */
 static status sweep(struct simplify *s, size_t *n_drawn)
 {
     status st = OK;
@@ -361,7 +361,7 @@ done:
     return st;
 }
 
-/* Vertices at borders between labels stay. */
+/* Marks the vertices at borders between labels to be kept. */
 static void keep_borders(struct simplify *s, const uint32_t *label)
 {
     for (size_t t = 0; label && t < s->mesh->n_triangles; t++) {
@@ -391,7 +391,7 @@ done:
     return st;
 }
 
-/* What is left, in its order. */
+/* Compacts the mesh; the remaining vertices and triangles keep their order. */
 static status gather(struct simplify *s, uint32_t **kept)
 {
     status st = OK;
@@ -437,7 +437,7 @@ status trimesh_simplify(struct trimesh *mesh, const uint32_t *label, double tole
     TRY(memory_alloc(mesh->n_vertices, 3 * sizeof *s.normal, what, &s.normal));
     trimesh_normals(mesh, s.normal);
     TRY(make_stars(&s));
-    TRY(near_create(&s.near, mesh, longest / 4));
+    TRY(boxes_create(&s.boxes, mesh, longest / 4));
     keep_borders(&s, label);
     for (int step = 0; step < STEPS && tolerance > 0; step++) {
         double reach = tolerance * share_of_tolerance[step];
@@ -449,7 +449,7 @@ status trimesh_simplify(struct trimesh *mesh, const uint32_t *label, double tole
     }
     TRY(gather(&s, kept));
 done:
-    near_destroy(&s.near);
+    boxes_destroy(&s.boxes);
     free(s.star);
     free(s.pool);
     free(s.head);

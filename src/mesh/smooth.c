@@ -6,26 +6,25 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "mesh/apart.h"
-#include "mesh/near.h"
+#include "mesh/boxes.h"
 
-/* In and out by as much: damps waves of a few edges, leaves long ones, and amplifies none. (Taubin's own mu, a
- * little more than lambda, makes small bodies swell: 9 % in 50 passes of a block ten voxels wide.) What is left of
- * shrinking is put right at the end. */
+/* Equal weights of opposite sign damp waves of a few edges, keep long ones and amplify none. (Taubin's mu, a little larger than lambda,
+ * makes small bodies swell: a block ten voxels wide by 9 % in 50 passes.) The remaining shrinkage is corrected at the end. */
 static const double LAMBDA = 0.5, MU = -0.5;
-/* Neighbours whose normals differ by more do not move each other: cos 20 degrees. Marching rounds a right angle
- * over two or three edges. */
+/* cos 20 degrees: neighbours whose normals differ by more do not affect each other. Marching cubes round a right angle over two or three
+ * edges. */
 static const double SHARP = 0.9396926;
 
 static const uint32_t NO_OTHER = UINT32_MAX, MANY = UINT32_MAX - 1, NOBODY = UINT32_MAX;
 
-/* ---- what moves with what */
+/* ---- links between vertices */
 
 struct links {
     size_t *first; /* [n_vertices + 1] */
     uint32_t *to;
 };
 
-/* Both ways along every edge: a closed surface has each edge once in each direction. */
+/* One link per directed edge. In a closed surface the triangles have each edge once in each direction. */
 static status make_links(const struct trimesh *m, struct links *l)
 {
     status st = OK;
@@ -44,7 +43,7 @@ done:
     return st;
 }
 
-/* The label a vertex borders on: NO_OTHER, or MANY. */
+/* The other label that a vertex borders on, NO_OTHER or MANY. */
 static uint32_t other_label(const struct links *l, const uint32_t *label, size_t v)
 {
     uint32_t other = NO_OTHER;
@@ -56,7 +55,7 @@ static uint32_t other_label(const struct links *l, const uint32_t *label, size_t
     return other;
 }
 
-/* Takes out the links that may not pull. */
+/* Removes the links across label borders and sharp edges. */
 static status choose_links(const struct trimesh *m, const uint32_t *label, const float *normal,
                            struct links *l)
 {
@@ -94,10 +93,10 @@ struct motion {
     struct links links;
     double reach;
     float *start, *normal; /* [n_vertices][3] */
-    double *out[2];        /* [n_vertices]: how far out along its normal each is */
+    double *out[2];        /* [n_vertices]: offset along the normal, before and after a step */
 };
 
-/* Where a vertex is that is `out` along its normal. */
+/* The position of a vertex at the offset `out`. */
 static void place(const struct motion *m, size_t v, double out, double at[3])
 {
     for (size_t d = 0; d < 3; d++)
@@ -109,7 +108,7 @@ static double within(double x, double reach)
     return fmin(fmax(x, -reach), reach);
 }
 
-/* Is it moved? One neighbour alone would only pull the end of a line in. */
+/* Whether a vertex moves. With only one link, the end of a border line would be pulled in. */
 static bool moves(const struct motion *m, size_t v)
 {
     int pulls = 0;
@@ -118,8 +117,7 @@ static bool moves(const struct motion *m, size_t v)
     return pulls > 1;
 }
 
-/* One step of weight w. Vertices move in and out alone: along the surface there is nothing to even out, and
- * what is painted on it stays where it is. */
+/* One step with weight w. Vertices move only along their normals, so that values on the surface stay in place. */
 static void step(const struct motion *m, double w, const double *from, double *to)
 {
 #pragma omp parallel for
@@ -154,14 +152,14 @@ static void move_all(const struct motion *m, const double *out, struct trimesh *
     }
 }
 
-/* What is missing of `volume` is laid on evenly. */
+/* Restores `volume` by an equal offset of all vertices. */
 static void restore_volume(const struct motion *m, double volume, struct trimesh *mesh)
 {
     double area = 0;
     for (size_t t = 0; t < mesh->n_triangles; t++) {
         const uint32_t *c = mesh->triangle + 3 * t;
         double x[3][3], e[3], f[3], n[3];
-        near_corners(mesh, c, x);
+        boxes_corners(mesh, c, x);
         minus3(x[1], x[0], e);
         minus3(x[2], x[0], f);
         cross3(e, f, n);
@@ -175,29 +173,29 @@ static void restore_volume(const struct motion *m, double volume, struct trimesh
     move_all(m, m->out[0], mesh);
 }
 
-/* Marks the corners of triangles that cross others; how many triangles. */
+/* Marks the corners of triangles that intersect others, and counts the pairs. */
 static status find_crossing(const struct trimesh *m, double cell, uint8_t *marked, size_t *n_pairs)
 {
     status st = OK, failed = OK;
-    struct near near = {0};
+    struct boxes boxes = {0};
     size_t pairs = 0;
     *n_pairs = 0;
-    TRY(near_create(&near, m, cell));
+    TRY(boxes_create(&boxes, m, cell));
 #pragma omp parallel reduction(+ : pairs)
     {
-        struct near_found found = {0};
+        struct boxes_found found = {0};
 #pragma omp for schedule(dynamic, 512)
         for (size_t t = 0; t < m->n_triangles; t++) {
             const uint32_t *a = m->triangle + 3 * t;
             found.n = 0;
-            status own = near_find(&near, near.box[t], &found);
+            status own = boxes_find(&boxes, boxes.box[t], &found);
             if (own != OK) {
 #pragma omp atomic write
                 failed = own;
             }
             for (size_t i = 0; i < found.n; i++) {
                 const uint32_t *b = m->triangle + 3 * (size_t)found.triangle[i];
-                if (found.triangle[i] <= t || near_apart(m, a, b))
+                if (found.triangle[i] <= t || boxes_apart(m, a, b))
                     continue;
                 pairs++;
                 for (int k = 0; k < 3 && marked; k++) {
@@ -211,14 +209,14 @@ static status find_crossing(const struct trimesh *m, double cell, uint8_t *marke
         free(found.triangle);
     }
     if (failed != OK)
-        st = fail(failed, "out of memory for near triangles");
+        st = fail(failed, "out of memory for the triangle grid");
     *n_pairs = pairs;
 done:
-    near_destroy(&near);
+    boxes_destroy(&boxes);
     return st;
 }
 
-/* Moves back what crosses, by halves and then wholly, until nothing does. */
+/* Moves the vertices of intersecting triangles back, first by halves and then completely, until no triangles intersect. */
 static status undo_crossing(struct trimesh *m, const float *start, double cell)
 {
     enum { HALVES = 3 };
@@ -248,7 +246,7 @@ static double mean_edge(const struct trimesh *m)
     double sum = 0;
     for (size_t t = 0; t < m->n_triangles; t++) {
         double x[3][3], e[3];
-        near_corners(m, m->triangle + 3 * t, x);
+        boxes_corners(m, m->triangle + 3 * t, x);
         minus3(x[1], x[0], e);
         sum += sqrt(dot3(e, e));
     }

@@ -105,8 +105,9 @@ status mesh_ask(const char *program, const char *kind, const char *path, const c
 {
     status st = OK;
     struct reader_answer answer = {0};
-    TRY(reader_ask(&(struct reader_question){.program = program, .kind = kind, .path = path, .word = word},
-                   &answer));
+    TRY(reader_ask(
+        &(struct reader_question){.program = program, .kind = kind, .path = path, .argument = word},
+        &answer));
     TRY(reader_take(&answer, part, sizeof *part));
     if (part->n_vertices > UINT32_MAX || part->n_triangles > UINT32_MAX / 2) {
         st = fail(E_INPUT, "%s: a mesh of more than 2^31 triangles", path);

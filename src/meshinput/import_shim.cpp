@@ -68,11 +68,11 @@ extern "C" status mesh_import(const char *path, const char *format, const void *
         struct mesh_part part = {};
         part.n_vertices = all.vertex.size() / 3;
         part.n_triangles = all.triangle.size() / 3;
-        status st = serve_put(answer, &part, sizeof part);
+        status st = serve_add_part(answer, &part, sizeof part);
         if (st == OK)
-            st = serve_put(answer, all.vertex.data(), all.vertex.size() * sizeof(double));
+            st = serve_add_part(answer, all.vertex.data(), all.vertex.size() * sizeof(double));
         if (st == OK)
-            st = serve_put(answer, all.triangle.data(), all.triangle.size() * sizeof(uint32_t));
+            st = serve_add_part(answer, all.triangle.data(), all.triangle.size() * sizeof(uint32_t));
         return st;
     } catch (const std::bad_alloc &) {
         return fail(E_MEMORY, "%s: out of memory", path);

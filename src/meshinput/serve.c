@@ -12,10 +12,10 @@ static status read_mesh(const struct serve_question *question, struct serve_answ
     status st = OK;
     char *bytes = NULL;
     size_t size = 0;
-    if (question->n_words != 1)
+    if (question->n_arguments != 1)
         return fail(E_INPUT, "%s: its reader was told too little", question->path);
     TRY(file_read(question->path, LARGEST, &bytes, &size));
-    TRY(mesh_import(question->path, question->word[0], bytes, size, answer));
+    TRY(mesh_import(question->path, question->argument[0], bytes, size, answer));
 done:
     free(bytes);
     return st;

@@ -1,4 +1,4 @@
-/* The system calls that reading a file takes. */
+/* A seccomp filter that allows only the system calls that reading a file needs. */
 #ifndef HOODOO_READER_CALLS_H
 #define HOODOO_READER_CALLS_H
 
@@ -6,8 +6,8 @@
 
 #include "base/status.h"
 
-/* From now on every other one fails with EPERM, in this process for ever. `becomes`: it will be another program, which takes a few
- * more. E_INPUT: the kernel has no filters. */
-MUST_USE status calls_limit(bool becomes);
+/* Installs the filter for the rest of this process: all other system calls fail with EPERM. `executes`: the process will execute
+ * another program, which needs a few more calls. E_INPUT: the kernel does not support filters. */
+MUST_USE status calls_limit(bool executes);
 
 #endif

@@ -10,9 +10,9 @@ status describe_ask(const char *kind, const char *path, struct text *out)
     struct reader_answer answer = {0};
     char depth[16], comma[2] = {out && out->comma ? '1' : '0', '\0'};
     snprintf(depth, sizeof depth, "%d", out ? out->depth : 0);
-    const char *const word[] = {depth, comma, NULL};
+    const char *const argument[] = {depth, comma, NULL};
     TRY(reader_ask(
-        &(struct reader_question){.program = "hoodoo-read", .kind = kind, .path = path, .word = word},
+        &(struct reader_question){.program = "hoodoo-read", .kind = kind, .path = path, .argument = argument},
         &answer));
     if (out && reader_size(&answer)) {
         TRY(reader_take_text(&answer, out));

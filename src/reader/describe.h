@@ -1,4 +1,4 @@
-/* Questions to readers that are answered by a text, or by nothing but that all is well. */
+/* Requests to readers whose answer is a text or nothing: "describe" and "check". */
 #ifndef HOODOO_DESCRIBE_H
 #define HOODOO_DESCRIBE_H
 
@@ -9,10 +9,10 @@
 extern "C" {
 #endif
 
-/* Asks hoodoo-read, and adds what it says to the JSON under way in `out` (NULL: nothing is said). */
+/* Asks hoodoo-read, and adds the text of its answer to the JSON being written in `out`. If `out` is NULL, only the status matters. */
 MUST_USE status describe_ask(const char *kind, const char *path, struct text *out);
 
-/* In the reader: a text that goes on where the asker's stands, and its end. */
+/* In the reader: begins a text that continues the caller's JSON, and ends it as the answer. */
 void describe_begin(const struct serve_question *question, struct text *out);
 MUST_USE status describe_end(struct text *text, struct serve_answer *answer);
 

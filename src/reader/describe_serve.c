@@ -5,9 +5,9 @@
 void describe_begin(const struct serve_question *question, struct text *out)
 {
     *out = (struct text){0};
-    if (question->n_words == 2) {
-        out->depth = atoi(question->word[0]);
-        out->comma = *question->word[1] == '1';
+    if (question->n_arguments == 2) {
+        out->depth = atoi(question->argument[0]);
+        out->comma = *question->argument[1] == '1';
     }
 }
 
@@ -15,7 +15,7 @@ status describe_end(struct text *text, struct serve_answer *answer)
 {
     status st = text_status(text);
     if (st == OK)
-        st = serve_put(answer, text->data, text->size);
+        st = serve_add_part(answer, text->data, text->size);
     text_free(text);
     return st;
 }

@@ -1,8 +1,8 @@
-/* Meshes as their readers answer them: hoodoo-read-mesh (glTF: meshinput/import_shim.cpp) and hoodoo-read (the surfaces of
- * OpenVDB grids: vdb/shape_shim.cpp).
+/* How readers answer with a mesh: hoodoo-read-mesh (glTF: meshinput/import_shim.cpp) and hoodoo-read (surfaces of OpenVDB grids:
+ * vdb/shape_shim.cpp).
  *
- * mesh FORMAT          struct mesh_part, its corners double[n_vertices][3], its triangles uint32[n_triangles][3]
- * vdb.shape GRID ISO   the same; GRID may be "", for the only or first one that has floats
+ * mesh FORMAT          struct mesh_part, vertices double[n_vertices][3], triangles uint32[n_triangles][3]
+ * vdb.shape GRID ISO   the same; if GRID is "", the first grid of floats
  */
 #ifndef HOODOO_MESH_PART_H
 #define HOODOO_MESH_PART_H
@@ -11,8 +11,8 @@
 
 struct mesh_part {
     uint64_t n_vertices, n_triangles;
-    uint32_t y_up, is_fog; /* of OpenVDB's: what the file says */
-    char grid[64];         /* of OpenVDB's: its name, cut where it is longer */
+    uint32_t y_up, is_fog; /* OpenVDB only: as the file's metadata say */
+    char grid[64];         /* OpenVDB only: name of the grid, truncated if it is longer */
 };
 
 #endif

@@ -1,10 +1,10 @@
-/* What passes between hoodoo and its readers: programs that decode one file of somebody else's, and end.
+/* The protocol between hoodoo and its readers, child programs that decode one foreign file and exit.
  *
- * Asked     hoodoo-read KIND PATH WORD...  Descriptor 3 is an empty file in memory for the answer, descriptor 4 (of some
- *           kinds) one with input. Both programs come from one build, so that structs are the same for both.
- * Answered  a head, then the parts it counts, one behind the other. What parts a kind has stands where it is read
- *           (vdb/serve.h, scene/image.c).
- * Trust     None: whoever asks checks every size and number. What decodes has read hostile bytes.
+ * Request   The command line: hoodoo-read KIND PATH ARGUMENT... Descriptor 3 is an empty memory file for the answer; descriptor 4, for
+ *           some kinds, is one with input. All programs come from one build, so structs have the same layout in all of them.
+ * Answer    struct reader_head, then its parts, one behind the other. The parts of each kind are documented where they are read
+ *           (vdb/serve.h, image/image.c).
+ * Trust     The caller trusts nothing in the answer and checks every size and number, because the reader has processed hostile bytes.
  */
 #ifndef HOODOO_READER_PROTOCOL_H
 #define HOODOO_READER_PROTOCOL_H
@@ -13,7 +13,7 @@
 
 enum { READER_ANSWER_FD = 3, READER_INPUT_FD = 4, READER_VERSION = 1, READER_PARTS = 64 };
 
-/* Where what a reader is given beside the file can be opened. */
+/* The path at which a reader can open its input. */
 #define READER_INPUT_PATH "/proc/self/fd/4"
 
 #define READER_MAGIC UINT64_C(0x7265616465724168)

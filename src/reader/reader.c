@@ -17,9 +17,9 @@
 #include "base/memory.h"
 #include "reader/limits.h"
 
-enum { WORDS = 32 };
+enum { ARGUMENTS = 32 };
 
-/* ---- the question */
+/* ---- the request */
 
 static status make_input(const struct reader_question *q, int *fd)
 {
@@ -32,20 +32,20 @@ static status make_input(const struct reader_question *q, int *fd)
         if (sent == q->n_input)
             return OK;
     }
-    return fail(E_MEMORY, "%s: no memory to ask its reader in: %s", q->path, strerror(errno));
+    return fail(E_MEMORY, "%s: out of memory for its reader's input: %s", q->path, strerror(errno));
 }
 
 static status start(const struct reader_question *q, int answer, struct child *out)
 {
     status st = OK;
     char program[BESIDE_PATH];
-    const char *argv[WORDS + 4] = {program, q->kind, q->path};
+    const char *argv[ARGUMENTS + 4] = {program, q->kind, q->path};
     int pass[2] = {answer, -1};
     size_t n = 3;
-    for (size_t i = 0; q->word && q->word[i]; i++) {
-        if (n == WORDS + 3)
-            return fail(E_USAGE, "%s: more than %d words for its reader", q->path, WORDS);
-        argv[n++] = q->word[i];
+    for (size_t i = 0; q->argument && q->argument[i]; i++) {
+        if (n == ARGUMENTS + 3)
+            return fail(E_USAGE, "%s: more than %d arguments for its reader", q->path, ARGUMENTS);
+        argv[n++] = q->argument[i];
     }
     if (!beside_find(q->program, program))
         return fail(E_INPUT, "%s: the program that reads it is missing: " BESIDE_HINT, q->path, q->program);
@@ -60,7 +60,7 @@ done:
 
 /* ---- the answer */
 
-/* What became of a reader that did not answer. */
+/* The error for a reader that did not answer. */
 static status describe(const struct reader_question *q, bool in_time, int how)
 {
     if (!in_time || (WIFSIGNALED(how) && WTERMSIG(how) == SIGXCPU))
@@ -69,11 +69,11 @@ static status describe(const struct reader_question *q, bool in_time, int how)
         return fail(E_INPUT, "%s: it is damaged or hostile (its reader crashed: %s)", q->path,
                     strsignal(WTERMSIG(how)));
     if (WEXITSTATUS(how) == CHILD_NO_PROGRAM || WEXITSTATUS(how) == CHILD_NOT_SET_UP)
-        return fail(E_INPUT, "%s: the program that reads it, %s, does not start", q->path, q->program);
-    return fail(E_INPUT, "%s: it is damaged or hostile (its reader ended without a word)", q->path);
+        return fail(E_INPUT, "%s: the program that reads it, %s, could not be started", q->path, q->program);
+    return fail(E_INPUT, "%s: it is damaged or hostile (its reader exited without an answer)", q->path);
 }
 
-/* What stands in a stranger's file may be no UTF-8, and then JSON with it is no JSON: such bytes become '?'. */
+/* Replaces bytes that are not valid UTF-8 by '?': text from a foreign file would otherwise make JSON invalid. */
 static void make_utf8(char *text, size_t size)
 {
     for (size_t i = 0; i < size;) {
@@ -86,7 +86,7 @@ static void make_utf8(char *text, size_t size)
         bool good = n > 0 && n <= size - i;
         for (size_t k = 1; good && k < n; k++)
             good = (c[k] & 0xc0) == 0x80;
-        if (good && n > 2) /* overlong forms, halves of surrogate pairs, and beyond the last character */
+        if (good && n > 2) /* overlong forms, surrogate halves, and code points beyond the last */
             good = !((*c == 0xe0 && c[1] < 0xa0) || (*c == 0xed && c[1] > 0x9f) ||
                      (*c == 0xf0 && c[1] < 0x90) || (*c == 0xf4 && c[1] > 0x8f));
         if (!good)
@@ -106,9 +106,9 @@ static bool read_all(int fd, void *to, size_t n, uint64_t at)
     return true;
 }
 
-status reader_nonsense(const struct reader_answer *a)
+status reader_bad_answer(const struct reader_answer *a)
 {
-    return fail(E_INPUT, "%s: what its reader says makes no sense: it is damaged or hostile", a->path);
+    return fail(E_INPUT, "%s: it is damaged or hostile (its reader's answer is malformed)", a->path);
 }
 
 static bool is_known(int32_t code)
@@ -121,7 +121,7 @@ static bool is_known(int32_t code)
     return false;
 }
 
-/* Is the head one, and are its parts all there and nothing else? */
+/* Checks the head, and that the answer has exactly the parts that the head lists. */
 static status check(struct reader_answer *a)
 {
     struct reader_head *h = &a->head;
@@ -129,22 +129,22 @@ static status check(struct reader_answer *a)
     uint64_t end = sizeof *h;
     if (fstat(a->fd, &info) != 0 || h->version != READER_VERSION || !is_known(h->status) ||
         h->n_parts > READER_PARTS)
-        return reader_nonsense(a);
+        return reader_bad_answer(a);
     h->message[sizeof h->message - 1] = '\0';
     make_utf8(h->message, strlen(h->message));
     if (h->status == E_MEMORY)
         return fail(
             E_INPUT,
-            "%s: reading it takes more memory than a file of its size should; it is damaged or hostile",
+            "%s: reading it takes more memory than a file of this size should; it is damaged or hostile",
             a->path);
     if (h->status != OK)
         return fail((status)h->status, "%s", h->message);
     for (size_t i = 0; i < h->n_parts; i++) {
         if (h->size[i] > (uint64_t)info.st_size - end)
-            return reader_nonsense(a);
+            return reader_bad_answer(a);
         end += h->size[i];
     }
-    return end == (uint64_t)info.st_size ? OK : reader_nonsense(a);
+    return end == (uint64_t)info.st_size ? OK : reader_bad_answer(a);
 }
 
 static status wait_for(const struct reader_question *q, struct child *child, double seconds,
@@ -174,9 +174,9 @@ status reader_ask(const struct reader_question *q, struct reader_answer *out)
         return fail(E_INPUT, "%s: not a regular file", q->path);
     out->fd = memfd_create("hoodoo-answer", MFD_CLOEXEC);
     if (out->fd < 0)
-        return fail(E_MEMORY, "%s: no memory for its reader's answer: %s", q->path, strerror(errno));
+        return fail(E_MEMORY, "%s: out of memory for its reader's answer: %s", q->path, strerror(errno));
     TRY(start(q, out->fd, &child));
-    /* A slow disk costs no CPU time. */
+    /* The limit on elapsed time is four times that on CPU time, because the disk may be slow. */
     TRY(wait_for(q, &child,
                  q->seconds > 0 ? q->seconds : 4 * reader_cpu_seconds((uint64_t)info.st_size + q->n_input),
                  out));
@@ -186,7 +186,7 @@ done:
     return st;
 }
 
-/* ---- its parts */
+/* ---- the parts of the answer */
 
 size_t reader_size(const struct reader_answer *a)
 {
@@ -196,8 +196,8 @@ size_t reader_size(const struct reader_answer *a)
 status reader_take(struct reader_answer *a, void *to, size_t size)
 {
     if (a->next >= a->head.n_parts || a->head.size[a->next] != size || !read_all(a->fd, to, size, a->at))
-        return reader_nonsense(a);
-    /* The kernel's copy goes as ours comes, where there are holes to be had. */
+        return reader_bad_answer(a);
+    /* Free the part's pages in the memory file, if the file system can punch holes; failing is harmless. */
     fallocate(a->fd, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, (off_t)a->at, (off_t)size);
     a->at += size;
     a->next++;
@@ -207,7 +207,7 @@ status reader_take(struct reader_answer *a, void *to, size_t size)
 status reader_take_array(struct reader_answer *a, size_t n, size_t size, void *out)
 {
     if (a->next >= a->head.n_parts || n > SIZE_MAX / size || a->head.size[a->next] != n * size)
-        return reader_nonsense(a);
+        return reader_bad_answer(a);
     void *made = NULL;
     status st = memory_alloc(n, size, a->path, &made);
     if (st == OK)

@@ -1,12 +1,12 @@
-/* Files that may be hostile, decoded in a program of their own: hoodoo-read (OpenVDB, OpenEXR) and hoodoo-read-image
- * (OpenImageIO).
+/* Decoding of files that may be hostile, in helper programs: hoodoo-read (OpenVDB, OpenEXR), hoodoo-read-image (OpenImageIO) and
+ * hoodoo-read-mesh (Assimp).
  *
- * A reader is executed, so that it holds nothing of ours, and may use little of the system: limits on memory and time
- * that grow with the file, no core dump, neither stdout nor stderr, and only the system calls that reading takes (serve.h).
- * Whatever happens to it stays there.
+ * A reader is a child process of its own program, so it shares no memory with hoodoo, and is restricted: limits on memory and CPU time
+ * that grow with the file, no core dump, no stdout or stderr, and only the system calls that reading needs (serve.h). If it crashes or
+ * is killed, the caller gets an error.
  *
- * Calling sequence   reader_ask(); reader_take() of its parts, from the first to the last; reader_end().
- * Threads            Any number of readers at a time.
+ * Calling sequence   reader_ask(); reader_take() for each part of the answer, in order; reader_end().
+ * Threads            Any number of readers may run at the same time.
  */
 #ifndef HOODOO_READER_H
 #define HOODOO_READER_H
@@ -19,40 +19,40 @@
 
 struct reader_question {
     const char *program, *kind, *path;
-    const char *const *word; /* more words of the question; NULL ends them. NULL: none */
-    const void *input;       /* what it gets to read beside the file */
-    size_t n_input;          /* bytes; 0: none */
-    double seconds;          /* it is given; 0: by the file's size */
+    const char *const *argument; /* further arguments, ended by NULL; or NULL */
+    const void *input;           /* data passed to the reader besides the file */
+    size_t n_input;              /* bytes; 0: none */
+    double seconds;              /* time limit; 0: one that depends on the size of the file */
 };
 
 struct reader_answer {
     const char *path;
     int fd;
-    size_t next; /* part */
-    uint64_t at; /* where that begins */
+    size_t next; /* the next part */
+    uint64_t at; /* its offset */
     struct reader_head head;
 };
 
-/* Asks and waits. E_INPUT names the file: missing, damaged, or its reader crashed or ran into a limit. The same of a
- * reader that is not installed. E_MEMORY: no process or memory for it. */
+/* Starts the reader and waits for its answer. E_INPUT, with the file's name: the file is missing or damaged, the reader crashed or
+ * exceeded a limit, or the reader is not installed. E_MEMORY: there is no memory for the child process or its answer. */
 MUST_USE status reader_ask(const struct reader_question *question, struct reader_answer *out);
 
-/* The bytes of the next part; 0 if there is none. */
+/* Bytes of the next part; 0 if there is none. */
 size_t reader_size(const struct reader_answer *answer);
 
-/* The next part, which has to have `size` bytes, goes to `to`. E_INPUT if it has not. */
+/* Copies the next part to `to`. E_INPUT if it does not have `size` bytes. */
 MUST_USE status reader_take(struct reader_answer *answer, void *to, size_t size);
 
-/* The next part, `n` items of `size` bytes, in *out (freed with free()). E_INPUT if it is of another size. */
+/* Allocates *out for the next part, `n` items of `size` bytes; freed with free(). E_INPUT if the part has another size. */
 MUST_USE status reader_take_array(struct reader_answer *answer, size_t n, size_t size, void *out);
 
-/* The next part as text, added to `out`. It is UTF-8: what is none in it became '?'. */
+/* Adds the next part, a text, to `out`. Bytes that are not valid UTF-8 are replaced by '?'. */
 MUST_USE status reader_take_text(struct reader_answer *answer, struct text *out);
 
-/* E_INPUT: what a reader says makes no sense. */
-status reader_nonsense(const struct reader_answer *answer);
+/* Returns E_INPUT: the answer is malformed. */
+status reader_bad_answer(const struct reader_answer *answer);
 
-/* Harmless on {0} and twice. */
+/* Frees the answer. May be called twice, and on {0}. */
 void reader_end(struct reader_answer *answer);
 
 #endif

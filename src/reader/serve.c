@@ -28,7 +28,7 @@ static void limit(__rlimit_resource_t resource, rlim_t soft, rlim_t hard)
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { SHADOWED = 1 }; /* terabytes of address space that hold nothing */
+enum { SHADOWED = 1 }; /* sanitizers reserve terabytes of address space */
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 enum { SHADOWED = 1 };
@@ -39,7 +39,7 @@ enum { SHADOWED = 0 };
 enum { SHADOWED = 0 };
 #endif
 
-/* Address space is counted from what the libraries take. */
+/* The limit on address space is counted from what the libraries take already. */
 static uint64_t address_space_used(void)
 {
     unsigned long long pages = 0;
@@ -56,7 +56,7 @@ void serve_limits(uint64_t base, uint64_t size)
     const uint64_t available = memory_available(), most = reader_memory(base, size);
     const rlim_t cpu = (rlim_t)reader_cpu_seconds(size);
     limit(RLIMIT_CORE, 0, 0);
-    limit(RLIMIT_CPU, cpu, cpu + 1);           /* the soft one strikes first, with a signal that says why */
+    limit(RLIMIT_CPU, cpu, cpu + 1);           /* the soft limit sends SIGXCPU, which tells the caller why */
     limit(RLIMIT_FSIZE, available, available); /* the answer */
     if (!SHADOWED) {
         const rlim_t space = address_space_used() + (most < available ? most : available);
@@ -72,21 +72,21 @@ static status send(const void *bytes, size_t n, uint64_t at)
     for (size_t sent = 0; sent < n;) {
         ssize_t k = pwrite(READER_ANSWER_FD, (const char *)bytes + sent, n - sent, (off_t)(at + sent));
         if (k < 0 && errno != EINTR)
-            return fail(E_MEMORY, "no room for an answer of %zu bytes: %s", n, strerror(errno));
+            return fail(E_MEMORY, "out of memory for an answer of %zu bytes: %s", n, strerror(errno));
         sent += k > 0 ? (size_t)k : 0;
     }
     return OK;
 }
 
-status serve_part(struct serve_answer *a)
+status serve_begin_part(struct serve_answer *a)
 {
     if (a->head.n_parts == READER_PARTS)
-        return fail(E_INPUT, "an answer of more than %d parts", READER_PARTS);
+        return fail(E_INPUT, "the answer has more than %d parts", READER_PARTS);
     a->head.size[a->head.n_parts++] = 0;
     return OK;
 }
 
-status serve_add(struct serve_answer *a, const void *bytes, size_t n)
+status serve_append(struct serve_answer *a, const void *bytes, size_t n)
 {
     uint64_t at = sizeof a->head;
     for (size_t i = 0; i < a->head.n_parts; i++)
@@ -97,26 +97,26 @@ status serve_add(struct serve_answer *a, const void *bytes, size_t n)
     return st;
 }
 
-status serve_put(struct serve_answer *a, const void *bytes, size_t n)
+status serve_add_part(struct serve_answer *a, const void *bytes, size_t n)
 {
-    status st = serve_part(a);
-    return st == OK ? serve_add(a, bytes, n) : st;
+    status st = serve_begin_part(a);
+    return st == OK ? serve_append(a, bytes, n) : st;
 }
 
 status serve_input(const struct serve_question *q, void *to, size_t n, uint64_t at)
 {
     if (at > q->n_input || n > q->n_input - at)
-        return fail(E_INPUT, "%s: its reader was told too little", q->path);
+        return fail(E_INPUT, "%s: the input for its reader is too short", q->path);
     for (size_t got = 0; got < n;) {
         ssize_t k = pread(READER_INPUT_FD, (char *)to + got, n - got, (off_t)(at + got));
         if (k == 0 || (k < 0 && errno != EINTR))
-            return fail(E_INPUT, "%s: its reader cannot read what it was told", q->path);
+            return fail(E_INPUT, "%s: its reader cannot read its input", q->path);
         got += k > 0 ? (size_t)k : 0;
     }
     return OK;
 }
 
-/* ---- the question */
+/* ---- the request */
 
 static status answer(const struct serve_kind *kind, struct serve_question *q, struct serve_answer *a)
 {
@@ -137,7 +137,7 @@ done:
 
 static int usage(const char *self)
 {
-    fprintf(stderr, "%s: hoodoo runs this program to read files; it is of no use alone\n", self);
+    fprintf(stderr, "%s: hoodoo starts this program to read files; it cannot be used alone\n", self);
     return E_USAGE;
 }
 
@@ -153,12 +153,12 @@ int serve(int argc, char **argv, const struct serve_kind *kind, size_t n_kinds)
     if (k == n_kinds)
         return usage(argv[0]);
     struct serve_question q = {
-        .path = argv[2], .word = (const char *const *)argv + 3, .n_words = (size_t)argc - 3};
+        .path = argv[2], .argument = (const char *const *)argv + 3, .n_arguments = (size_t)argc - 3};
     status st = answer(&kind[k], &q, &a);
     a.head.status = (int32_t)st;
     if (st != OK) {
         a.head.n_parts = 0;
         snprintf(a.head.message, sizeof a.head.message, "%s", status_message());
     }
-    _exit(send(&a.head, sizeof a.head, 0) == OK ? 0 : 1); /* nothing of a library's may run any more */
+    _exit(send(&a.head, sizeof a.head, 0) == OK ? 0 : 1); /* not exit(): no handlers of libraries may run */
 }

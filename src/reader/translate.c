@@ -11,7 +11,7 @@
 #include "reader/calls.h"
 #include "reader/serve.h"
 
-/* What its libraries alone take. */
+/* Bytes of memory for its libraries. */
 #define MEMORY ((uint64_t)2 << 30)
 
 int translate(const char *driver, const char *path)

@@ -1,16 +1,16 @@
-/* gdal_translate under limits: hoodoo-read-image TRANSLATE_WORD DRIVER PATH sets them, on itself, and becomes it. The TIFF goes to
- * stdout, what is wrong to stderr.
+/* gdal_translate under limits: `hoodoo-read-image translate DRIVER PATH` restricts itself, then executes gdal_translate. The TIFF is
+ * written to stdout, errors to stderr.
  *
- * Limits    As a reader's (serve.h): CPU time, memory, the size of what is written.
- * Calls     As a reader's, and the two that starting a program takes: execve(), and memory that becomes code. No file is opened for
- *           writing, there are no sockets and no further processes.
+ * Limits    As for a reader (serve.h): CPU time, memory, size of the output.
+ * Calls     As for a reader, and the two that starting a program needs: execve() and executable memory. Files cannot be opened for
+ *           writing; there are no sockets and no further processes.
  */
 #ifndef HOODOO_READER_TRANSLATE_H
 #define HOODOO_READER_TRANSLATE_H
 
 #define TRANSLATE_WORD "translate"
 
-/* Returns an exit code where it fails: 127 if there is no gdal_translate. */
+/* Returns an exit code only if it fails: 127 if gdal_translate is not installed. */
 int translate(const char *driver, const char *path);
 
 #endif

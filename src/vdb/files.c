@@ -38,11 +38,11 @@ static status take_bricks(struct reader_answer *answer, uint64_t n, struct frame
     const int *m = grids->bricks.n;
     const size_t all = (size_t)m[0] * (size_t)m[1] * (size_t)m[2];
     if (n > all)
-        return reader_nonsense(answer);
+        return reader_bad_answer(answer);
     TRY(reader_take_array(answer, (size_t)n, sizeof *number, &number));
     for (size_t i = 0; i < n; i++)
         if (number[i] >= all || (i > 0 && number[i] <= number[i - 1])) {
-            st = reader_nonsense(answer);
+            st = reader_bad_answer(answer);
             goto done;
         }
     frame_grids_choose(grids, &number, (size_t)n);
@@ -79,11 +79,11 @@ status vdb_volumes_read(const char *path, struct frame_grids *out)
         }
     TRY(reader_ask(
         &(struct reader_question){
-            .program = "hoodoo-read", .kind = "vdb.volumes", .path = path, .word = word},
+            .program = "hoodoo-read", .kind = "vdb.volumes", .path = path, .argument = word},
         &answer));
     TRY(reader_take(&answer, &part, sizeof part));
     if (!makes_sense(&part, n_words) || !count(part.n, &voxels)) {
-        st = reader_nonsense(&answer);
+        st = reader_bad_answer(&answer);
         goto done;
     }
     memcpy(lattice.n, part.n, sizeof lattice.n);
@@ -110,7 +110,7 @@ status vdb_points_read(const char *path, struct rock *out)
                    &answer));
     TRY(reader_take(&answer, &part, sizeof part));
     if (!part.has[ROCK_P] || part.n > SIZE_MAX) {
-        st = reader_nonsense(&answer);
+        st = reader_bad_answer(&answer);
         goto done;
     }
     out->n = (size_t)part.n;

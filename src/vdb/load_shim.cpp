@@ -38,7 +38,7 @@ struct stream {
 
     explicit stream(struct serve_answer *a) : answer(a)
     {
-        must(serve_part(answer));
+        must(serve_begin_part(answer));
     }
     void put(float v)
     {
@@ -53,7 +53,7 @@ struct stream {
     }
     void flush()
     {
-        must(serve_add(answer, sample.data(), sample.size() * sizeof(float)));
+        must(serve_append(answer, sample.data(), sample.size() * sizeof(float)));
         sample.clear();
     }
 };
@@ -221,15 +221,15 @@ void send_field(const point_leaves &leaves, enum rock_field f, bool y_up, struct
             const Vec3f s = vdb::sim_from_file(v, y_up);
             out[4 * i] = s[0], out[4 * i + 1] = s[1], out[4 * i + 2] = s[2];
         });
-        must(serve_put(answer, out.data(), out.size() * sizeof out[0]));
+        must(serve_add_part(answer, out.data(), out.size() * sizeof out[0]));
     } else if (info.is_float) {
         std::vector<float> out(leaves.n());
         read_attribute<float>(leaves, info.vdb, [&](size_t i, float v) { out[i] = v; });
-        must(serve_put(answer, out.data(), out.size() * sizeof out[0]));
+        must(serve_add_part(answer, out.data(), out.size() * sizeof out[0]));
     } else {
         std::vector<uint32_t> out(leaves.n());
         read_attribute<int32_t>(leaves, info.vdb, [&](size_t i, int32_t v) { out[i] = uint32_t(v); });
-        must(serve_put(answer, out.data(), out.size() * sizeof out[0]));
+        must(serve_add_part(answer, out.data(), out.size() * sizeof out[0]));
     }
 }
 
@@ -254,8 +254,8 @@ vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *
         throw std::runtime_error(
             "not a volume file of hoodoo: it does not say how many voxels its grids have");
     set_size(part.n, size->value());
-    for (size_t k = 0; k < q->n_words; k++) {
-        const auto base = file.grid(q->word[k]);
+    for (size_t k = 0; k < q->n_arguments; k++) {
+        const auto base = file.grid(q->argument[k]);
         if (!base)
             continue;
         if (part.n_grids == VDB_PART_GRIDS)
@@ -280,15 +280,15 @@ void send_volumes(const vdb::file &file, const struct serve_question *q, struct 
     bricks held(part.n, file.y_up);
     const auto each = [&](const auto &work) {
         for (uint32_t i = 0; i < part.n_grids; i++) {
-            const std::string name = q->word[part.grid[i].word];
+            const std::string name = q->argument[part.grid[i].word];
             as_what_it_is(*file.grid(name), name, work);
         }
     };
     each([&](const auto &grid) { held.hold_grid(grid); });
     held.list();
     part.n_bricks = held.number.size();
-    must(serve_put(answer, &part, sizeof part));
-    must(serve_put(answer, held.number.data(), held.number.size() * sizeof held.number[0]));
+    must(serve_add_part(answer, &part, sizeof part));
+    must(serve_add_part(answer, held.number.data(), held.number.size() * sizeof held.number[0]));
     each([&](const auto &grid) { send_bricks(grid, held, answer); });
 }
 } // namespace
@@ -330,11 +330,11 @@ try {
         part.has[f] = f == ROCK_P ||
                       (*rock_field_table[f].vdb &&
                        (leaves.leaf.empty() || leaves.leaf[0].leaf->hasAttribute(rock_field_table[f].vdb)));
-    must(serve_put(answer, &part, sizeof part));
+    must(serve_add_part(answer, &part, sizeof part));
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (f == ROCK_P) {
             const std::vector<float> P = positions(leaves, file.y_up);
-            must(serve_put(answer, P.data(), P.size() * sizeof P[0]));
+            must(serve_add_part(answer, P.data(), P.size() * sizeof P[0]));
         } else if (part.has[f]) {
             send_field(leaves, static_cast<enum rock_field>(f), file.y_up, answer);
         }

@@ -39,7 +39,7 @@ static status march(const char *path, struct trimesh *out, double *voxel)
         n *= good ? (size_t)lattice.n[a] : 1;
     }
     if (!good) {
-        st = reader_nonsense(&answer);
+        st = reader_bad_answer(&answer);
         goto done;
     }
     TRY(reader_take_array(&answer, n, sizeof *sample, &sample));
@@ -88,7 +88,7 @@ static status read_values(const char *path, const struct trimesh *m, const struc
         TRY(reader_ask(&(struct reader_question){.program = "hoodoo-read",
                                                  .kind = "vdb.at",
                                                  .path = path,
-                                                 .word = word,
+                                                 .argument = word,
                                                  .input = m->vertex,
                                                  .n_input = 3 * sizeof(float) * m->n_vertices},
                        &answer));

@@ -85,12 +85,12 @@ status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct se
     part.y_up = y_up;
     part.is_fog = is_fog;
     std::strncpy(part.grid, grid.getName().c_str(), sizeof part.grid - 1);
-    status st = serve_put(answer, &part, sizeof part);
+    status st = serve_add_part(answer, &part, sizeof part);
     std::vector<double> place;
     for (const openvdb::Vec3s &p : point)
         place.insert(place.end(), {double(p[0]), double(p[1]), double(p[2])});
     if (st == OK)
-        st = serve_put(answer, place.data(), place.size() * sizeof place[0]);
+        st = serve_add_part(answer, place.data(), place.size() * sizeof place[0]);
     std::vector<uint32_t> corner;
     /* Of a level set the library's faces are clockwise from outside; what a fog holds is above its value. */
     const auto put = [&](uint32_t a, uint32_t b, uint32_t c) {
@@ -102,22 +102,22 @@ status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct se
         put(f[0], f[1], f[2]);
         put(f[0], f[2], f[3]);
     }
-    return st == OK ? serve_put(answer, corner.data(), corner.size() * sizeof corner[0]) : st;
+    return st == OK ? serve_add_part(answer, corner.data(), corner.size() * sizeof corner[0]) : st;
 }
 } // namespace
 
 extern "C" status vdb_serve_shape(const struct serve_question *q, struct serve_answer *answer)
 try {
     vdb::file file;
-    status st = q->n_words == 2 ? vdb::load(q->path, &file)
-                                : fail(E_INPUT, "%s: its reader was told too little", q->path);
+    status st = q->n_arguments == 2 ? vdb::load(q->path, &file)
+                                    : fail(E_INPUT, "%s: its reader was told too little", q->path);
     if (st != OK)
         return st;
-    const FloatGrid::Ptr grid = choose(file, q->word[0]);
+    const FloatGrid::Ptr grid = choose(file, q->argument[0]);
     /* Files that do not say what they hold hold a fog where nothing is below 0. */
     bool is_fog = grid->getGridClass() == openvdb::GRID_FOG_VOLUME;
     if (grid->getGridClass() != openvdb::GRID_FOG_VOLUME && grid->getGridClass() != openvdb::GRID_LEVEL_SET)
         is_fog = !(grid->background() > 0);
-    return send(*grid, is_fog ? std::atof(q->word[1]) : 0, is_fog, file.y_up, answer);
+    return send(*grid, is_fog ? std::atof(q->argument[1]) : 0, is_fog, file.y_up, answer);
 }
 SHIM_CATCH(E_INPUT, q->path)

@@ -116,13 +116,13 @@ status send_samples(const FloatGrid &grid, const box_of_samples &box, bool y_up,
     const trimesh_lattice &l = box.lattice;
     const FloatGrid::ConstAccessor at = grid.getConstAccessor();
     std::vector<float> layer(size_t(l.n[0]) * size_t(l.n[1]));
-    status st = serve_part(answer);
+    status st = serve_begin_part(answer);
     for (int z = 0; z < l.n[2] && st == OK; z++) {
         float *to = layer.data();
         for (int y = 0; y < l.n[1]; y++)
             for (int x = 0; x < l.n[0]; x++)
                 *to++ = at.getValue(vdb::file_from_sim(box.lo.offsetBy(x, y, z), y_up));
-        st = serve_add(answer, layer.data(), layer.size() * sizeof layer[0]);
+        st = serve_append(answer, layer.data(), layer.size() * sizeof layer[0]);
     }
     return st;
 }
@@ -148,7 +148,7 @@ status send_normals(const FloatGrid &surface, const std::vector<Vec3d> &place, b
         for (int a = 0; a < 3; a++)
             normal[3 * i + size_t(a)] = float(n[a]);
     }
-    return serve_put(answer, normal.data(), normal.size() * sizeof normal[0]);
+    return serve_add_part(answer, normal.data(), normal.size() * sizeof normal[0]);
 }
 
 template <class grid_type, class number_fn>
@@ -182,7 +182,7 @@ status send_values(const vdb::file &file, const std::string &word, bool may_lack
             *grid, [&](const Vec3s &v) { return vdb::sim_from_file(v, file.y_up)[component]; }, place,
             &value);
     }
-    return serve_put(answer, value.data(), value.size() * sizeof value[0]);
+    return serve_add_part(answer, value.data(), value.size() * sizeof value[0]);
 }
 } // namespace
 
@@ -194,7 +194,7 @@ try {
         return st;
     const FloatGrid::Ptr surface = float_grid(file, "surface");
     const box_of_samples box(*surface, file.y_up);
-    st = serve_put(answer, &box.lattice, sizeof box.lattice);
+    st = serve_add_part(answer, &box.lattice, sizeof box.lattice);
     return st == OK ? send_samples(*surface, box, file.y_up, answer) : st;
 }
 SHIM_CATCH(E_INPUT, q->path)
@@ -206,13 +206,13 @@ try {
     status st = vdb::load(q->path, &file);
     if (st == OK)
         st = read_places(q, file.y_up, &place);
-    if (st == OK && q->n_words < 2)
+    if (st == OK && q->n_arguments < 2)
         st = fail(E_INPUT, "%s: its reader was told too little", q->path);
-    if (st == OK && *q->word[0] == '1')
+    if (st == OK && *q->argument[0] == '1')
         st = send_normals(*float_grid(file, "surface"), place, file.y_up, answer);
-    const size_t optional = st == OK ? size_t(std::atoi(q->word[1])) : 0;
-    for (size_t k = 2; k < q->n_words && st == OK; k++)
-        st = send_values(file, q->word[k], k + optional >= q->n_words, place, answer);
+    const size_t optional = st == OK ? size_t(std::atoi(q->argument[1])) : 0;
+    for (size_t k = 2; k < q->n_arguments && st == OK; k++)
+        st = send_values(file, q->argument[k], k + optional >= q->n_arguments, place, answer);
     return st;
 }
 SHIM_CATCH(E_INPUT, q->path)

@@ -257,7 +257,7 @@ static void refuses_a_lying_index(void **state)
         {"\"chunks\": []", "\"chunks\": [16, 20]", "need 0 chunks"},
         {"\"chunks\": []", "\"chunks\": {}", "need 0 chunks"},
         {"\"sections\": [", "\"sections\": {\"a\": 1}, \"old\": [", "'sections'"},
-        {"\"sections\": [", "\"sections\": [], \"old\": [", "belong to no section"},
+        {"\"sections\": [", "\"sections\": [], \"old\": [", "do not belong to any section"},
         {"\"sections\": [", "\"sections\": [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[",
          "nested too deeply"},
         {"\"sections\": [", "\"sections\": [1,", "'name'"},
@@ -312,7 +312,7 @@ static void refuses_a_wrong_end(void **state)
     bytes[12] = 2;
     seal(bytes, size);
     assert_int_equal(read_bytes(bytes, size), E_CHECKPOINT);
-    assert_non_null(strstr(status_message(), "format 2; this hoodoo reads format 1"));
+    assert_non_null(strstr(status_message(), "format 2; this version of hoodoo reads format 1"));
     free(bytes);
 
     struct checkpoint c;

@@ -54,9 +54,9 @@ static status put_image(struct serve_answer *a, uint64_t width, uint64_t height,
 {
     status st = OK;
     const struct image_part part = {.width = width, .height = height};
-    TRY(serve_put(a, &part, sizeof part));
-    TRY(serve_part(a)); /* nothing to say */
-    TRY(serve_put(a, value, n * sizeof *value));
+    TRY(serve_add_part(a, &part, sizeof part));
+    TRY(serve_begin_part(a)); /* nothing to say */
+    TRY(serve_add_part(a, value, n * sizeof *value));
 done:
     return st;
 }
@@ -143,15 +143,15 @@ static void a_reader_that_fails_is_an_error(void **state)
     static const char *const expected[][2] = {{"crash", "crashed: Segmentation fault"},
                                               {"abort", "crashed: Aborted"},
                                               {"slow", "too long"},
-                                              {"silent", "without a word"},
-                                              {"babbling", "without a word"},
-                                              {"absurd", "no sense"},
-                                              {"overflowing", "no sense"},
-                                              {"short", "no sense"},
-                                              {"long", "no sense"},
-                                              {"liar", "no sense"},
-                                              {"crowd", "no sense"},
-                                              {"strange", "no sense"},
+                                              {"silent", "without an answer"},
+                                              {"babbling", "without an answer"},
+                                              {"absurd", "is malformed"},
+                                              {"overflowing", "is malformed"},
+                                              {"short", "is malformed"},
+                                              {"long", "is malformed"},
+                                              {"liar", "is malformed"},
+                                              {"crowd", "is malformed"},
+                                              {"strange", "is malformed"},
                                               {"rude", "?? is no text"}};
     for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
         assert_failed(read_named(expected[i][0]), E_INPUT, expected[i][0], expected[i][1]);
@@ -175,7 +175,7 @@ static void a_greedy_one_gets_no_memory(void **state)
         print_message("# skipped: no limit below the address space that the sanitizer has reserved\n");
         skip();
     }
-    assert_failed(read_named("greedy"), E_INPUT, "greedy", "more memory than a file of its size should");
+    assert_failed(read_named("greedy"), E_INPUT, "greedy", "more memory than a file of this size should");
 }
 
 static void large_answers_arrive_whole(void **state)
@@ -211,7 +211,7 @@ static void one_that_is_missing_is_named(void **state)
     assert_failed(read_named("good"), E_INPUT, "hoodoo-read-image", "HOODOO_LIBEXEC");
     FILE *file = fopen("empty/hoodoo-read-image", "w");
     fclose(file);
-    assert_failed(read_named("good"), E_INPUT, "hoodoo-read-image", "does not start");
+    assert_failed(read_named("good"), E_INPUT, "hoodoo-read-image", "could not be started");
     setenv("HOODOO_LIBEXEC", before, 1);
     assert_int_equal(read_named("good"), OK);
     free(before);
