@@ -55,7 +55,7 @@ static void describe_memory(const struct model_estimate *e, const struct gpu *gp
     if (gpu)
         json_integer(t, "device_free_bytes", (int64_t)m->there.device);
     json_integer(t, "host_bytes", (int64_t)e->host_bytes);
-    json_integer(t, "frames_in_memory", e->turns ? 1 : 2);
+    json_integer(t, "frames_in_memory", e->one_frame ? 1 : 2);
     json_integer(t, "process_bytes", (int64_t)m->process);
     json_integer(t, "host_free_bytes", (int64_t)m->host_free);
 }

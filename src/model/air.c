@@ -17,7 +17,7 @@ static size_t place_of(const struct grid_lattice *l, int x, int y, int z)
     return ((size_t)z * (size_t)l->n[1] + (size_t)y) * (size_t)l->n[0] + (size_t)x;
 }
 
-/* A lattice of which every brick is kept. */
+/* Begins grids on a lattice with all of its bricks. */
 static status begin_whole(const struct wind_lattice *air, struct frame_grids *out)
 {
     status st = OK;
@@ -38,7 +38,7 @@ done:
     return st;
 }
 
-/* Calls BODY with `dense`, a sample's place in an array of all of them, and `at`, its place in the bricks. */
+/* Runs BODY for each sample, with `dense`, its index in a dense array, and `at`, its index in the bricks. */
 #define EACH_SAMPLE(grids, BODY)                                                                             \
     for (int z = 0; z < (grids)->lattice.n[2]; z++)                                                          \
         for (int y = 0; y < (grids)->lattice.n[1]; y++)                                                      \
@@ -80,7 +80,7 @@ done:
     return st;
 }
 
-/* One sample, which is the same everywhere. */
+/* Uploads a uniform wind as a single sample. */
 static status upload_uniform(struct gpu *gpu, const struct job *job, int frame, struct aov_air *out)
 {
     const struct wind_at wind = wind_at(job, frame);
@@ -114,7 +114,7 @@ done:
 
 /* ---- checkpoints */
 
-/* What air has to have in common with a checkpoint's to go on from it. */
+/* The size of the air, which must equal the checkpoint's for its state to be restored. */
 enum { AIR_BOX = 4 };
 
 static void air_box(const struct flow *air, double out[AIR_BOX])
@@ -142,7 +142,7 @@ done:
     return st;
 }
 
-/* What gets uploaded to the arrays of that name. */
+/* Gets the section that is uploaded to an array. */
 static status take_array(const struct checkpoint *from, const struct flow_array *array, const void **data)
 {
     status st = OK;
@@ -151,7 +151,7 @@ static status take_array(const struct checkpoint *from, const struct flow_array 
     struct section_rule rule = {
         array->name, array->words ? SECTION_WORD : SECTION_FLOAT, array->n * stride, stride, {{0}}};
     memcpy(rule.range, array->range, sizeof rule.range);
-    TRY(section_take(from, &rule, data, NULL));
+    TRY(section_get(from, &rule, data, NULL));
     if (strcmp(array->name, "air id") == 0)
         TRY(section_check_ids(from, array->name, *data, array->n, UINT64_MAX, &ids));
 done:
@@ -167,17 +167,18 @@ status air_restore(struct gpu *gpu, struct wind *wind, const struct checkpoint *
     const void *data = NULL;
     air_box(&wind->flow, box);
     if (checkpoint_find(from, "air box", 8))
-        TRY(section_take(from, &its_box, &data, NULL));
+        TRY(section_get(from, &its_box, &data, NULL));
     if (!data || memcmp(data, box, sizeof box) != 0) {
-        log_info("frame %d: the checkpoint has no air of this size: it begins anew", from->frame);
+        log_info("frame %d: the checkpoint has no air of this size; the wind starts from still air",
+                 from->frame);
         return OK;
     }
     struct flow *air = &wind->flow;
     struct flow_array array[FLOW_ARRAYS];
-    /* Its members are checked by flow_check(). */
-    TRY(section_take(from,
-                     &(struct section_rule){"air", SECTION_INTEGER, sizeof air->state / 8, 1, {SECTION_ALL}},
-                     &data, NULL));
+    /* flow_check() checks the members. */
+    TRY(section_get(from,
+                    &(struct section_rule){"air", SECTION_INTEGER, sizeof air->state / 8, 1, {SECTION_ALL}},
+                    &data, NULL));
     memcpy(&air->state, data, sizeof air->state);
     TRY(flow_check(air));
     flow_arrays(air, array);

@@ -1,12 +1,15 @@
-/* Arches: terrain as stacks of layers, made by tools and left to settle (Peytavie et al. 2009).
+/* Arches: terrain as stacks of material layers, shaped by tools, whose loose materials slide to rest (Peytavie et al. 2009).
  *
- * One frame:
+ * One frame is a list of stages (gpu_stage()):
  *
- *   tools at work in it, in the job's order -> what nothing holds -> stabilise -> ledger
+ *   tools         operation_apply() for each of the frame's operations, in the job's order; then loosen() what is unsupported
+ *   stabilise     slide() loose material until it rests at its angle of repose
  *
- * output() then samples the smooth surface over the stacks, and where rock layers are, places rocks. The state
- * between frames is the stacks and the ledger. The ledger counts quanta (stacks.h): volume, exactly; tools that
- * add material add to its start, water is not in it.
+ * output() then places rocks in rock layers, samples the smooth surface over the stacks, and adds the stages surface, field and
+ * pictures.
+ *
+ * The state between frames consists of the stacks and the ledger. The ledger counts quanta of volume (stacks.h), exactly; tools that add
+ * material add to its `start`; water is not counted.
  */
 #include <math.h>
 #include <stdio.h>
@@ -43,7 +46,7 @@ static struct arches *of(struct model *m)
 
 /* ---- a frame */
 
-/* Noise of a tool's own scale; cheap to set up beside what is done with it. */
+/* Noise for tools. Setting it up for every call is cheap compared to evaluating it. */
 static double tool_noise(const void *user, double scale, double flatten, const double x[3])
 {
     const struct arches *t = user;
@@ -52,7 +55,7 @@ static double tool_noise(const void *user, double scale, double flatten, const d
     return noise_at(&noise, x);
 }
 
-/* What the tools did is known by what is there. */
+/* Updates the ledger by recounting the stacks: material added since the last count adds to `start`, removed material to `left`. */
 static void balance(struct arches *t, uint64_t left)
 {
     uint64_t before = t->m.ledger.rock + t->m.ledger.deposit, after;
@@ -65,7 +68,7 @@ static void balance(struct arches *t, uint64_t left)
     t->m.ledger.left += left;
 }
 
-static status settle(struct arches *t, const int lo[2], const int hi[2])
+static status slide(struct arches *t, const int lo[2], const int hi[2])
 {
     struct stabilise options = {.table = t->table,
                                 .n_materials = t->n_materials,
@@ -82,7 +85,7 @@ static status settle(struct arches *t, const int lo[2], const int hi[2])
         left += done.left[k];
     balance(t, left);
     if (!done.resting && !options.sweeps)
-        log_warn("frame %d: after %lld sweeps some loose material still moves", t->m.frame,
+        log_warn("frame %d: after %lld sweeps some loose material still slides", t->m.frame,
                  (long long)done.sweeps);
     return OK;
 }
@@ -95,8 +98,8 @@ static void extend(int lo[2], int hi[2], const int from[2], const int to[2])
     }
 }
 
-/* The tools of this frame, and what follows from them. `all`: whatever else may slide, does. */
-static status work(struct arches *t, bool all)
+/* Applies the frame's tools and lets loose material slide. `all`: material anywhere may slide, not only where tools were used. */
+static status apply_tools(struct arches *t, bool all)
 {
     status st = OK;
     const struct job_arches *job = &t->m.job->arches;
@@ -116,7 +119,7 @@ static status work(struct arches *t, bool all)
         balance(t, 0);
         extend(lo, hi, from, to);
     }
-    /* Where slides go on from frame to frame, anything may be under way. */
+    /* If slides continue from frame to frame, material anywhere may be sliding. */
     if (all || job->sweeps)
         for (int a = 0; a < 2; a++) {
             lo[a] = 0;
@@ -127,20 +130,20 @@ static status work(struct arches *t, bool all)
         extend(lo, hi, from, to);
     }
     gpu_stage(t->m.gpu, "stabilise");
-    TRY(settle(t, lo, hi));
+    TRY(slide(t, lo, hi));
 done:
     return st;
 }
 
 static status step(struct model *m)
 {
-    return work(of(m), false);
+    return apply_tools(of(m), false);
 }
 
 /* ---- what a frame shows */
 
-/* The view's ratios become the frame's, whose bricks are the same. */
-static status take_ratios(struct terrain_view *v, struct frame_grids *grids)
+/* Moves the view's ratios to the frame's grids, which have the same bricks. */
+static status move_ratios(struct terrain_view *v, struct frame_grids *grids)
 {
     status st = OK;
     for (int m = MATERIAL_BEDROCK; m < MATERIALS_OWN; m++)
@@ -156,7 +159,7 @@ done:
     return st;
 }
 
-/* What is sampled of the terrain, for what the frame has of it. */
+/* Samples the terrain and makes the files' content from the samples. */
 static status show(struct arches *t, struct frame_wants wants, struct frame *out)
 {
     status st = OK;
@@ -167,7 +170,7 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
     memcpy(v.n, m->field.n, sizeof v.n);
     memcpy(v.origin, m->field.origin, sizeof v.origin);
     gpu_stage(m->gpu, "surface");
-    TRY(terrain_look(&v));
+    TRY(terrain_sample(&v));
     TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, m->voxels, m->h, &p));
     p.walls = job_walls(m->job);
     m->shown = &p;
@@ -181,7 +184,7 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
         TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
     if (wants.volumes) {
         TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
-        TRY(take_ratios(&v, &out->grids));
+        TRY(move_ratios(&v, &out->grids));
     }
     if (wants.pictures) {
         gpu_stage(m->gpu, "pictures");
@@ -260,18 +263,17 @@ static status restore(struct model *m, const struct checkpoint *c)
 {
     status st = OK;
     struct arches *t = of(m);
-    const struct ledger told = m->ledger;
+    const struct ledger stored = m->ledger;
     const void *counts, *layers;
     size_t n;
-    TRY(section_take(c,
-                     &(struct section_rule){"stack counts", SECTION_WORD, stack_count(t), 1, {SECTION_ALL}},
-                     &counts, NULL));
-    TRY(section_take(c, &(struct section_rule){"stack layers", SECTION_WORD, SECTION_ANY, 1, {SECTION_ALL}},
-                     &layers, &n));
+    TRY(section_get(c, &(struct section_rule){"stack counts", SECTION_WORD, stack_count(t), 1, {SECTION_ALL}},
+                    &counts, NULL));
+    TRY(section_get(c, &(struct section_rule){"stack layers", SECTION_WORD, SECTION_ANY, 1, {SECTION_ALL}},
+                    &layers, &n));
     for (size_t i = 0; i < n; i++) {
         uint32_t material = layer_material(((const uint32_t *)layers)[i]);
         if (material >= (uint32_t)t->n_materials)
-            return section_refuse(c, "stack layers", i, "is of material %u, and this job has %d",
+            return section_refuse(c, "stack layers", i, "is of material %u, but this job has %d materials",
                                   (unsigned)material, t->n_materials);
     }
     st = stacks_unpack(&t->stacks, counts, layers, n);
@@ -281,11 +283,11 @@ static status restore(struct model *m, const struct checkpoint *c)
                   c->frame, status_message());
     TRY(st);
     terrain_ledger(&t->stacks, t->table, t->n_materials, &m->ledger.rock, &m->ledger.deposit);
-    if (memcmp(&told, &m->ledger, sizeof told) != 0)
+    if (memcmp(&stored, &m->ledger, sizeof stored) != 0)
         st = fail(
             E_CHECKPOINT,
-            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock and %llu deposited, and the stacks have %llu and %llu",
-            c->frame, (unsigned long long)told.rock, (unsigned long long)told.deposit,
+            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock and %llu deposited, but the stacks have %llu and %llu",
+            c->frame, (unsigned long long)stored.rock, (unsigned long long)stored.deposit,
             (unsigned long long)m->ledger.rock, (unsigned long long)m->ledger.deposit);
 done:
     return st;
@@ -297,7 +299,7 @@ static status begin(struct model *m)
     struct arches *t = of(m);
     TRY(terrain_begin(m->job, t->table, t->n_materials, &t->stacks));
     balance(t, 0);
-    TRY(work(t, true));
+    TRY(apply_tools(t, true));
 done:
     return st;
 }
@@ -333,21 +335,22 @@ static status estimate(const struct job *job, struct model_needs *needs)
     status st = OK;
     const int *n = needs->voxels;
     struct scene_size ground;
-    /* Whatever is wrong with the scene is said here. */
+    /* For its errors only, if the scene is wrong. */
     TRY(scene_estimate(job, &ground));
     free(ground.point);
     double cell = job->arches.cell_m > 0 ? job->arches.cell_m : job->domain.spacing_m;
     double stacks = job->domain.size_m[0] * job->domain.size_m[1] / (cell * cell) * 28;
-    /* The surface's voxels, about: caves and walls as much again as the ground, three voxels thick; the sides. */
+    /* About the number of voxels at the surface: three layers for the ground and as much again for caves and walls; and the sides. */
     needs->size.n_particles = 6 * (size_t)n[0] * (size_t)n[1] + 2 * (size_t)(n[0] + n[1]) * (size_t)n[2];
-    /* The surface alone, on a lattice. */
-    needs->size.n_surface = needs->size.n_near = needs->size.n_kept = needs->room = needs->size.n_particles;
+    /* Particles are only at the surface. */
+    needs->size.n_surface = needs->size.n_near = needs->size.n_kept = needs->capacity =
+        needs->size.n_particles;
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
     needs->samples = host_grid_samples(n, 0, needs->size.n_surface);
     needs->frame_bytes = value_grids(HAS_TERRAIN) * needs->samples * sizeof(float);
-    /* On the device the rock is ordered with a vector and a word to spare. */
+    /* Sorting the rock on the device needs an extra vector and word per particle. */
     needs->device_bytes = 20 * needs->size.n_particles;
-    /* What a frame is made from is let go before it is whole. */
+    /* The samples of a frame are freed before the frame is complete, so only the stacks count. */
     needs->host_bytes = (uint64_t)(4 * stacks);
     needs->checkpoint_bytes = (uint64_t)(0.6 * stacks);
     if (job->arches.stacks == STACKS_ALL)

@@ -1,15 +1,26 @@
-/* Arenite: sandstone as particles that weather where wind finds them and stress does not hold them (Yang et
- * al. 2025, algorithm 1).
+/* Arenite: sandstone as particles that erode where wind and water reach them and stress does not strengthen them (Yang et al. 2025,
+ * algorithm 1).
  *
- * One frame:
+ * One frame is a list of stages (gpu_stage()), each named as in log/timing.jsonl:
  *
- *   edits -> plants -> wind -> water -> viability -> eroded particles, deposits -> unsupported blocks
- *   -> surface, normals -> stress -> erodibility
+ *   edits         edit()                       what the frame's edits set and change
+ *   plants        plants_grow()                once per frame
+ *   and then, until the frame's years have passed, parts of steps, each of which is:
+ *   wind          find_intensity()             abrasion and deflation
+ *   water         find_intensity()             flow paths, discharge and incision; then groundwater, sheeting, structure
+ *   viability     erosion_weather()            viability lost in the longest part that all of these allow
+ *   blocks        crumble()                    small unsupported pieces
+ *   deposition    remove_eroded()              eroded particles are deposited, or leave the domain
+ *   particles     particles_index()            the index of the particles, whenever they have moved
+ *   blocks        arenite_remove_unsupported() unsupported blocks fall or are removed
+ *   surface       arenite_update_derived()     surface particles and normals
+ *   stress        arenite_update_derived()     after the last part of a step, or if much rock has gone or fallen
+ *   erodibility   arenite_update_derived()     from stress, plants, groundwater and exposure
  *
- * all but the first once or more, until the frame's years have passed; output() then adds the surface field and
- * the pictures.
- * The state between frames is the particles, the grid's displacement, the air and the ledger; the rest is
- * found anew from them, so that a resumed run has the same bits.
+ * A shot has the stages edits, collapse, surface, erodibility instead. output() then adds the stages field and pictures.
+ *
+ * The state between frames consists of the particles, the displacement on the stress grid, the air and the ledger. Everything else is
+ * recomputed from these, so that a resumed run has the same bits.
  */
 #include "model/arenite.h"
 
@@ -27,26 +38,25 @@
 #include "plants/plants.h"
 #include "sheeting/sheeting.h"
 
-/* Spacings that the fastest rock and the fastest deposits may lose in a step before it is cut into parts. A deposit that goes
- * comes to rest elsewhere once in each, so that no part may be longer than a deposit's life. */
+/* Spacings that the fastest rock and the fastest deposits may lose in one part of a step. An eroded deposit comes to rest elsewhere once
+ * per part, so a part must not be longer than the life of a deposit. */
 static const double ROCK_STEP = 1.5, LOOSE_STEP = 0.7;
 
-/* The same of rock where groundwater seeps: what is left of a step goes on into what is around, wet or not. */
+/* The same for rock if groundwater seeps: erosion beyond a particle continues into its neighbours, whether they are wet or not. */
 static const double SEEPING_STEP = 0.35;
 
-/* Of the time in which a floor would come down to those below it, did they not go on. */
+/* Share of the time in which the fastest channel bed would be lowered to its receiver. */
 static const double SLOPE_STEP = 1;
 
-/* Spacings that rock may lose before its stress is solved anew, where a step is cut into parts. Deposits may go on. */
+/* Spacings that rock may lose between two solutions of the stress within a step. */
 static const double STRESS_STEP = 0.5;
 
-/* Landings in a step at most, for what finds no room at once, or slides and slides again; of so many deposits one may still slide
- * after it. */
+/* The most rounds of deposition in a part of a step, for fragments that find no free place or keep sliding. Deposits are at rest when at
+ * most one in FEW_OF still slides. */
 enum { LANDINGS = 200, FEW_OF = 400 };
 
 /* ---- a frame */
 
-/* What the particles are now; where the others went is counted as they go. */
 status arenite_count(struct arenite *a)
 {
     status st = OK;
@@ -61,28 +71,34 @@ done:
     return st;
 }
 
-/* Does what erodes in this frame stay in the domain? */
+/* Whether eroded particles are deposited in this frame. */
 static bool depositing(const struct arenite *a)
 {
     return a->deposits && curve_at(&a->m.job->deposition.viability, a->m.frame) > 0;
 }
 
-static void weigh(struct arenite *a, enum process process, bool after)
+static void budget_before(struct arenite *a, enum process process)
 {
-    model_weigh(&a->m, process, after, a->particles.field[ROCK_viability], a->particles.n);
+    model_budget_before(&a->m, process, a->particles.field[ROCK_viability], a->particles.n);
+}
+
+static void budget_after(struct arenite *a, enum process process)
+{
+    model_budget_after(&a->m, process, a->particles.field[ROCK_viability], a->particles.n);
 }
 
 static status find_surface(struct arenite *a)
 {
     status st = OK;
     gpu_stage(a->m.gpu, "surface");
-    TRY(arenite_bear(a, DUE_NEAR, 0));
+    TRY(arenite_add_due(a, DUE_NEAR, 0));
     TRY(particles_surface(a->m.gpu, a->m.work, &a->particles));
 done:
     return st;
 }
 
-/* Where water, and what breaks off, runs over the shape as it is. `step`: of the frame, for random numbers. */
+/* Finds the flow paths of water and of eroded fragments over the present shape. `step` is the part's number in the frame, for random
+ * numbers. */
 static status route(struct arenite *a, int step)
 {
     status st = OK;
@@ -116,10 +132,10 @@ static status land(struct arenite *a, int step, bool last, struct deposit_counts
     memcpy(routing.cells, paths->cells, sizeof routing.cells);
     memcpy(routing.shift, paths->shift, sizeof routing.shift);
     gpu_stage(a->m.gpu, "deposition");
-    weigh(a, PROCESS_DEPOSITION, false);
+    budget_before(a, PROCESS_DEPOSITION);
     TRY(deposit_land(a->m.gpu, a->m.work, &a->deposit, a->m.job, a->m.frame, step, &routing, &a->particles,
                      last, moved));
-    weigh(a, PROCESS_DEPOSITION, true);
+    budget_after(a, PROCESS_DEPOSITION);
     a->m.ledger.left += moved->left;
     gpu_stage(a->m.gpu, "particles");
     if (moved->waiting)
@@ -130,8 +146,8 @@ done:
     return st;
 }
 
-/* The same, and what waits or slides goes on until it is at rest, however long the step; a few that keep each other moving slide
- * on in later steps. */
+/* Repeats rounds of deposition until fragments are at rest, independent of the length of the step. A few that keep each other moving
+ * continue to slide in later steps. */
 static status land_all(struct arenite *a, int step, bool *changed)
 {
     status st = OK;
@@ -153,7 +169,7 @@ done:
     return st;
 }
 
-/* Eroded particles, in a step of the frame, leave, or come to rest elsewhere. Did anything move? */
+/* Eroded particles are deposited elsewhere or leave. *changed: any particle moved. */
 static status remove_eroded(struct arenite *a, int step, uint32_t n_eroded, bool *changed)
 {
     status st = OK;
@@ -170,48 +186,50 @@ done:
     return st;
 }
 
-/* What stands on the ground. What does not has all of its particles after this; what has eroded is still among them. */
+/* Finds the blocks and which of them are connected to the ground. Afterwards, unconnected blocks have all of their particles. Eroded
+ * particles are still included. */
 static status find_blocks(struct arenite *a)
 {
     status st = OK;
     size_t n_cut;
     TRY(blocks_find(a->m.gpu, a->m.work, &a->blocks, &a->particles, &n_cut));
     if (n_cut) {
-        TRY(arenite_bear(a, DUE_CHOSEN, n_cut));
+        TRY(arenite_add_due(a, DUE_CHOSEN, n_cut));
         TRY(blocks_find(a->m.gpu, a->m.work, &a->blocks, &a->particles, &n_cut));
     }
 done:
     return st;
 }
 
-/* What breaks off and is too small to fall as a block goes the way of what eroded. */
+/* Unsupported pieces that are too small to fall as blocks are counted as eroded particles. */
 static status crumble(struct arenite *a, uint32_t *n_eroded)
 {
     status st = OK;
-    uint32_t n_crumbs;
+    uint32_t n_fragments;
     size_t n_loose;
     if (!a->collapse.falls || *n_eroded == 0)
         return OK;
     gpu_stage(a->m.gpu, "blocks");
     TRY(find_blocks(a));
-    weigh(a, PROCESS_BLOCKS, false);
-    TRY(collapse_crumble(a->m.gpu, a->m.work, &a->collapse, &a->blocks, &a->particles, &n_crumbs, &n_loose));
-    weigh(a, PROCESS_BLOCKS, true);
-    *n_eroded += n_crumbs;
+    budget_before(a, PROCESS_BLOCKS);
+    TRY(collapse_crumble(a->m.gpu, a->m.work, &a->collapse, &a->blocks, &a->particles, &n_fragments,
+                         &n_loose));
+    budget_after(a, PROCESS_BLOCKS);
+    *n_eroded += n_fragments;
 done:
     return st;
 }
 
-status arenite_unsupported(struct arenite *a)
+status arenite_remove_unsupported(struct arenite *a)
 {
     status st = OK;
     uint32_t n_fallen = 0;
     gpu_stage(a->m.gpu, "blocks");
     TRY(find_blocks(a));
-    weigh(a, PROCESS_BLOCKS, false);
+    budget_before(a, PROCESS_BLOCKS);
     if (a->collapse.falls) {
         TRY(collapse_blocks(a->m.gpu, a->m.work, &a->collapse, &a->blocks, &a->particles, &a->m.ledger));
-        weigh(a, PROCESS_BLOCKS, true);
+        budget_after(a, PROCESS_BLOCKS);
         goto done;
     }
     TRY(blocks_fall(a->m.gpu, a->m.work, &a->blocks, &a->particles, &n_fallen));
@@ -220,12 +238,12 @@ status arenite_unsupported(struct arenite *a)
         TRY(particles_index(a->m.gpu, a->m.work, &a->particles));
         TRY(arenite_count(a));
     }
-    weigh(a, PROCESS_BLOCKS, true);
+    budget_after(a, PROCESS_BLOCKS);
 done:
     return st;
 }
 
-/* Stress by the job's solver. The displacement is a resumed run's already: `solved`. */
+/* Computes the stress with the job's solver. `solved`: the displacement was restored from a checkpoint and is the solution already. */
 static status solve(struct arenite *a, bool solved)
 {
     status st = OK;
@@ -253,7 +271,7 @@ done:
     return st;
 }
 
-/* Erodibility, from stress, and less what roots hold. */
+/* Computes the erodibility from the stress, and its changes by groundwater, roots and exposure. */
 static status find_rates(struct arenite *a)
 {
     status st = OK;
@@ -270,7 +288,7 @@ done:
     return st;
 }
 
-status arenite_age_before(struct arenite *a)
+status arenite_set_start_age(struct arenite *a)
 {
     status st = OK;
     TRY(find_surface(a));
@@ -279,40 +297,40 @@ done:
     return st;
 }
 
-/* What follows from the shape: surface, normals, stress, erodibility. Rock in motion has its stress. */
-status arenite_settle(struct arenite *a, bool solved)
+status arenite_update_derived(struct arenite *a, bool solved)
 {
     status st = OK;
     TRY(find_surface(a));
     gpu_stage(a->m.gpu, "stress");
-    if (!arenite_rests(a->m.job))
+    if (!arenite_uses_stress_grid(a->m.job))
         TRY(elastic_clear(a->m.gpu, &a->elastic));
     if (!a->collapse.shot)
         TRY(solve(a, solved));
     if (a->elastic.iterations >= a->elastic.options.max_iterations)
         log_warn(
-            "frame %d: stress stopped after %d iterations with an error of %.2g (stress.max_iterations, stress.tolerance %.2g)",
+            "frame %d: the stress solver stopped after %d iterations with an error of %.2g, above stress.tolerance (%.2g); raise stress.max_iterations or stress.tolerance",
             a->m.frame, a->elastic.iterations, a->elastic.error, a->elastic.options.tolerance);
     TRY(find_rates(a));
 done:
     return st;
 }
 
-/* The longest step in which neither rock nor deposits lose more than they may, and no floor passes by those below it, kyr. */
-static double longest(const struct arenite *a, const struct erosion_pace *pace)
+/* kyr: the longest part of a step in which neither rock nor deposits lose more than they may, and no channel bed drops below its
+ * receiver. */
+static double longest_step(const struct arenite *a, const struct erosion_pace *pace)
 {
     const double rock = a->seeps ? SEEPING_STEP : ROCK_STEP;
     const double moved = fmin(rock / fmax(pace->rock, 1e-30), LOOSE_STEP / fmax(pace->loose, 1e-30));
     return fmin(a->m.h * moved, SLOPE_STEP / fmax(pace->slopes, 1e-30));
 }
 
-/* One of the equal parts of so many kyr that are no longer than `most`; but of no more of them than `least` goes into it. */
-static double part_of(double kyr, double least, double most)
+/* kyr: length of one of the equal parts into which `kyr` is divided so that they are at most `most` long, but not shorter than `least`. */
+static double part_length(double kyr, double least, double most)
 {
     return kyr > most ? kyr / ceil(kyr / fmax(least, most) - 1e-6) : kyr;
 }
 
-/* Where water, and what breaks off, runs in a step, and what water cuts, and how fast its `slopes` change. */
+/* Flow paths, and how much water incises; `slopes` receives how fast the slopes of channels change. */
 static status run_water(struct arenite *a, int step, struct gpu_buffer *slopes)
 {
     status st = OK;
@@ -326,7 +344,7 @@ done:
     return st;
 }
 
-/* A frame's edits: what they set and what they do to the rock. */
+/* Applies the frame's edits: the keys that they set, and what they carve, add and paint. */
 static status edit(struct arenite *a)
 {
     status st = OK;
@@ -347,40 +365,39 @@ static status edit(struct arenite *a)
     }
     if (kind == EDITS_ROCK) {
         if (a->particles.n_deep)
-            log_info("frame %d: an edit of the rock makes all of its %zu particles", a->m.frame,
+            log_info("frame %d: an edit of the rock needs particles everywhere: creating all %zu", a->m.frame,
                      a->particles.n + a->particles.n_deep);
-        TRY(arenite_bear(a, DUE_ALL, 0));
-        weigh(a, PROCESS_EDITS, false);
+        TRY(arenite_add_due(a, DUE_ALL, 0));
+        budget_before(a, PROCESS_EDITS);
         TRY(particles_download(a->m.gpu, &a->particles, STATE, &rock));
         TRY(edits_apply(a->m.whole, a->m.frame, &rock, &a->m.ledger, &a->m.start_volume));
         arenite_destroy_particles(a);
         TRY(arenite_create_particles(a, &rock));
-        weigh(a, PROCESS_EDITS, true);
+        budget_after(a, PROCESS_EDITS);
         TRY(arenite_count(a));
         if (!a->collapse.shot)
-            TRY(arenite_unsupported(a));
+            TRY(arenite_remove_unsupported(a));
     }
-    if (a->collapse.shot) /* from here on */
+    if (a->collapse.shot) /* a shot starts in this frame */
         TRY(collapse_load(a->m.gpu, &a->collapse, &a->particles));
-    TRY(arenite_settle(a, false));
+    TRY(arenite_update_derived(a, false));
 done:
     rock_free(&rock);
     return st;
 }
 
-/* What is to come of a step, kyr; and how far rock has gone since its stress was solved, spacings. */
+/* A step of erosion, which is divided into parts. */
 struct step {
-    double whole, left, moved;
-    double from; /* kyr since the first frame, when it began */
+    double whole, left; /* kyr: its length, and what remains of it */
+    double moved;       /* spacings that rock has lost since its stress was solved */
+    double from;        /* kyr from the first frame to the start of the step */
 };
 
-/* Wind and water on the surface, and the part of a step in which nothing goes too far under them, kyr. */
-static status press(struct arenite *a, int number, const struct step *s, struct erosion_pace *pace,
-                    double *kyr)
+/* Finds how strongly each process acts on the surface: a->erosion.intensity, and its parts by process. */
+static status find_intensity(struct arenite *a, int number, const struct step *s, struct gpu_buffer *slopes)
 {
     status st = OK;
     const struct job *job = a->m.job;
-    struct gpu_buffer *slopes = a->particles.taken;
     gpu_stage(a->m.gpu, "wind");
     TRY(wind_update(a->m.gpu, &a->wind, job, a->m.frame, &a->particles));
     wind_erode(a->m.gpu, &a->wind, job, a->m.frame, &a->particles, a->erosion.layers, a->erosion.intensity,
@@ -394,26 +411,33 @@ static status press(struct arenite *a, int number, const struct step *s, struct 
     if (sheeting_wanted(job))
         sheeting_press(a->m.gpu, job, s->from, s->whole, &a->particles, a->erosion.intensity,
                        a->erosion.parts);
-    TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, slopes, pace));
-    *kyr = part_of(s->left, s->whole / (double)job->erosion.parts, longest(a, pace));
-    if (a->plants)
-        plants_shield(a->m.gpu, job, &a->particles, a->erosion.intensity);
-    if (a->exposed)
-        skin_age(a->m.gpu, &a->skin, job, *kyr, a->erosion.intensity, &a->particles);
 done:
     return st;
 }
 
-/* A part of a step. Stress is solved anew at the step's end, and where rock has gone far or has fallen. */
-static status erode(struct arenite *a, int number, struct step *s)
+/* Plants and crust protect the surface for the `kyr` of a part. */
+static void protect(struct arenite *a, double kyr)
+{
+    if (a->plants)
+        plants_shield(a->m.gpu, a->m.job, &a->particles, a->erosion.intensity);
+    if (a->exposed)
+        skin_age(a->m.gpu, &a->skin, a->m.job, kyr, a->erosion.intensity, &a->particles);
+}
+
+/* One part of a step. The stress is solved again at the end of the step, and when much rock has gone or fallen. */
+static status erode_part(struct arenite *a, int number, struct step *s)
 {
     status st = OK;
     struct erosion_pace pace;
-    double kyr;
+    struct gpu_buffer *slopes = a->particles.taken;
     uint32_t n_eroded;
     bool changed;
     const uint64_t fallen = a->m.ledger.fallen;
-    TRY(press(a, number, s, &pace, &kyr));
+    TRY(find_intensity(a, number, s, slopes));
+    TRY(erosion_pace(a->m.gpu, a->m.work, &a->erosion, &a->particles, slopes, &pace));
+    const double kyr =
+        part_length(s->left, s->whole / (double)a->m.job->erosion.parts, longest_step(a, &pace));
+    protect(a, kyr);
     gpu_stage(a->m.gpu, "viability");
     TRY(erosion_weather(a->m.gpu, a->m.work, &a->erosion, kyr, &a->particles, a->skin.crust, &a->m.budget,
                         &n_eroded, &a->beyond));
@@ -422,11 +446,11 @@ static status erode(struct arenite *a, int number, struct step *s)
         skin_forget(a->m.gpu, &a->particles);
     TRY(remove_eroded(a, number, n_eroded, &changed));
     if (changed)
-        TRY(arenite_unsupported(a));
+        TRY(arenite_remove_unsupported(a));
     s->left -= kyr;
     s->moved += pace.rock * kyr / a->m.h;
     if (s->left <= 0 || s->moved > STRESS_STEP || a->m.ledger.fallen != fallen) {
-        TRY(arenite_settle(a, false));
+        TRY(arenite_update_derived(a, false));
         s->moved = 0;
     } else {
         TRY(find_surface(a));
@@ -436,7 +460,7 @@ done:
     return st;
 }
 
-/* The frame's years of wind, water and plants. */
+/* Simulates the frame's years of erosion. */
 static status weather(struct arenite *a)
 {
     status st = OK;
@@ -451,10 +475,10 @@ static status weather(struct arenite *a)
     }
     for (int i = 0; i < steps; i++)
         for (struct step s = {whole, whole, 0, began + i * whole}; s.left > 0 && a->particles.n > 0;)
-            TRY(erode(a, number++, &s));
+            TRY(erode_part(a, number++, &s));
     if (a->beyond >= pow(a->m.h, 3)) {
         log_warn(
-            "frame %d: %.3g m3 more would have gone of rock that a part of a step may not reach, more than %u spacings inside: lower erosion.max_step (%g), or raise erosion.parts (%d)",
+            "frame %d: %.3g m3 that should have eroded lie more than %u spacings inside the rock, where one part of a step does not reach; lower erosion.max_step (%g) or raise erosion.parts (%d)",
             a->m.frame, a->beyond, (unsigned)NEAR_REACH, job->erosion.max_step, (int)job->erosion.parts);
         a->beyond = 0;
     }
@@ -462,16 +486,16 @@ done:
     return st;
 }
 
-/* The frame's seconds of falling rock. */
+/* Simulates the frame's seconds of falling rock. */
 static status fall(struct arenite *a)
 {
     status st = OK;
     gpu_stage(a->m.gpu, "collapse");
-    weigh(a, PROCESS_COLLAPSE, false);
+    budget_before(a, PROCESS_COLLAPSE);
     TRY(collapse_frame(a->m.gpu, a->m.work, &a->collapse, a->m.job->clock.seconds_per_frame, &a->particles,
                        &a->m.ledger));
-    weigh(a, PROCESS_COLLAPSE, true);
-    TRY(arenite_settle(a, false));
+    budget_after(a, PROCESS_COLLAPSE);
+    TRY(arenite_update_derived(a, false));
 done:
     return st;
 }
@@ -488,7 +512,7 @@ done:
 
 /* ---- what a frame shows */
 
-/* Volume, and the largest stress at the surface. */
+/* Fills in the volume, and the largest stress at the surface. */
 static status measure(const struct arenite *a, const float *stress, const float *viability, struct frame *out)
 {
     status st = OK;
@@ -516,7 +540,7 @@ done:
     return st;
 }
 
-/* The same of a frame without its particles: what is measured comes over alone. */
+/* The same for a frame that has no particles: downloads only the two fields that are needed. */
 static status measure_alone(const struct arenite *a, struct frame *out)
 {
     const struct particles *p = &a->particles;
@@ -533,8 +557,8 @@ done:
     return st;
 }
 
-/* The discharge over the shape as it is now. One grid and one set of choices for all frames, so that streams
- * move only where the rock has changed. */
+/* Computes the discharge to show. The routing grid and its random choices are the same in all frames, so that streams move only where
+ * the rock has changed. */
 static status show_water(struct arenite *a)
 {
     status st = OK;
@@ -562,7 +586,7 @@ static status output(struct model *m, struct frame *out)
     if (wants.points || wants.volumes || wants.pictures)
         TRY(show_water(a));
     gpu_stage(m->gpu, "field");
-    m->field.whole = !arenite_rests(m->job);
+    m->field.whole = !arenite_uses_stress_grid(m->job);
     if (wants.volumes || wants.pictures)
         TRY(field_build(m->gpu, m->work, &m->field, &a->particles,
                         m->ledger.deposit ? m->job->deposition.repose_deg : 0));

@@ -1,4 +1,5 @@
-/* Arenite's state, between its frame (arenite.c) and how that state begins and lasts (arenite_state.c). */
+/* The state of arenite, shared by its frame (arenite.c), its start and checkpoints (arenite_state.c), its estimate (arenite_needs.c) and
+ * its rock without particles (arenite_deep.c). */
 #ifndef HOODOO_ARENITE_H
 #define HOODOO_ARENITE_H
 
@@ -16,17 +17,18 @@
 #include "water/water.h"
 #include "wind/wind.h"
 
-/* What its processes and solvers have on the device, a row each: PART(name, lasts, bytes, create).
- *   name    struct arenite has a member `struct name name`, which name_destroy() frees, finished or not
- *   lasts   LASTS_RUN: from the start on; LASTS_JOB: from the first rock on, and it is made anew where edits change the job;
- *           LASTS_ROCK: as long as the particles, which edits may replace
- *   bytes   of a job with room for n particles, of a rock that would have `all`, `bare` of them at the surface and `ends` at the
- *           ends of rows along x, in so many voxels, its edits included; 0: it has no need of it
- *   create  makes it in *a, for a->m.job; OK: that has no need of it, or it is made when it is first used
+/* The data of processes and solvers on the device, one row each: PART(name, lasts, bytes, create).
+ *   name    struct arenite gets a member `struct name name`, which name_destroy() frees, also if it was created only in part
+ *   lasts   LASTS_RUN: for the whole run. LASTS_JOB: from the first rock on; recreated when edits change the job. LASTS_ROCK: as long
+ *           as the particles, which edits may replace
+ *   bytes   estimate for a job (with its edits) with capacity for n particles, whose rock would have `all` particles, `bare` at the
+ *           surface and `ends` at ends of rows along x, in a domain of `voxels`; 0 if the job does not need it
+ *   create  creates it in *a for a->m.job; OK if the job does not need it, or if it is created when first used
  */
 #define ARENITE_PARTS(PART)                                                                                  \
     PART(maps, LASTS_RUN, maps_bytes(job, voxels), maps_create(a->m.gpu, a->m.whole, a->m.voxels, &a->maps)) \
-    PART(elastic, LASTS_RUN, arenite_ever(job, arenite_rests) ? elastic_bytes(voxels, all, bare, ends) : 0,  \
+    PART(elastic, LASTS_RUN,                                                                                 \
+         arenite_ever(job, arenite_uses_stress_grid) ? elastic_bytes(voxels, all, bare, ends) : 0,           \
          elastic_create(a->m.gpu, a->m.voxels, a->m.h,                                                       \
                         (const struct elastic_options[]){elastic_options(a->m.job, a->maps.stiff)},          \
                         &a->elastic))                                                                        \
@@ -56,16 +58,15 @@ enum lasts { LASTS_RUN, LASTS_JOB, LASTS_ROCK };
 struct arenite {
     struct model m; /* shared by all models */
     struct particles particles;
-    struct scene_source *source; /* of the rock that has no particles yet; NULL: all has */
+    struct scene_source *source; /* makes particles of deep rock; NULL if all rock has particles */
 #define PART(name, lasts, bytes, create) struct name name;
     ARENITE_PARTS(PART)
 #undef PART
-    double
-        beyond; /* m3 that steps would have taken farther in than they may, and nobody has been told of yet */
-    bool deposits, plants; /* does the run ever have any? */
-    bool exposed;          /* does its rock keep how long it has been bare? */
-    bool seeps;            /* does the run ever have groundwater? */
-    struct pile_tile tile; /* of rocks to show on deposits */
+    double beyond;         /* m3 that steps should have eroded but could not reach; not reported yet */
+    bool deposits, plants; /* the run may have them */
+    bool exposed;          /* particles store for how long they have been exposed */
+    bool seeps;            /* the run may have groundwater */
+    struct pile_tile tile; /* of rocks shown on deposits */
 };
 
 static inline struct arenite *arenite_of(struct model *m)
@@ -75,36 +76,36 @@ static inline struct arenite *arenite_of(struct model *m)
 
 /* ---- stages of a frame */
 
-/* What the particles are now: rock, deposits, blocks on their way. Waits. */
+/* Counts the particles into the ledger: rock, deposits, falling blocks. Waits. */
 MUST_USE status arenite_count(struct arenite *a);
 
-/* Takes out, or lets fall, what no path joins to the ground. Waits. */
-MUST_USE status arenite_unsupported(struct arenite *a);
+/* Removes blocks that no path of rock joins to the ground, or lets them fall. Waits. */
+MUST_USE status arenite_remove_unsupported(struct arenite *a);
 
-/* What follows from the shape: surface, normals, stress, erodibility. `solved`: the displacement is this shape's
- * already. Rock in motion has its stress. Waits. */
-MUST_USE status arenite_settle(struct arenite *a, bool solved);
+/* Updates the quantities derived from the shape: surface, normals, stress, erodibility. `solved`: the displacement is the solution for this
+ * shape already. In shots the stress is that of the material points. Waits. */
+MUST_USE status arenite_update_derived(struct arenite *a, bool solved);
 
-/* All faces have been bare for as long as the job says when it begins. Waits. */
-MUST_USE status arenite_age_before(struct arenite *a);
+/* Sets the time for which all faces have been exposed at the start, as the job gives it. Waits. */
+MUST_USE status arenite_set_start_age(struct arenite *a);
 
 /* ---- its state */
 
-/* What depends on the number of particles. */
+/* Create and destroy the particles and the parts with LASTS_ROCK. */
 MUST_USE status arenite_create_particles(struct arenite *a, const struct rock *rock);
 void arenite_destroy_particles(struct arenite *a);
 
-/* The parts that last so long, but for those of rock: the two above have them. */
+/* Create and destroy the parts with that lifetime (for LASTS_ROCK use the two above). */
 MUST_USE status arenite_create_parts(struct arenite *a, enum lasts lasts);
 void arenite_destroy_parts(struct arenite *a, enum lasts lasts);
 
-/* Does the stress grid find its stress? Rock in motion has its own, and so do material points at rest. */
-bool arenite_rests(const struct job *job);
+/* Whether stress is computed on the stress grid. Shots and the mpm stress solver compute it with material points. */
+bool arenite_uses_stress_grid(const struct job *job);
 
-/* Does the job want that, now or once edited? */
+/* Whether `wanted` holds for the job or for the job after one of its edits. */
 bool arenite_ever(const struct job *job, bool (*wanted)(const struct job *));
 
-/* struct model_type's. */
+/* The functions of struct model_type. */
 MUST_USE status arenite_estimate(const struct job *job, struct model_needs *needs);
 size_t arenite_work_items(const struct job *job, const int voxels[3]);
 MUST_USE status arenite_create(struct model *m);
@@ -115,7 +116,7 @@ MUST_USE status arenite_save(struct model *m, struct checkpoint *out);
 void arenite_watch(const struct model *m, struct watch_list *list);
 void arenite_destroy(struct model *m);
 
-/* Which values frames have (HAS_* of values.h) with these. The wind adds its own. */
+/* The values that frames have (HAS_* of values.h), with these processes. The wind's is added separately. */
 unsigned arenite_has(const struct job *job, bool water, bool plants, bool deposits, bool exposed);
 
 #endif

@@ -1,4 +1,4 @@
-/* Arenite's rock that has no particles yet: when they come, and how it lasts in checkpoints. */
+/* Deep rock without particles: creating them when they are due, showing it in frames, and saving it in checkpoints. */
 #include "model/arenite_deep.h"
 
 #include <math.h>
@@ -23,16 +23,16 @@ bool arenite_may_be_deep(const struct job *job)
     return !all;
 }
 
-/* Words of bits for the domain's voxels. */
+/* Allocates one bit per voxel of the domain. */
 static status alloc_bits(const struct arenite *a, uint32_t **bits)
 {
     return memory_alloc(held_words(a->m.voxels), sizeof **bits, "bits of voxels", bits);
 }
 
-/* ---- births */
+/* ---- creating particles */
 
-/* Room for `more` particles. What depends on their number is made anew where there is not enough: nothing of it lasts. */
-static status make_room(struct arenite *a, size_t more)
+/* Ensures capacity for `more` particles. If it must grow, the parts that depend on it are recreated; none of them holds state. */
+static status reserve_particles(struct arenite *a, size_t more)
 {
     status st = OK;
     const size_t n = a->particles.n + more;
@@ -47,8 +47,9 @@ done:
     return st;
 }
 
-/* What the rock's particles would have had since stress was solved last: between solves it goes with them. */
-static status know_stress(struct arenite *a, struct rock *rock)
+/* Sets the stress of new particles to what they would have had since the last solution, because between solutions stress moves with
+ * particles. */
+static status find_stress(struct arenite *a, struct rock *rock)
 {
     status st = OK;
     struct stress_places places = {0};
@@ -66,7 +67,7 @@ done:
     return st;
 }
 
-status arenite_bear(struct arenite *a, enum particles_due what, size_t n)
+status arenite_add_due(struct arenite *a, enum particles_due what, size_t n)
 {
     status st = OK;
     struct particles *p = &a->particles;
@@ -79,8 +80,8 @@ status arenite_bear(struct arenite *a, enum particles_due what, size_t n)
     if (n == 0)
         goto done;
     TRY(scene_source_make(a->source, bits, NULL, &rock));
-    TRY(know_stress(a, &rock));
-    TRY(make_room(a, rock.n));
+    TRY(find_stress(a, &rock));
+    TRY(reserve_particles(a, rock.n));
     TRY(particles_add(a->m.gpu, a->m.work, p, &rock));
 done:
     free(bits);
@@ -113,12 +114,12 @@ done:
 
 /* ---- frames that show all rock */
 
-/* What erodibility follows from beside the stress; and the derived values. */
+/* The fields from which erodibility is computed, besides stress; and the derived fields. */
 static const enum rock_field given[] = {ROCK_layer, ROCK_phase, ROCK_rate_factor, ROCK_interlock_factor},
                              derived[DEEP_VALUES] = {ROCK_stress, ROCK_von_mises, ROCK_erodibility};
 enum { GIVEN = sizeof given / sizeof *given };
 
-/* As they are shown: plants live on the surface. */
+/* Deep particles as they are shown: without plants, which live on the surface. */
 static status make_deep(const void *source, const uint32_t *bits, struct rock *out)
 {
     const status st = scene_source_make(source, bits, NULL, out);
@@ -127,7 +128,7 @@ static status make_deep(const void *source, const uint32_t *bits, struct rock *o
     return st;
 }
 
-/* The derived values of some particles go to those of deep voxels, from number `first` on. */
+/* Computes the derived values of the particles `from` and stores them for the deep voxels from number `first` on. */
 static status derive(struct arenite *a, struct stress_places *places, const struct rock *from, size_t first,
                      struct frame_deep *deep)
 {
@@ -143,7 +144,8 @@ done:
     return st;
 }
 
-/* Into `some`, of all bits the next words with PLACES_MOST voxels at most, or a word; *word is the first, and becomes the next. */
+/* Copies the next words of bits that have at most PLACES_MOST voxels together, at least one word, to `some`. *word is the first word, and
+ * is advanced behind the last. */
 static void take_words(const uint32_t *bits, size_t words, size_t *word, uint32_t *some)
 {
     size_t n = 0;
@@ -154,7 +156,7 @@ static void take_words(const uint32_t *bits, size_t words, size_t *word, uint32_
     }
 }
 
-/* Room for what `given` has, and for what follows from it. */
+/* Creates the fields of `given`, and erodibility. */
 static status add_fields(struct gpu *gpu, struct particles *some)
 {
     status st = OK;
@@ -218,7 +220,7 @@ done:
 
 /* ---- checkpoints */
 
-/* Bits of the deep voxels, and what their scene was: a few of its particles, three numbers each. */
+/* The bits of the deep voxels, and a fingerprint of their scene: its hash, and three numbers of each of a few particles. */
 static const char deep_bits[] = "deep", deep_voxels[] = "deep voxels", deep_scene[] = "deep scene";
 enum { FEW_NUMBERS = 3 };
 
@@ -251,22 +253,22 @@ done:
     return st;
 }
 
-/* The job's rock is that of the checkpoint, where this has no particles of it. */
+/* Checks that the job's scene has the deep rock of the checkpoint. */
 static status check_scene(const struct arenite *a, const struct checkpoint *c)
 {
     status st = OK;
     struct rock few = {0};
     const void *data;
     const char *differs = NULL;
-    TRY(section_take(c, &(struct section_rule){deep_voxels, SECTION_INTEGER, 1, 1, {SECTION_ALL}}, &data,
-                     NULL));
+    TRY(section_get(c, &(struct section_rule){deep_voxels, SECTION_INTEGER, 1, 1, {SECTION_ALL}}, &data,
+                    NULL));
     if (*(const uint64_t *)data != scene_source_hash(a->source))
         differs = "shape";
     TRY(scene_source_few(a->source, &few));
     const struct section_rule rule = {
         deep_scene, SECTION_FLOAT, SECTION_ANY, FEW_NUMBERS, {SECTION_ALL, SECTION_ALL, SECTION_ALL}};
     size_t n;
-    TRY(section_take(c, &rule, &data, &n));
+    TRY(section_get(c, &rule, &data, &n));
     for (size_t i = 0; i < few.n && !differs && n == FEW_NUMBERS * few.n; i++) {
         float own[FEW_NUMBERS];
         static const char *const names[FEW_NUMBERS] = {"strata", "noise, structure or painted rates",
@@ -282,14 +284,14 @@ static status check_scene(const struct arenite *a, const struct checkpoint *c)
     if (differs)
         st = fail(
             E_CHECKPOINT,
-            "the checkpoint of frame %d leaves rock to its job's scene that no weather has reached, and this job's differs in its %s: branch from a run with domain.particles: all",
+            "the checkpoint of frame %d has rock deep inside that is still to be made from its job's scene, and this job's scene differs in its %s; branch from a run with domain.particles: all",
             c->frame, differs);
 done:
     rock_free(&few);
     return st;
 }
 
-/* Deep voxels are full rock, in the domain, of particles that are not there. */
+/* Checks that the deep voxels are full rock of the scene and that no particle exists with one of their ids. */
 static status check_bits(const struct arenite *a, const struct checkpoint *c, const uint32_t *bits, size_t n,
                          struct idset *ids)
 {
@@ -337,13 +339,13 @@ status arenite_restore_deep(struct arenite *a, const struct checkpoint *c, struc
     const void *bits;
     if (!checkpoint_find(c, deep_bits, 4))
         return OK;
-    TRY(section_take(c, &rule, &bits, NULL));
+    TRY(section_get(c, &rule, &bits, NULL));
     TRY(scene_source_create(a->m.whole, &a->source));
     TRY(check_scene(a, c));
     TRY(check_bits(a, c, bits, n, ids));
     TRY(particles_set_deep(a->m.gpu, a->m.work, &a->particles, bits, n));
     if (!arenite_may_be_deep(a->m.whole))
-        TRY(arenite_bear(a, DUE_ALL, 0));
+        TRY(arenite_add_due(a, DUE_ALL, 0));
 done:
     return st;
 }

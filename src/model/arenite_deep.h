@@ -1,25 +1,25 @@
-/* Arenite's rock that no weather has come near: it has no particles yet (particles/deep.h). */
+/* Rock of arenite that is still deep inside and therefore has no particles yet (particles/deep.h): only a bit per voxel. */
 #ifndef HOODOO_ARENITE_DEEP_H
 #define HOODOO_ARENITE_DEEP_H
 
 #include "model/arenite.h"
 
-/* May a job's rock be without particles? Not where all of it moves, is looked at as material points, or is parted by joints. */
+/* Whether rock of this job may be without particles. It may not in shots, with the mpm stress solver, or if joints divide it. */
 bool arenite_may_be_deep(const struct job *job);
 
-/* The first rock: particles of what has to have some, and bits of the voxels of all other, *n_deep of them; NULL: there are none. The
- * caller frees both. */
+/* Makes the job's first rock: particles near the surface, and the bits of the *n_deep voxels without particles (*deep is NULL if all
+ * rock has particles). The caller frees both. */
 MUST_USE status arenite_first_rock(struct arenite *a, struct rock *rock, uint32_t **deep, size_t *n_deep);
 
-/* Particles come to be where they are due; `n` is the number of the chosen ones, such as blocks_find() has found to be cut off. The
- * DERIVED fields are stale where any have come. Waits. */
-MUST_USE status arenite_bear(struct arenite *a, enum particles_due what, size_t n);
+/* Creates particles in deep voxels where they have become due: near the surface, everywhere, or in the n voxels that were marked, such as
+ * those that blocks_find() found cut off. If any are created, the DERIVED fields are stale. Waits. */
+MUST_USE status arenite_add_due(struct arenite *a, enum particles_due what, size_t n);
 
-/* What a frame shows of the rock that has no particles; the frame's to free, finished or not. The stress must be current. Waits. */
+/* Makes what a frame shows of the rock without particles; the frame owns it, also on error. The stress must be current. Waits. */
 MUST_USE status arenite_show_deep(struct arenite *a, struct frame_deep *out);
 
-/* Its sections of a checkpoint. Restoring follows the particles', whose ids are in *ids. E_CHECKPOINT: damaged, or of another
- * scene. */
+/* Its sections of a checkpoint. The particles, whose ids are in *ids, must be restored before. E_CHECKPOINT: the sections are damaged, or
+ * made from another scene. */
 MUST_USE status arenite_save_deep(struct arenite *a, struct checkpoint *out);
 size_t arenite_deep_count(const struct arenite *a, const struct checkpoint *c);
 MUST_USE status arenite_restore_deep(struct arenite *a, const struct checkpoint *c, struct idset *ids);

@@ -1,4 +1,4 @@
-/* What a job of arenite's takes, before anything is allocated. */
+/* The estimate of memory, disk and steps that a job of arenite needs. */
 #include "frame/host.h"
 #include "model/arenite_deep.h"
 #include "model/edits.h"
@@ -13,7 +13,7 @@ bool arenite_ever(const struct job *job, bool (*wanted)(const struct job *))
     return any;
 }
 
-bool arenite_rests(const struct job *job)
+bool arenite_uses_stress_grid(const struct job *job)
 {
     return !collapse_shot(job) && job->stress.solver != STRESS_MPM;
 }
@@ -26,7 +26,8 @@ size_t arenite_work_items(const struct job *job, const int voxels[3])
     return most > stress ? most : stress;
 }
 
-_Static_assert(SCENE_NEAR == NEAR_REACH + 1 + NEAR_AHEAD, "the scene's estimate is of what gets particles");
+_Static_assert(SCENE_NEAR == NEAR_REACH + 1 + NEAR_AHEAD,
+               "the estimate counts the voxels that get particles");
 
 static uint64_t device_bytes(const struct job *job, const int voxels[3], const struct scene_size *size,
                              size_t n)
@@ -63,10 +64,10 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     if (arenite_may_be_deep(job))
         needs->size.n_kept = needs->size.n_near;
     const size_t n = needs->size.n_kept;
-    needs->room = n < needs->size.n_particles ? particles_room_for(n) : n;
+    needs->capacity = n < needs->size.n_particles ? particles_room_for(n) : n;
     const unsigned has = arenite_has(job, water_ever_flows(job), plants_wanted(job) || edits_plant(job),
                                      arenite_ever(job, deposit_wanted), job_keeps_exposed(job));
-    needs->device_bytes = device_bytes(job, needs->voxels, &needs->size, needs->room);
+    needs->device_bytes = device_bytes(job, needs->voxels, &needs->size, needs->capacity);
     needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     const uint64_t ages = job_keeps_exposed(job) ? n : 0;
     needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * needs->samples * sizeof(float) +

@@ -1,4 +1,4 @@
-/* How arenite's state begins, and what lasts of it in checkpoints. */
+/* How the state of arenite is created, saved and restored. */
 #include "model/arenite.h"
 
 #include <float.h>
@@ -62,7 +62,7 @@ void arenite_destroy_particles(struct arenite *a)
 
 /* ---- checkpoints */
 
-/* What the displacement depends on beside the rock's shape. */
+/* What the displacement depends on besides the shape of the rock. */
 enum { ELASTICITY = 5 };
 
 static void elasticity(const struct arenite *a, double out[ELASTICITY])
@@ -72,10 +72,10 @@ static void elasticity(const struct arenite *a, double out[ELASTICITY])
     memcpy(out, numbers, sizeof numbers);
 }
 
-/* Of the nodes that move, four numbers each. (0.1.0 wrote the whole grid's as `displacement`, which is not read.) */
+/* Four numbers for each node that can move. (Version 0.1.0 wrote the whole grid as `displacement`, which is not read.) */
 static const char displacements[] = "displacements";
 
-/* Deposits' stiffness, which the displacement depends on, too. (0.1.0 had none; the stress is solved anew.) */
+/* The stiffness of deposits, on which the displacement depends as well. (Version 0.1.0 did not have it; then the stress is solved again.) */
 static const char loose_ground[] = "loose ground";
 
 status arenite_save(struct model *m, struct checkpoint *out)
@@ -87,7 +87,7 @@ status arenite_save(struct model *m, struct checkpoint *out)
     for (int f = 0; f < ROCK_FIELDS; f++) {
         if (rock_field_table[f].keep != STATE || !a->particles.field[f])
             continue;
-        /* Shuffled by float, whatever the field's width. */
+        /* Always items of four bytes, so that the shuffle works on floats. */
         TRY(section_add(out, rock_field_table[f].name, 4, n * (size_t)rock_field_table[f].components, &data));
         TRY(gpu_download(a->m.gpu, a->particles.field[f], 0, data, n));
     }
@@ -113,20 +113,20 @@ done:
     return st;
 }
 
-/* All that the first frame needs beside its rock. */
-static status arrive(struct arenite *a, bool solved)
+/* Creates what the first frame needs besides its rock. */
+static status prepare_first_frame(struct arenite *a, bool solved)
 {
     status st = OK;
     TRY(arenite_create_parts(a, LASTS_JOB));
-    TRY(arenite_settle(a, solved));
+    TRY(arenite_update_derived(a, solved));
 done:
     return st;
 }
 
-/* What a field can be. Those that are not here can be any finite number. */
+/* Sets the range of a field; fields that are not listed may have any finite number. */
 static void set_range(const struct model *m, int f, struct section_rule *rule)
 {
-    static const double factor = 1e12; /* paints multiply, and may do so often */
+    static const double factor = 1e12; /* repeated painting multiplies factors */
     static const double known[ROCK_FIELDS][2] = {
         [ROCK_id] = {0, UINT32_MAX},           [ROCK_viability] = {0, 1},
         [ROCK_phase] = {0, PHASE_FALLING},     [ROCK_rate_factor] = {0, factor},
@@ -141,7 +141,7 @@ static void set_range(const struct model *m, int f, struct section_rule *rule)
         section_place(rule->range, m->voxels, m->h);
 }
 
-/* The ledger counts particles that there are, and ids are of particles that there were at some time. */
+/* Checks that the ledger counts the particles that exist, and that ids are below the number of particles that ever existed. */
 static status check_rock(const struct model *m, const struct checkpoint *c, const struct rock *rock,
                          size_t n_deep, struct idset *ids)
 {
@@ -153,7 +153,7 @@ static status check_rock(const struct model *m, const struct checkpoint *c, cons
     if (l->rock + l->deposit + falling != rock->n + n_deep || l->fallen < falling)
         return fail(
             E_CHECKPOINT,
-            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock, %llu deposited and %llu fallen, and there are %zu particles, %zu of them falling, and %zu voxels of rock beside",
+            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu of rock, %llu deposited and %llu fallen, but there are %zu particles, %zu of them falling, and %zu voxels of rock without particles",
             c->frame, (unsigned long long)l->rock, (unsigned long long)l->deposit,
             (unsigned long long)l->fallen, rock->n, falling, n_deep);
     TRY(section_check_ids(c, "id", rock->id, rock->n, l->start, ids));
@@ -161,7 +161,7 @@ done:
     return st;
 }
 
-/* The STATE fields, borrowed from the checkpoint: they are not to be freed. `ids` becomes the particles'. */
+/* The STATE fields, borrowed from the checkpoint, which must not be freed. *ids receives the particles' ids. */
 static status restore_rock(const struct model *m, const struct checkpoint *c, struct rock *rock,
                            size_t n_deep, struct idset *ids)
 {
@@ -174,12 +174,12 @@ static status restore_rock(const struct model *m, const struct checkpoint *c, st
         struct section_rule rule = {
             info->name, info->is_float ? SECTION_FLOAT : SECTION_WORD, stride * rock->n, stride, {{0}}};
         const void *data;
-        /* A branch may begin to keep what its run did not, and leave what it no longer keeps. */
+        /* A branch may start to store exposure although its run did not, or no longer store it. */
         if (info->keep != STATE ||
             (f == ROCK_exposed_kyr && (!job_keeps_exposed(m->whole) || !checkpoint_find(c, info->name, 4))))
             continue;
         set_range(m, f, &rule);
-        TRY(section_take(c, &rule, &data, NULL));
+        TRY(section_get(c, &rule, &data, NULL));
         rock->field[f] = (void *)(uintptr_t)data;
     }
     TRY(check_rock(m, c, rock, n_deep, ids));
@@ -187,15 +187,15 @@ done:
     return st;
 }
 
-/* Beyond, numbers mean nothing. */
+/* Larger numbers are damage. */
 enum { MOST_ITERATIONS = 1000000000, MOST_MOVED = 1000000000 /* m */ };
 
-/* Those of the particles' shape. There are none where the stress came otherwise; it is solved from nothing then. */
+/* Restores the displacements of the present shape. If the stress was computed otherwise, there are none, and it is solved from zero. */
 static status restore_displacements(struct arenite *a, const struct checkpoint *c, bool *solved)
 {
     status st = OK;
     const void *data;
-    if (!arenite_rests(a->m.job))
+    if (!arenite_uses_stress_grid(a->m.job))
         return OK;
     TRY(elastic_assemble(a->m.gpu, a->m.work, &a->elastic, &a->particles));
     const size_t n = a->elastic.lattice.n_active;
@@ -203,13 +203,13 @@ static status restore_displacements(struct arenite *a, const struct checkpoint *
     *solved &= checkpoint_find(c, displacements, 4) != NULL;
     if (!checkpoint_find(c, displacements, 4))
         return OK;
-    TRY(section_take(c, &rule, &data, NULL));
+    TRY(section_get(c, &rule, &data, NULL));
     TRY(elastic_upload(a->m.gpu, &a->elastic, data));
 done:
     return st;
 }
 
-/* The displacement is a solution unless a branch has changed what it depends on. */
+/* The restored displacement is the solution, unless a branch has changed what it depends on. */
 static status restore_stress(struct arenite *a, const struct checkpoint *c, bool *solved)
 {
     status st = OK;
@@ -222,14 +222,14 @@ static status restore_stress(struct arenite *a, const struct checkpoint *c, bool
     const void *data;
     double now[ELASTICITY];
     elasticity(a, now);
-    TRY(section_take(c, &constants, &data, NULL));
+    TRY(section_get(c, &constants, &data, NULL));
     *solved = memcmp(data, now, sizeof now) == 0 && checkpoint_find(c, loose_ground, 8) != NULL;
     if (*solved) {
-        TRY(section_take(c, &(struct section_rule){loose_ground, SECTION_DOUBLE, 1, 1, {{0, 1}}}, &data,
-                         NULL));
+        TRY(section_get(c, &(struct section_rule){loose_ground, SECTION_DOUBLE, 1, 1, {{0, 1}}}, &data,
+                        NULL));
         *solved = memcmp(data, &a->elastic.options.loose, sizeof(double)) == 0;
     }
-    TRY(section_take(c, &number, &data, NULL));
+    TRY(section_get(c, &number, &data, NULL));
     memcpy(&a->elastic.iterations, data, 4);
     TRY(restore_displacements(a, c, solved));
 done:
@@ -245,7 +245,7 @@ status arenite_restore(struct model *m, const struct checkpoint *c)
     const void *data;
     bool solved;
     TRY(restore_rock(m, c, &rock, arenite_deep_count(a, c), &ids));
-    TRY(section_take(c, &(struct section_rule){"processes", SECTION_DOUBLE, 2, 1, {{0, 1}}}, &data, NULL));
+    TRY(section_get(c, &(struct section_rule){"processes", SECTION_DOUBLE, 2, 1, {{0, 1}}}, &data, NULL));
     a->deposits |= ((const double *)data)[0] != 0;
     a->plants |= ((const double *)data)[1] != 0;
     if (a->wind.flows)
@@ -253,12 +253,12 @@ status arenite_restore(struct model *m, const struct checkpoint *c)
     TRY(arenite_create_particles(a, &rock));
     TRY(arenite_restore_deep(a, c, &ids));
     TRY(restore_stress(a, c, &solved));
-    /* A shot may begin where years have passed. */
+    /* If the checkpoint is not from a shot, a shot starts here. */
     if (a->collapse.shot && checkpoint_find(c, mpm_word_names[MPM_ID], 4))
         TRY(collapse_restore(m->gpu, &a->collapse, &a->particles, c, &ids));
     else if (a->collapse.shot)
         TRY(collapse_load(m->gpu, &a->collapse, &a->particles));
-    TRY(arrive(a, solved));
+    TRY(prepare_first_frame(a, solved));
 done:
     idset_free(&ids);
     return st;
@@ -295,21 +295,22 @@ status arenite_begin(struct model *m)
     TRY(arenite_create_particles(a, &rock));
     if (n_deep)
         TRY(particles_set_deep(m->gpu, m->work, &a->particles, deep, n_deep));
-    TRY(arenite_bear(a, DUE_NEAR, 0));
+    TRY(arenite_add_due(a, DUE_NEAR, 0));
     TRY(arenite_count(a));
     if (a->collapse.shot)
         TRY(collapse_load(m->gpu, &a->collapse, &a->particles));
     else
-        TRY(arenite_unsupported(a));
+        TRY(arenite_remove_unsupported(a));
     const double lowest = lowest_of(m, &rock, deep);
     rock_free(&rock);
     TRY(particles_download(m->gpu, &a->particles, STATE, &rock));
     if (!a->blocks.rubble)
-        TRY(model_check_stands(m, lowest, a->particles.n_deep > 0 || lowest_of(m, &rock, NULL) < HUGE_VAL));
+        TRY(model_check_supported(m, lowest,
+                                  a->particles.n_deep > 0 || lowest_of(m, &rock, NULL) < HUGE_VAL));
     if (a->exposed)
-        TRY(arenite_age_before(a));
+        TRY(arenite_set_start_age(a));
     m->start_volume = (model_sum(rock.viability, rock.n) + (double)a->particles.n_deep) * pow(m->h, 3);
-    TRY(arrive(a, false));
+    TRY(prepare_first_frame(a, false));
 done:
     free(deep);
     rock_free(&rock);

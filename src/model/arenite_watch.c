@@ -1,5 +1,5 @@
-/* What of arenite's numbers lasts from stage to stage beside its particles: the displacement and its stress, the air, rock in motion, and
- * how hard wind and water press until the rock yields to them. */
+/* The arrays of arenite that outlive a stage, besides its particles: the displacement and its stress, the air, material points, and the
+ * intensity of erosion. */
 #include <string.h>
 
 #include "model/arenite.h"
@@ -31,7 +31,7 @@ void arenite_watch(const struct model *m, struct watch_list *list)
         watch_add(list, "normal stress", e->normal_stress, gpu_buffer_count(e->normal_stress));
         watch_add(list, "shear stress", e->shear_stress, gpu_buffer_count(e->shear_stress));
     }
-    /* The next stage takes it; after that it is scratch. */
+    /* The next stage reads it; afterwards it is scratch memory. */
     if (strcmp(list->stage, "wind") == 0 || strcmp(list->stage, "water") == 0)
         watch_add(list, "intensity", a->erosion.intensity, a->particles.n_surface);
     if (a->wind.flows && watch_between(list, "wind", "wind"))

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "model/sections.h"
 
-/* Particles that two cells hold: a body of fewer has no shape that material points could keep. */
+/* Particles in two grid cells. Material points cannot represent the shape of a smaller body. */
 static const double BODY = 16;
 
 bool collapse_shot(const struct job *job)
@@ -23,7 +23,7 @@ bool collapse_wanted(const struct job *job)
 
 uint64_t collapse_checkpoint_bytes(const struct job *job, size_t n)
 {
-    /* Half of it compresses away: the fourth of four, and what rests. */
+    /* About half is saved by compression: the unused fourth components, and points at rest. */
     return collapse_shot(job) ? (uint64_t)n * (MPM_VECTORS * 16 + MPM_ORIGIN * 4) / 2 : 0;
 }
 
@@ -34,7 +34,7 @@ uint64_t collapse_bytes(const struct job *job, size_t n, const int voxels[3])
                : 0;
 }
 
-/* One more than the largest id. */
+/* *n: the largest id plus 1. */
 static status count_ids(struct gpu *gpu, const struct particles *p, size_t *n)
 {
     status st = OK;
@@ -121,7 +121,7 @@ done:
 status collapse_load(struct gpu *gpu, struct collapse *c, struct particles *p)
 {
     struct count_params all = {(uint)p->n};
-    /* Loading takes viability out of p; the scratch of the surface is free here. */
+    /* Loading removes viability from p, so a copy is kept in scratch memory. */
     GPU_RUN(gpu, gpu_iota, p->n, all, p->flags);
     gpu_copy(gpu, c->mpm.speed, p->field[ROCK_viability], p->n);
     mpm_load(gpu, &c->mpm, p, p->flags, p->n);
@@ -140,7 +140,7 @@ status collapse_frame(struct gpu *gpu, struct gpu_work *work, struct collapse *c
     mpm_store(gpu, &c->mpm, p, true);
     TRY(particles_index(gpu, work, p));
     mpm_follow(gpu, &c->mpm, p, c->table);
-    mpm_store(gpu, &c->mpm, p, true); /* what indexing does not carry along: velocity and stress */
+    mpm_store(gpu, &c->mpm, p, true); /* velocity and stress, which indexing does not move along */
     ledger->left += before - p->n;
     TRY(collapse_count(gpu, p, ledger));
 done:
@@ -166,10 +166,10 @@ done:
     return st;
 }
 
-/* No rock moves faster, spins or is strained more, or is stronger: beyond, numbers mean nothing. */
+/* The largest speed, spin, strain and strength; larger numbers are damage. */
 static const double SPEED = 1e4, SPIN = 1e9, STRAIN = 1e4, STRENGTH = 1e15;
 
-/* Four ranges of a vector whose last is another's component. */
+/* Sets the four ranges of a vector whose last component belongs to another quantity. */
 static void set_ranges(struct section_rule *rule, double most, double last)
 {
     for (int a = 0; a < 4; a++) {
@@ -188,7 +188,7 @@ static status take_vector(const struct checkpoint *from, const struct particles 
         rule.range[3][1] = STRAIN;
         rule.range[3][0] = -STRAIN;
     }
-    return section_take(from, &rule, data, NULL);
+    return section_get(from, &rule, data, NULL);
 }
 
 static status take_word(const struct checkpoint *from, const struct particles *p, int w, const void **data)
@@ -197,7 +197,7 @@ static status take_word(const struct checkpoint *from, const struct particles *p
         enum section_kind kind;
         double range[2];
     } known[MPM_ORIGIN] = {
-        [MPM_SHARE] = {SECTION_FLOAT, {FLT_TRUE_MIN, 1}}, /* what nothing is left of is taken out before */
+        [MPM_SHARE] = {SECTION_FLOAT, {FLT_TRUE_MIN, 1}}, /* empty points were removed before saving */
         [MPM_APART] = {SECTION_FLOAT, {(double)MPM_WHOLE, SPIN}},
         [MPM_STRENGTH] = {SECTION_FLOAT, {0, STRENGTH}},
         [MPM_ID] = {SECTION_WORD, SECTION_ALL},
@@ -206,10 +206,10 @@ static status take_word(const struct checkpoint *from, const struct particles *p
     };
     struct section_rule rule = {
         mpm_word_names[w], known[w].kind, p->n, 1, {{known[w].range[0], known[w].range[1]}}};
-    return section_take(from, &rule, data, NULL);
+    return section_get(from, &rule, data, NULL);
 }
 
-/* A point for each particle, by id; and pieces and joints as this job has them. */
+/* Checks that points and particles correspond by id, and that this job has their pieces and joints. */
 static status check_points(const struct checkpoint *from, const struct mpm *m, struct idset *ids,
                            const void *const word[MPM_ORIGIN])
 {
@@ -217,15 +217,17 @@ static status check_points(const struct checkpoint *from, const struct mpm *m, s
     for (size_t i = 0; i < m->n; i++) {
         if (!idset_take(ids, id[i]))
             return section_refuse(from, mpm_word_names[MPM_ID], i,
-                                  "is %u, which no particle or another point is", (unsigned)id[i]);
+                                  "is %u, which is not the id of a particle, or another point has it",
+                                  (unsigned)id[i]);
         if (!mpm_piece_fits(m, piece[i]))
             return section_refuse(from, mpm_word_names[MPM_PIECE], i,
-                                  "is %u: this job's collapse.joints_m makes no such piece",
+                                  "is %u, but this job's collapse.joints_m does not make such a piece",
                                   (unsigned)piece[i]);
         if (!mpm_joint_fits(m, piece[i], joint[i]))
-            return section_refuse(from, mpm_word_names[MPM_JOINT], i,
-                                  "is %u: with this job's collapse.joints_m, piece %u has no such joint",
-                                  (unsigned)joint[i], (unsigned)piece[i]);
+            return section_refuse(
+                from, mpm_word_names[MPM_JOINT], i,
+                "is %u, but with this job's collapse.joints_m, piece %u does not have such a joint",
+                (unsigned)joint[i], (unsigned)piece[i]);
     }
     return OK;
 }
@@ -247,8 +249,8 @@ status collapse_restore(struct gpu *gpu, struct collapse *c, struct particles *p
     TRY(check_points(from, m, ids, word));
     for (int w = 0; w < MPM_ORIGIN; w++)
         TRY(gpu_upload(gpu, m->word[w], 0, word[w], m->n));
-    TRY(section_take(from, &(struct section_rule){"mpm fastest", SECTION_DOUBLE, 1, 1, {{0, 2 * SPEED}}},
-                     &data, NULL));
+    TRY(section_get(from, &(struct section_rule){"mpm fastest", SECTION_DOUBLE, 1, 1, {{0, 2 * SPEED}}},
+                    &data, NULL));
     m->fastest = *(const double *)data;
     mpm_follow(gpu, m, p, c->table);
     mpm_store(gpu, m, p, true);
@@ -258,9 +260,8 @@ done:
 
 /* ---- blocks within a frame */
 
-/* Until nothing, or next to nothing, has moved for REST looks in a row, a tenth of a second each. A body let go is
- * faster than `still` after the first. Grains may creep on for long, and what is still on its way when all the rest
- * lies falls in the next frame. */
+/* Simulates until almost nothing has moved in REST consecutive checks, which are a tenth of a second apart. A released body is faster than
+ * `still` at the first check. Grains may creep for long; what still moves when everything else rests continues in the next frame. */
 static status fall_to_rest(struct gpu *gpu, struct gpu_work *work, struct collapse *c, double *seconds)
 {
     enum { REST = 3 };
@@ -277,9 +278,9 @@ done:
 }
 
 status collapse_crumble(struct gpu *gpu, struct gpu_work *work, const struct collapse *c, struct blocks *b,
-                        struct particles *p, uint32_t *n_crumbs, size_t *n_loose)
+                        struct particles *p, uint32_t *n_fragments, size_t *n_loose)
 {
-    return blocks_loose(gpu, work, b, p, c->least, n_crumbs, n_loose);
+    return blocks_loose(gpu, work, b, p, c->least, n_fragments, n_loose);
 }
 
 status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *c, struct blocks *b,
@@ -309,8 +310,8 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
     ledger->left += before - p->n;
     TRY(collapse_count(gpu, p, ledger));
     if (n > 0)
-        log_note("a fall of %zu particles took %.1f s; %zu left, %u of them as crumbs", n, seconds,
-                 before - p->n, (unsigned)(crumbs + more));
+        log_note("a fall of %zu particles took %.1f s; %zu were removed, %u of them as small fragments", n,
+                 seconds, before - p->n, (unsigned)(crumbs + more));
 done:
     return st;
 }

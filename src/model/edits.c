@@ -35,7 +35,7 @@ status edits_apply(const struct job *job, int frame, struct rock *rock, struct l
         struct scene_edited done;
         if (e->frame != frame)
             continue;
-        /* Every particle there ever was counts as start, so that the next id is their number. */
+        /* `start` counts every particle that ever existed, so it is the next free id. */
         TRY(scene_edit(job_at(job, frame), e, ledger->start, rock, &done));
         ledger->start += done.added;
         ledger->left += done.carved;
@@ -44,7 +44,7 @@ status edits_apply(const struct job *job, int frame, struct rock *rock, struct l
                  done.carved);
         if (e->n_add && done.added_m3 <= 0)
             log_warn(
-                "frame %d: edit %zu adds nothing: its shapes are outside the domain, or rock is there already",
+                "frame %d: edit %zu adds no rock: its shapes are outside the domain, or there is rock already",
                 frame, i);
     }
 done:

@@ -1,4 +1,4 @@
-/* A frame's edits, as models apply them. */
+/* Applying a frame's edits. */
 #ifndef HOODOO_EDITS_H
 #define HOODOO_EDITS_H
 
@@ -10,15 +10,15 @@
 
 enum edits_kind { EDITS_NONE, EDITS_SET, EDITS_ROCK };
 
-/* What the edits of this frame change: nothing, parameters (job_at() has them), or also the rock. */
+/* What the edits of this frame change: nothing, only keys (see job_at()), or also the rock. */
 enum edits_kind edits_of(const struct job *job, int frame);
 
-/* Does any edit paint plants? */
+/* Whether any edit paints plants. */
 bool edits_plant(const struct job *job);
 
-/* Carves, adds and paints, in the list's order, on the rock's STATE fields, whose arrays are replaced. What is
- * added counts as start in the ledger, and in *start_volume (m3); what is carved as left; what there is then of rock
- * and deposits is the caller's to count. E_USAGE, E_INPUT: a shape or a file is wrong. */
+/* Carves, adds and paints in the order of the list. The arrays of the rock's STATE fields are replaced. Added particles are added to the
+ * ledger's `start` and to *start_volume (m3), carved ones to `left`; the caller recounts rock and deposits. E_USAGE, E_INPUT: a shape or
+ * a file is wrong. */
 MUST_USE status edits_apply(const struct job *job, int frame, struct rock *rock, struct ledger *ledger,
                             double *start_volume);
 

@@ -1,13 +1,14 @@
-/* Goblins: sandstone that weathers where bubbles hold air (Beardall et al. 2007).
+/* Goblins: sandstone as voxels that weather in proportion to the air in a bubble around them (Beardall et al. 2007).
  *
- * One frame:
+ * One frame is a list of stages (gpu_stage()):
  *
- *   rates -> cycles (pace, decimate, apply, touch, skin, list, count) until the frame's years have passed
- *         -> unsupported blocks -> ledger
+ *   weathering    voxels_rates(); then voxels_cycle() until the frame's years have passed
+ *   blocks        remove_unsupported()
  *
- * output() then hands the voxels on as particles, one each, to the surface field, the stress solver and the
- * pictures. The state between frames is what is left of each voxel, its factor, and the ledger; air in
- * bubbles is counted anew when a run is continued, and comes out the same.
+ * output() then makes one particle of each voxel and adds the stages surface, stress, field and pictures.
+ *
+ * The state between frames consists of the share that is left of each voxel, its rate factor, and the ledger. The air in bubbles is
+ * counted again when a run is continued, with the same result.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -42,9 +43,14 @@ static struct goblins *of(struct model *m)
 
 /* ---- a frame */
 
-static void weigh(struct goblins *g, enum process process, bool after)
+static void budget_before(struct goblins *g, enum process process)
 {
-    model_weigh(&g->m, process, after, g->voxels.left, gpu_buffer_count(g->voxels.left));
+    model_budget_before(&g->m, process, g->voxels.left, gpu_buffer_count(g->voxels.left));
+}
+
+static void budget_after(struct goblins *g, enum process process)
+{
+    model_budget_after(&g->m, process, g->voxels.left, gpu_buffer_count(g->voxels.left));
 }
 
 static status remove_unsupported(struct goblins *g)
@@ -54,12 +60,12 @@ static status remove_unsupported(struct goblins *g)
     if (g->m.job->goblins.floats)
         return OK;
     gpu_stage(g->m.gpu, "blocks");
-    weigh(g, PROCESS_BLOCKS, false);
+    budget_before(g, PROCESS_BLOCKS);
     voxels_solid(g->m.gpu, &g->voxels, g->blocks.solid);
     TRY(blocks_join(g->m.gpu, g->m.work, &g->blocks, &g->held));
     TRY(voxels_fall(g->m.gpu, g->m.work, &g->voxels, g->blocks.solid, g->blocks.pointer, g->blocks.other));
     TRY(voxels_remove(g->m.gpu, g->m.work, &g->voxels, &n_fallen));
-    weigh(g, PROCESS_BLOCKS, true);
+    budget_after(g, PROCESS_BLOCKS);
     g->m.ledger.rock -= n_fallen;
     g->m.ledger.fallen += n_fallen;
 done:
@@ -72,7 +78,7 @@ static status step(struct model *m)
     struct goblins *g = of(m);
     double kyr = m->job->clock.years_per_frame / 1000;
     gpu_stage(m->gpu, "weathering");
-    weigh(g, PROCESS_WEATHERING, false);
+    budget_before(g, PROCESS_WEATHERING);
     TRY(voxels_rates(m->gpu, &g->voxels, m->job, m->frame));
     while (kyr > 0 && m->ledger.rock > 0) {
         double passed;
@@ -82,7 +88,7 @@ static status step(struct model *m)
         m->ledger.rock -= n_gone;
         m->ledger.left += n_gone;
     }
-    weigh(g, PROCESS_WEATHERING, true);
+    budget_after(g, PROCESS_WEATHERING);
     TRY(remove_unsupported(g));
 done:
     return st;
@@ -95,8 +101,8 @@ static double volume_of(const struct model *m, const float *share)
     return model_sum(share, voxel_count(m->voxels)) * m->h * m->h * m->h;
 }
 
-/* One particle for each voxel that is left, in its middle, with the voxel's number as its id. */
-static status rock_of(const struct goblins *g, const float *share, const float *factor, struct rock *rock)
+/* Makes one particle at the centre of each voxel that is left, with the voxel's number as its id. */
+static status make_rock(const struct goblins *g, const float *share, const float *factor, struct rock *rock)
 {
     status st = OK;
     const int *n = g->m.voxels;
@@ -124,8 +130,8 @@ done:
     return st;
 }
 
-/* Stress from rest: nothing of it is handed from frame to frame, so that a continued run has the same. */
-static status settle(struct goblins *g, struct particles *p)
+/* Solves the stress from zero displacement: none is kept between frames, so that a continued run has the same stress. */
+static status solve_stress(struct goblins *g, struct particles *p)
 {
     status st = OK;
     gpu_stage(g->m.gpu, "stress");
@@ -144,7 +150,7 @@ static status show(struct goblins *g, struct frame_wants wants, struct particles
     gpu_stage(g->m.gpu, "surface");
     TRY(particles_surface(g->m.gpu, g->m.work, p));
     if (job->goblins.stress) {
-        TRY(settle(g, p));
+        TRY(solve_stress(g, p));
         out->stress_iterations = g->elastic.iterations;
     }
     gpu_stage(g->m.gpu, "field");
@@ -180,7 +186,7 @@ static status output(struct model *m, struct frame *out)
     out->volume_m3 = volume_of(m, share);
     if (!wants.points && !wants.volumes && !wants.pictures)
         goto done;
-    TRY(rock_of(g, share, factor, &rock));
+    TRY(make_rock(g, share, factor, &rock));
     TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels, m->h, &p));
     p.walls = job_walls(m->job);
     m->shown = &p;
@@ -219,9 +225,9 @@ done:
     return st;
 }
 
-enum { HALF_MAX = 65504 }; /* factors are kept as halves */
+enum { HALF_MAX = 65504 }; /* factors are stored as halves */
 
-/* Voxels with something left of them. */
+/* The number of voxels of which something is left. */
 static size_t count(const float *share, size_t n)
 {
     size_t sum = 0;
@@ -236,15 +242,15 @@ static status restore(struct model *m, const struct checkpoint *c)
     const size_t n = voxel_count(m->voxels);
     size_t n_rock;
     const void *share, *factor;
-    TRY(section_take(c, &(struct section_rule){"voxels", SECTION_FLOAT, n, 1, {{0, 1}}}, &share, NULL));
-    TRY(section_take(c, &(struct section_rule){"factors", SECTION_FLOAT, n, 1, {{0, HALF_MAX}}}, &factor,
-                     NULL));
-    /* Frames have as many particles as the ledger has rock. */
+    TRY(section_get(c, &(struct section_rule){"voxels", SECTION_FLOAT, n, 1, {{0, 1}}}, &share, NULL));
+    TRY(section_get(c, &(struct section_rule){"factors", SECTION_FLOAT, n, 1, {{0, HALF_MAX}}}, &factor,
+                    NULL));
+    /* Frames have one particle for each voxel that the ledger counts as rock. */
     n_rock = count(share, n);
     if (m->ledger.rock != n_rock || m->ledger.deposit != 0)
         return fail(
             E_CHECKPOINT,
-            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu voxels of rock and %llu deposited, and section 'voxels' has %zu",
+            "the checkpoint of frame %d is damaged: section 'ledger' counts %llu voxels of rock and %llu deposited, but section 'voxels' has %zu voxels of rock",
             c->frame, (unsigned long long)m->ledger.rock, (unsigned long long)m->ledger.deposit, n_rock);
     TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &of(m)->voxels));
 done:
@@ -275,7 +281,7 @@ static status begin(struct model *m)
     const double lowest = lowest_of(m, share);
     TRY(remove_unsupported(g));
     TRY(voxels_download(m->gpu, &g->voxels, share, NULL));
-    TRY(model_check_stands(m, lowest, lowest_of(m, share) < HUGE_VAL));
+    TRY(model_check_supported(m, lowest, lowest_of(m, share) < HUGE_VAL));
     m->start_volume = volume_of(m, share);
 done:
     free(share);
@@ -316,7 +322,7 @@ static size_t work_items(const struct job *job, const int voxels[3])
     return words > items ? words : items;
 }
 
-/* Cycles, about: a voxel's retreat takes four of them at a quantum of one half. */
+/* About the number of cycles: removing a voxel takes four of them at a quantum of one half. */
 static double cycles(const struct job *job)
 {
     double most = 0;
@@ -330,22 +336,22 @@ static double cycles(const struct job *job)
 static status estimate(const struct job *job, struct model_needs *needs)
 {
     status st = OK;
-    /* Voxels' middles are a lattice, which packs well. */
+    /* Particles at the centres of voxels form a lattice, which compresses well. */
     static const struct disk_particle
         bare = {.inside = 3, .bare = 18, .volumes_inside = 1.5, .volumes_bare = 50, .channel = 1.5},
         stressed = {.inside = 10.6, .bare = 35, .volumes_inside = 2.2, .volumes_bare = 110, .channel = 1.9};
     const uint64_t state = 8 * (uint64_t)voxel_count(needs->voxels);
     size_t words;
     TRY(scene_estimate(job, &needs->size));
-    /* A third of the rock active is more than most have. */
-    needs->room = needs->size.n_particles;
+    /* Most jobs have less than a third of their rock active. */
+    needs->capacity = needs->size.n_particles;
     needs->device_bytes = voxels_bytes(job, needs->voxels, needs->size.n_particles / 3, &words) +
                           blocks_bytes(voxel_count(needs->voxels)) +
                           held_bytes(needs->voxels, voxel_count(needs->voxels)) +
                           (job->goblins.stress ? elastic_bytes(needs->voxels, needs->size.n_particles,
                                                                needs->size.n_surface, needs->size.n_ends)
                                                : 0);
-    /* What frames are made from: the voxels, and as particles. */
+    /* Frames are made from the voxels and the particles made of them. */
     needs->host_bytes = state + host_rock_bytes(needs->size.n_particles);
     needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     needs->disk = job->goblins.stress ? stressed : bare;

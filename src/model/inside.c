@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "job/values.h"
 
-/* Places that are asked for together, and where their values go. */
+/* A batch of positions, and where their values are to be stored. */
 struct asking {
     struct gpu *gpu;
     struct stress_places places;
@@ -15,7 +15,7 @@ struct asking {
     float **stress, **von_mises; /* [PLACES_MOST] */
 };
 
-/* One of the two values of all places, to where they belong. */
+/* Stores one of the two values of the batch. */
 static status hand_out(struct asking *a, enum rock_field value, float **to)
 {
     status st = OK;
@@ -39,7 +39,7 @@ done:
     return st;
 }
 
-/* The values at a sample of the lattice, which may lie between its points. */
+/* Adds a sample of the lattice, which may lie between its points, to the batch. */
 static status ask(struct asking *a, const struct grid_lattice *l, const double sample[3], float *stress,
                   float *von_mises)
 {
@@ -82,7 +82,7 @@ static void first_of(const struct frame_grids *grids, size_t brick, double first
         first[a] = (double)(BRICK_SIDE * at[a]);
 }
 
-/* The samples of the bricks that are kept, where there is rock and nothing is shown. */
+/* Adds the samples of kept bricks that are rock but have no value yet. */
 static status ask_samples(struct asking *a, const struct frame_grids *grids, const float *density,
                           float *stress, float *von_mises)
 {
@@ -102,7 +102,7 @@ done:
     return st;
 }
 
-/* The middles of those that are not, being inside. */
+/* Adds the centres of bricks that are not kept because they are inside. */
 static status ask_bricks(struct asking *a, const struct frame_grids *grids, size_t n, float *stress,
                          float *von_mises)
 {
@@ -136,7 +136,7 @@ status inside_values(struct gpu *gpu, struct elastic *e, struct frame_grids *gri
                       *viability = named(grids, VALUE_viability);
     const struct frame_grid *density = named(grids, VALUE_density);
     const size_t n = (size_t)grids->bricks.n[0] * (size_t)grids->bricks.n[1] * (size_t)grids->bricks.n[2];
-    if (viability) /* nothing has been taken off there */
+    if (viability) /* no rock was removed there */
         viability->inside = 1;
     if (!stress || !mises || !density || e->lattice.n_active == 0)
         return OK;

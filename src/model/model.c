@@ -1,4 +1,4 @@
-/* What is the same for all models. */
+/* What all models have in common. */
 #include "model/type.h"
 
 #include <math.h>
@@ -25,22 +25,22 @@ static const struct model_type *type_of(const struct job *job)
     return types[job->model];
 }
 
-/* ---- what a job takes */
+/* ---- the estimate */
 
-/* Frames within what output.memory_GB allows: two of them, or else one. */
-static status keep_to(const struct job *job, struct model_estimate *e)
+/* Chooses how many frames output.memory_GB allows in memory at a time: two, or only one. */
+static status fit_memory_budget(const struct job *job, struct model_estimate *e)
 {
     const double most = job->output.memory_GB * 1e9;
     if (most <= 0 || (double)e->host_bytes <= most)
         return OK;
-    e->turns = true;
-    e->host_bytes -= e->waiting_bytes;
-    e->waiting_bytes = 0;
+    e->one_frame = true;
+    e->host_bytes -= e->overlap_bytes;
+    e->overlap_bytes = 0;
     if ((double)e->host_bytes <= most)
         return OK;
     return fail(
         E_USAGE,
-        "output.memory_GB: %g GB are less than the %.3f GB that one frame of %zu particles takes beside the device: output.memory_GB: %.2f would do, or a larger domain.spacing_m",
+        "output.memory_GB: %g GB are less than the %.3f GB that one frame of %zu particles takes besides the device; set output.memory_GB to at least %.2f, or raise domain.spacing_m",
         job->output.memory_GB, (double)e->host_bytes / 1e9, e->n_particles,
         ceil((double)e->host_bytes / 1e7) / 100);
 }
@@ -56,23 +56,23 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     const size_t n = needs.size.n_particles;
     out->n_particles = n;
     out->device_bytes = needs.device_bytes + gpu_work_bytes(type->work_items(job, out->voxels)) +
-                        particles_bytes(needs.room, out->voxels) + field_bytes(out->voxels, needs.samples) +
-                        aov_bytes(aov_pixels(job));
+                        particles_bytes(needs.capacity, out->voxels) +
+                        field_bytes(out->voxels, needs.samples) + aov_bytes(aov_pixels(job));
     out->disk = disk_frame(job, &needs.size, &needs.disk);
     out->disk.other += needs.disk_other;
     out->host_bytes =
         needs.host_bytes + host_frames_bytes(job, &needs.size, needs.samples, needs.frame_bytes, &out->disk);
-    out->waiting_bytes = host_frame_bytes(job, &needs.size, needs.samples, needs.frame_bytes);
+    out->overlap_bytes = host_frame_bytes(job, &needs.size, needs.samples, needs.frame_bytes);
     out->checkpoint_bytes = needs.checkpoint_bytes;
     out->steps = needs.steps;
     out->kernels = needs.kernels;
-    TRY(keep_to(job, out));
+    TRY(fit_memory_budget(job, out));
 done:
     free(needs.size.point);
     return st;
 }
 
-/* ---- its state */
+/* ---- the state */
 
 static status restore_counts(struct model *m, const struct checkpoint *c)
 {
@@ -82,12 +82,12 @@ static status restore_counts(struct model *m, const struct checkpoint *c)
         "change", SECTION_INTEGER, PROCESSES, 1, {{-SECTION_COUNT_MAX, SECTION_COUNT_MAX}}};
     const void *data;
     TRY(section_check_domain(c, m->job));
-    TRY(section_take_ledger(c, &m->ledger));
+    TRY(section_get_ledger(c, &m->ledger));
     if (!job_has_processes(m->job))
         return OK;
-    TRY(section_take(c, &volume, &data, NULL));
+    TRY(section_get(c, &volume, &data, NULL));
     memcpy(&m->start_volume, data, sizeof m->start_volume);
-    TRY(section_take(c, &change, &data, NULL));
+    TRY(section_get(c, &change, &data, NULL));
     memcpy(m->change, data, sizeof m->change);
 done:
     return st;
@@ -124,7 +124,7 @@ done:
     return st;
 }
 
-static bool is_one_of(const char *name, const char *const *names, size_t n)
+static bool is_among(const char *name, const char *const *names, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (strcmp(name, names[i]) == 0)
@@ -135,7 +135,7 @@ static bool is_one_of(const char *name, const char *const *names, size_t n)
 bool watch_between(const struct watch_list *list, const char *by, const char *before)
 {
     const char *const next[] = {before, "checkpoint", "field"};
-    return strcmp(list->stage, by) == 0 || is_one_of(list->next, next, sizeof next / sizeof *next);
+    return strcmp(list->stage, by) == 0 || is_among(list->next, next, sizeof next / sizeof *next);
 }
 
 static status stage_ended(void *user, const char *stage, const char *next)
@@ -233,11 +233,11 @@ done:
     return st;
 }
 
-/* What memory and time grow with. */
+/* Logs the numbers that memory and time depend on. */
 static void note_size(const struct model *m)
 {
     int bricks[3];
-    log_note("frame %d: %zu particles, %zu voxels of rock that have none yet, %zu of %zu bricks of the field",
+    log_note("frame %d: %zu particles, %zu voxels of rock without particles, %zu of %zu bricks of the field",
              m->frame, m->shown ? m->shown->n : 0, m->shown ? m->shown->n_deep : 0, m->field.n_bricks,
              grid_bricks_of(m->field.n, bricks));
 }
@@ -288,12 +288,17 @@ double model_sum(const float *left, size_t n)
     return sum;
 }
 
-void model_weigh(struct model *m, enum process process, bool after, struct gpu_buffer *left, size_t n)
+void model_budget_before(struct model *m, enum process process, struct gpu_buffer *left, size_t n)
 {
-    budget_sum(m->gpu, &m->budget, process, after, left, n);
+    budget_sum(m->gpu, &m->budget, process, false, left, n);
 }
 
-status model_check_stands(const struct model *m, double lowest, bool whole)
+void model_budget_after(struct model *m, enum process process, struct gpu_buffer *left, size_t n)
+{
+    budget_sum(m->gpu, &m->budget, process, true, left, n);
+}
+
+status model_check_supported(const struct model *m, double lowest, bool whole)
 {
     const struct ledger *l = &m->ledger;
     if (l->rock + l->deposit == 0 || (!whole && l->fallen > 0 && lowest < HUGE_VAL)) {
@@ -301,11 +306,12 @@ status model_check_stands(const struct model *m, double lowest, bool whole)
             return scene_floats(lowest);
         return fail(
             E_USAGE,
-            "scene: no voxel of it is half rock, so that nothing stands: lower domain.spacing_m (%.4g m), or make the shapes thicker",
+            "scene: no voxel is at least half rock, so no rock is supported; lower domain.spacing_m (%.4g m) or make the shapes thicker",
             m->h);
     }
     if (l->fallen)
-        log_warn("frame %d: %llu of %llu %s have no face path to the ground and were taken out", m->frame,
-                 (unsigned long long)l->fallen, (unsigned long long)l->start, job_model(m->job)->samples);
+        log_warn("frame %d: %llu of %llu %s are not connected to the ground through faces and were removed",
+                 m->frame, (unsigned long long)l->fallen, (unsigned long long)l->start,
+                 job_model(m->job)->samples);
     return OK;
 }

@@ -19,38 +19,39 @@ struct model_estimate {
     size_t n_particles;
     int voxels[3];
     uint64_t device_bytes;
-    uint64_t host_bytes;    /* besides the device's, with a frame that is written while the next is made */
-    uint64_t waiting_bytes; /* of these: not taken where it is written first */
-    bool turns;             /* it is, for output.memory_GB wants it so: host_bytes are without them */
-    struct disk_frame disk; /* of a frame */
+    uint64_t host_bytes; /* besides the device's; includes a frame that is written while the next is made */
+    uint64_t
+        overlap_bytes; /* the part of host_bytes that is not needed if each frame is written before the next is made */
+    bool one_frame;         /* output.memory_GB requires that; host_bytes is without overlap_bytes then */
+    struct disk_frame disk; /* of one frame */
     uint64_t checkpoint_bytes;
-    double steps; /* of erosion and equilibrium, over all frames */
-    int kernels;  /* that it runs, about */
+    double steps; /* of erosion or equilibrium, over all frames */
+    int kernels;  /* about how many different kernels run */
 };
 
-/* E_USAGE, E_INPUT: the scene is wrong, or a file of it; E_USAGE: output.memory_GB is less than one frame takes. */
+/* E_USAGE, E_INPUT: the scene or one of its files is wrong. E_USAGE: one frame takes more than output.memory_GB. */
 MUST_USE status model_estimate(const struct job *job, struct model_estimate *out);
 
-/* The job's first frame; or, with `from`, the state that checkpoint holds: E_CHECKPOINT if it is not one of this
- * model and domain. model_destroy(). */
+/* Creates the model at the job's first frame or, if `from` is not NULL, in the state of that checkpoint; E_CHECKPOINT if the checkpoint
+ * has another model or domain. `job` must outlive the model. Free with model_destroy(). */
 MUST_USE status model_create(struct gpu *gpu, const struct job *job, const struct checkpoint *from,
                              struct model **out);
 void model_destroy(struct model **model);
 
-/* Simulates the next frame. E_NUMERIC when numbers blow up. */
+/* Simulates the next frame. E_NUMERIC if a number is not finite or runs away. */
 MUST_USE status model_step(struct model *model);
 
-/* The frame the state is of. */
+/* The number of the current frame. */
 int model_frame(const struct model *model);
 
-/* What there is to write of this frame, in host memory: frame_free(). */
+/* Makes the current frame in host memory, with what the job writes of it. Free with frame_free(). */
 MUST_USE status model_output(struct model *model, struct frame *out);
 
-/* Its pictures alone, in out->image, whichever frames the job has pictures of: those of output.aov.cameras. The level ground around the
- * rock, on which it throws its shadow, is in their colours: opaque, and nowhere in the other layers. frame_free(). */
+/* Makes only the pictures of output.aov.cameras, in out->image, even if the job has no pictures of this frame. Their colours include the
+ * level ground around the rock, opaque and with the rock's shadow; their other layers do not. Free with frame_free(). */
 MUST_USE status model_pictures(struct model *model, struct frame *out);
 
-/* The state, as sections that *out owns: checkpoint_free(). Provenance is the caller's to fill in. */
+/* Saves the state as sections that *out owns; free with checkpoint_free(). The caller fills in job_hash and maker. */
 MUST_USE status model_save(struct model *model, struct checkpoint *out);
 
 #endif

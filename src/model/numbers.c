@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Stresses come to 1e12 Pa; nothing else is near that. */
+/* The largest sound number. Stresses reach 1e12 Pa; nothing else comes near that. */
 static const float MOST = 1e18F;
 enum { NONE_BAD = -1 };
 
@@ -43,7 +43,7 @@ static void look(struct gpu *gpu, struct gpu_buffer *found, const struct watched
         GPU_RUN(gpu, numbers_scalars, threads, k, w->buffer, found);
 }
 
-/* "particle 7 at (1, 2, 3) m", or "number 7 of NAME". */
+/* Writes "particle 7 at (1, 2, 3) m" or "number 7 of NAME". */
 static status describe_item(struct gpu *gpu, const struct watch_list *l, size_t which, uint32_t item,
                             char out[160])
 {
@@ -76,9 +76,10 @@ static status describe(struct gpu *gpu, const struct watch_list *l, size_t which
                  (double)value[2], (double)value[3]);
     else
         snprintf(numbers, sizeof numbers, "%g", (double)value[0]);
-    st = fail(E_NUMERIC,
-              "frame %d: after stage '%s' %s has %s %s, which is no sound number; stopped before writing it",
-              frame, l->stage, where, w->name, numbers);
+    st = fail(
+        E_NUMERIC,
+        "frame %d: after stage '%s', %s has %s %s, which is not finite or far too large; stopped before writing it",
+        frame, l->stage, where, w->name, numbers);
 done:
     return st;
 }

@@ -34,7 +34,7 @@ status section_refuse(const struct checkpoint *c, const char *section, size_t i,
                 section, i, what);
 }
 
-/* The first item out of its range; n if there is none. Whether a range holds is asked so that NaN is in none. */
+/* The first item that is out of its range, or n. The comparison is written so that NaN is out of every range. */
 #define FIRST_WRONG(type)                                                                                    \
     static size_t first_wrong_##type(const type *item, size_t n, const struct section_rule *r)               \
     {                                                                                                        \
@@ -77,7 +77,7 @@ static double value_of(const struct checkpoint_section *s, enum section_kind kin
     }
 }
 
-status section_take(const struct checkpoint *c, const struct section_rule *rule, const void **data, size_t *n)
+status section_get(const struct checkpoint *c, const struct section_rule *rule, const void **data, size_t *n)
 {
     const size_t item = rule->kind == SECTION_FLOAT || rule->kind == SECTION_WORD ? 4 : 8;
     const struct checkpoint_section *s = checkpoint_find(c, rule->name, item);
@@ -87,12 +87,12 @@ status section_take(const struct checkpoint *c, const struct section_rule *rule,
                     c->frame, rule->name, item);
     if (any ? s->n % rule->stride != 0 : s->n != rule->n)
         return fail(E_CHECKPOINT, "the checkpoint of frame %d is damaged: section '%s' has %zu items, %s %zu",
-                    c->frame, rule->name, s->n, any ? "no multiple of" : "and not",
+                    c->frame, rule->name, s->n, any ? "not a multiple of" : "not",
                     any ? rule->stride : rule->n);
     size_t i = first_wrong(s, rule);
     if (i < s->n) {
         const double *range = rule->range[i % rule->stride];
-        return section_refuse(c, rule->name, i, "is %.9g, and may be %.9g to %.9g",
+        return section_refuse(c, rule->name, i, "is %.9g, but must be %.9g to %.9g",
                               value_of(s, rule->kind, i), range[0], range[1]);
     }
     *data = s->data;
@@ -116,35 +116,35 @@ status section_check_ids(const struct checkpoint *c, const char *section, const 
     for (size_t i = 0; i < n; i++) {
         bool added;
         if (id[i] >= bound)
-            return section_refuse(c, section, i, "is %u, and all are below %llu", (unsigned)id[i],
+            return section_refuse(c, section, i, "is %u, but all must be below %llu", (unsigned)id[i],
                                   (unsigned long long)bound);
         TRY(idset_add(ids, id[i], &added));
         if (!added)
-            return section_refuse(c, section, i, "is %u, as another is", (unsigned)id[i]);
+            return section_refuse(c, section, i, "is %u, and so is another", (unsigned)id[i]);
     }
 done:
     return st;
 }
 
-status section_take_ledger(const struct checkpoint *c, struct ledger *out)
+status section_get_ledger(const struct checkpoint *c, struct ledger *out)
 {
     status st = OK;
     const struct section_rule rule = {
         "ledger", SECTION_INTEGER, sizeof *out / 8, 1, {{0, SECTION_COUNT_MAX}}};
     const void *data;
-    TRY(section_take(c, &rule, &data, NULL));
+    TRY(section_get(c, &rule, &data, NULL));
     memcpy(out, data, sizeof *out);
     if (out->start != out->rock + out->deposit + out->fallen + out->left)
         st = fail(
             E_CHECKPOINT,
-            "the checkpoint of frame %d is damaged: section 'ledger': %llu at the start are not %llu of rock, %llu deposited, %llu fallen and %llu that left",
+            "the checkpoint of frame %d is damaged: section 'ledger': start %llu is not the sum of rock %llu, deposit %llu, fallen %llu and left %llu",
             c->frame, (unsigned long long)out->start, (unsigned long long)out->rock,
             (unsigned long long)out->deposit, (unsigned long long)out->fallen, (unsigned long long)out->left);
 done:
     return st;
 }
 
-/* ---- what every model has */
+/* ---- sections of all models */
 
 enum { DOMAIN_MODEL, DOMAIN_VOXELS, DOMAIN_SPACING = DOMAIN_VOXELS + 3, DOMAIN_STRATA, DOMAIN_NUMBERS };
 
@@ -178,21 +178,23 @@ status section_check_domain(const struct checkpoint *c, const struct job *job)
     const struct section_rule rule = {"domain", SECTION_DOUBLE, DOMAIN_NUMBERS, 1, {{0, SECTION_COUNT_MAX}}};
     const void *data;
     double here[DOMAIN_NUMBERS];
-    TRY(section_take(c, &rule, &data, NULL));
+    TRY(section_get(c, &rule, &data, NULL));
     TRY(domain_numbers(job, here));
     const double *there = data;
     if (there[DOMAIN_MODEL] != here[DOMAIN_MODEL])
-        return fail(E_CHECKPOINT, "the checkpoint of frame %d is of another model than the job's", c->frame);
+        return fail(E_CHECKPOINT, "the checkpoint of frame %d belongs to another model than the job's",
+                    c->frame);
     if (memcmp(there + DOMAIN_VOXELS, here + DOMAIN_VOXELS, 4 * sizeof *here) != 0)
         return fail(
             E_CHECKPOINT,
-            "the checkpoint of frame %d has %.0f x %.0f x %.0f voxels of %g m, and this job's domain %.0f x %.0f x %.0f of %g m: give it the same domain",
+            "the checkpoint of frame %d has %.0f x %.0f x %.0f voxels of %g m, but this job's domain has %.0f x %.0f x %.0f of %g m; give the job the same domain",
             c->frame, there[1], there[2], there[3], there[DOMAIN_SPACING], here[1], here[2], here[3],
             here[DOMAIN_SPACING]);
     if (there[DOMAIN_STRATA] != here[DOMAIN_STRATA])
-        return fail(E_CHECKPOINT,
-                    "the checkpoint of frame %d has %.0f strata, and this job %.0f: give it as many",
-                    c->frame, there[DOMAIN_STRATA], here[DOMAIN_STRATA]);
+        return fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d has %.0f strata, but this job has %.0f; give the job the same number",
+            c->frame, there[DOMAIN_STRATA], here[DOMAIN_STRATA]);
 done:
     return st;
 }

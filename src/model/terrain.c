@@ -30,7 +30,7 @@ status terrain_materials(const struct job *job, struct material table[MATERIALS_
             table[(*n)++] = (struct material){.repose_deg = 35};
             snprintf(table[m].name, sizeof table[m].name, "%s", from->name);
         }
-        /* Bedrock does not slide, and water finds its level otherwise. */
+        /* Bedrock does not slide, and water is levelled in another way. */
         if (from->repose_deg >= 0 && m != MATERIAL_WATER && m != MATERIAL_BEDROCK)
             table[m].repose_deg = from->repose_deg;
         table[m].erodibility = from->erodibility;
@@ -120,7 +120,7 @@ static status cover(const struct job_cover *job, const struct material *table, i
     while (start.material < (uint32_t)n_materials && strcmp(table[start.material].name, job->material) != 0)
         start.material++;
     if (start.material == MATERIAL_AIR || start.material == (uint32_t)n_materials)
-        return fail(E_USAGE, "arches.covers: no material '%.64s'", job->material);
+        return fail(E_USAGE, "arches.covers: there is no material '%.64s'", job->material);
     TRY(image_read(&wish, &image));
     start.image = image.value;
     start.width = image.width;
@@ -142,8 +142,7 @@ status terrain_begin(const struct job *job, const struct material *table, int n_
     for (size_t i = 0; i < job->arches.n_covers; i++)
         TRY(cover(&job->arches.covers[i], table, n_materials, s));
     if (stacks_layers(s) == 0)
-        st =
-            fail(E_USAGE, "scene: nothing of it is in the domain: move the shapes, or enlarge domain.size_m");
+        st = fail(E_USAGE, "scene: no part of it is in the domain; move the shapes or enlarge domain.size_m");
 done:
     solid_destroy(&solid);
     return st;

@@ -1,4 +1,4 @@
-/* Arches' terrain between its job and its frames: how it begins, and what of it a frame shows. */
+/* The terrain of arches: how it is made from the job, and how frames sample it. */
 #ifndef HOODOO_TERRAIN_H
 #define HOODOO_TERRAIN_H
 
@@ -6,25 +6,24 @@
 #include "particles/frame.h"
 #include "stacks/surface.h"
 
-/* The job's materials, by the number layers have them. E_USAGE: too many. */
+/* The job's materials, indexed by the material numbers of layers. E_USAGE: too many. */
 MUST_USE status terrain_materials(const struct job *job, struct material table[MATERIALS_MAX], int *n);
 
-/* The job's stacks, empty. */
+/* Creates the job's stacks without any layers. */
 MUST_USE status terrain_create(const struct job *job, struct stacks *out);
 
-/* The scene as bedrock, and the covers on it. */
+/* Fills the stacks with the scene as bedrock and the job's covers on it. */
 MUST_USE status terrain_begin(const struct job *job, const struct material *table, int n_materials,
                               struct stacks *s);
 
-/* Everything solid or loose, in quanta. */
+/* The total volumes of solid and of loose material, in quanta. */
 void terrain_ledger(const struct stacks *s, const struct material *table, int n_materials, uint64_t *solid,
                     uint64_t *loose);
 
 enum { TERRAIN_RATIOS = MATERIALS_OWN - MATERIAL_BEDROCK };
 
-/* What of a frame is sampled from the stacks, on the lattice that the surface field has (field.h): n samples
- * on each axis from `origin`, `voxel` apart; of these the bricks (particles/grids.h) that the surface is in or near, and those
- * inside that are not all bedrock. */
+/* A frame's samples of the stacks, on the lattice of the surface field (field.h): n samples along each axis from `origin`, `voxel`
+ * apart. Kept are the bricks (particles/grids.h) in or near which the surface is, and those inside that are not all bedrock. */
 struct terrain_view {
     const struct job *job;
     const struct stacks *stacks;
@@ -32,24 +31,23 @@ struct terrain_view {
     int n[3];
     double origin[3], voxel;
     struct grid_bricks bricks;
-    float *share; /* [bricks * 512]: of ground, 1/2 on the surface; 0 beyond the lattice */
-    float
-        *ratio[TERRAIN_RATIOS]; /* likewise: of each material from MATERIAL_BEDROCK on, in what shows there */
-    struct rock
-        rock; /* one particle for every voxel at the surface; fields that are 0 everywhere are not there */
+    float *share; /* [bricks * 512]: share of ground, 1/2 on the surface; 0 beyond the lattice */
+    float *ratio
+        [TERRAIN_RATIOS]; /* likewise: shares of the materials from MATERIAL_BEDROCK on, in what shows there */
+    struct rock rock; /* one particle for every voxel at the surface; fields that are 0 everywhere are NULL */
 };
 
-/* Fills bricks, share, ratio and rock; the caller frees them with terrain_view_free(), or takes what it wants. */
-MUST_USE status terrain_look(struct terrain_view *v);
+/* Fills bricks, share, ratio and rock. Free with terrain_view_free(); the caller may take arrays by setting them to NULL. */
+MUST_USE status terrain_sample(struct terrain_view *v);
 void terrain_view_free(struct terrain_view *v);
 
-/* Of a surface: what it is of, and how far its box reaches (stacks/surface.h). */
+/* The surface to sample (stacks/surface.h): its materials and the width of its filter. */
 struct surface terrain_surface(const struct terrain_view *v);
 
 /* Finds the view's bricks. */
 MUST_USE status terrain_bricks(struct terrain_view *v, const struct surface *s);
 
-/* The heights and thicknesses of the layers as a picture from above, one pixel a stack: named "stacks". */
+/* A picture from above named "stacks", with one pixel for each stack: the height and the thickness of each material. */
 MUST_USE status terrain_map(const struct stacks *s, int n_materials, struct aov_image *out);
 
 #endif

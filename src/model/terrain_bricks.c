@@ -1,4 +1,4 @@
-/* Which bricks of a frame's lattice the ground's surface may be in or near. */
+/* Selects the bricks of a frame's lattice in or near which the surface of the ground may be. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,14 +7,14 @@
 #include "field/field.h"
 #include "model/terrain.h"
 
-/* Samples away from a brick's own that count. One whose box is cut by the surface may be beside a sample across it, and distances
- * are known for a band from there. */
+/* The margin around a brick, in samples, within which the surface matters: one sample, because the surface may pass between two samples,
+ * and the band in which distances are known. */
 enum { REACH = 1 + FIELD_BAND };
 
-/* What is within reach of a brick. */
+/* What is within the margin of a brick. */
 enum { GROUND = 1, OPEN = 2, SPECIAL = 4 };
 
-/* From..to (m) of an axis is within reach of these bricks; none: *last < *first. */
+/* The bricks whose margin contains from..to (m) along an axis; *last < *first if there are none. */
 static void bricks_near(const struct terrain_view *v, const struct surface *s, int axis, double from,
                         double to, int *first, int *last)
 {
@@ -25,7 +25,7 @@ static void bricks_near(const struct terrain_view *v, const struct surface *s, i
     *last = (int)fmax(fmin(floor((to - low) / side), v->bricks.n[axis] - 1), -1);
 }
 
-/* The stacks within reach of bricks `at` along an axis. Beyond the grid the outermost go on. */
+/* The stacks within the margin of bricks `at` along an axis. Beyond the grid the outermost stacks continue. */
 static void stacks_near(const struct terrain_view *v, const struct surface *s, int axis, int at, int *first,
                         int *last)
 {
@@ -35,7 +35,7 @@ static void stacks_near(const struct terrain_view *v, const struct surface *s, i
     *last = (int)fmin(fmax(floor((low + (BRICK_SIDE - 1) * v->voxel + reach) / cell), 0), most);
 }
 
-/* Whether air around the domain is within reach of bricks `at` along an axis. */
+/* Whether air around the domain is within the margin of bricks `at` along an axis. */
 static bool near_side(const struct terrain_view *v, int axis, int at)
 {
     const int low = at * BRICK_SIDE - REACH, high = at * BRICK_SIDE + BRICK_SIDE - 1 + REACH;
@@ -59,7 +59,7 @@ static void see_stack(const struct terrain_view *v, const struct surface *s, int
     }
 }
 
-/* Of the bricks above each other at (x, y) what is within reach. */
+/* Finds what is within the margins of the column of bricks at (x, y). */
 static void see_column(const struct terrain_view *v, const struct surface *s, int x, int y, uint8_t *seen)
 {
     int low[2], high[2];
@@ -73,7 +73,7 @@ static void see_column(const struct terrain_view *v, const struct surface *s, in
             see_stack(v, s, i, j, seen);
 }
 
-/* The slots of bricks (x, y, .): 1 for those to be kept. */
+/* Sets the slots of bricks (x, y, .): 1 for those to keep. */
 static void choose_column(const struct terrain_view *v, int x, int y, const uint8_t *seen)
 {
     const int *n = v->bricks.n;

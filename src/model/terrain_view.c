@@ -9,7 +9,7 @@
 #include "model/terrain.h"
 #include "stacks/surface.h"
 
-/* What the surface is of: all but air and water; and rock, where rocks stand for it. */
+/* The materials that the surface encloses: all but air and water, and not rock layers if they are shown as instanced rocks. */
 struct surface terrain_surface(const struct terrain_view *v)
 {
     uint32_t set = 0;
@@ -17,14 +17,14 @@ struct surface terrain_surface(const struct terrain_view *v)
     for (int m = MATERIAL_BEDROCK; m < v->n_materials; m++)
         if (m != MATERIAL_WATER && !(m == MATERIAL_ROCK && piles))
             set |= 1u << m;
-    /* No narrower than the lattice can show. */
+    /* Not narrower than the lattice can resolve. */
     double sigma = fmax(v->job->arches.sigma * v->stacks->cell, 0.75 * v->voxel);
     return (struct surface){v->stacks, set, fmin(sigma, SURFACE_WIDEST * v->stacks->cell)};
 }
 
 /* ---- samples */
 
-/* A sample: its place in the view's arrays, and in the lattice. */
+/* A sample: its index in the view's arrays and its position in the lattice. */
 struct sample {
     size_t at;
     int x[3];
@@ -40,7 +40,7 @@ static struct sample sample_of(const struct terrain_view *v, size_t brick, int s
                             (int)(number / nx / ny) * BRICK_SIDE + s / BRICK_SIDE / BRICK_SIDE}};
 }
 
-/* Outside the domain is air, but behind walls the ground goes on; and beyond the lattice there is nothing. */
+/* Sets samples outside of the domain to air, except behind walls, where the ground continues, and samples beyond the lattice to 0. */
 static void cut_sides(const struct terrain_view *v, size_t brick)
 {
     const unsigned walls = job_walls(v->job);
@@ -66,7 +66,7 @@ static status sample_brick(const struct terrain_view *v, const struct surface *s
     return st;
 }
 
-/* Shares of what shows around p; deep inside, or in the air, of what p is in. Returns the largest. */
+/* The shares of the materials that show around p; deep inside or in the air, those at p. Returns the material with the largest share. */
 static uint32_t materials_at(const struct surface *s, const double p[3], bool band,
                              float ratio[TERRAIN_RATIOS])
 {
@@ -98,7 +98,7 @@ static void place_of(const struct terrain_view *v, const int x[3], double p[3])
         p[a] = v->origin[a] + x[a] * v->voxel;
 }
 
-/* Of a sample: the material that shows most there, and whether it is a particle's. */
+/* Per sample: the material with the largest share, and whether there is a particle. */
 enum { IS_PARTICLE = 0x80, MATERIAL_OF = 0x7f };
 
 static uint8_t look_at(const struct terrain_view *v, const struct surface *s, const struct sample *at)
@@ -146,8 +146,8 @@ static void fill_particle(struct terrain_view *v, const struct surface *s, const
     rock->erodibility[i] = (float)curve_at(&job->strata[layer].weak_m_per_kyr, job->frames.first);
 }
 
-/* Room for n; the other fields are 0. */
-static status particles_room(struct rock *rock, size_t n)
+/* Allocates the fields of n particles; fields that are 0 everywhere are not allocated. */
+static status alloc_particles(struct rock *rock, size_t n)
 {
     static const enum rock_field filled[] = {
         ROCK_P,          ROCK_N,     ROCK_id,          ROCK_viability,
@@ -161,7 +161,7 @@ done:
     return st;
 }
 
-/* ---- all of it */
+/* ---- the whole view */
 
 static status sample_all(const struct terrain_view *v, const struct surface *s)
 {
@@ -185,7 +185,7 @@ static status sample_all(const struct terrain_view *v, const struct surface *s)
     return st == OK ? OK : fail(st, "%s", why);
 }
 
-status terrain_look(struct terrain_view *v)
+status terrain_sample(struct terrain_view *v)
 {
     status st = OK;
     const struct surface s = terrain_surface(v);
@@ -208,7 +208,7 @@ status terrain_look(struct terrain_view *v)
         }
     for (size_t b = 0; b < n_bricks; b++)
         first[b + 1] += first[b];
-    TRY(particles_room(&v->rock, first[n_bricks]));
+    TRY(alloc_particles(&v->rock, first[n_bricks]));
 #pragma omp parallel for schedule(dynamic, 64)
     for (size_t b = 0; b < n_bricks; b++)
         for (int i = 0; i < BRICK_SAMPLES; i++) {

@@ -1,5 +1,5 @@
-/* What every model has, and what each one adds: for the files of models alone. model.c does what is the same for all;
- * a model is a table of what it does differently, and a line in keys.def. */
+/* The interface between model.c, which does what is the same for all models, and the models. A model is a table of functions (struct
+ * model_type) and a row in src/job/keys.def. Only files of src/model include this header. */
 #ifndef HOODOO_MODEL_TYPE_H
 #define HOODOO_MODEL_TYPE_H
 
@@ -15,97 +15,102 @@ struct model_type;
 struct model {
     const struct model_type *type;
     struct gpu *gpu;
-    const struct job *whole; /* as loaded */
-    const struct job *job;   /* as the edits up to this frame have it */
+    const struct job *whole; /* the job as loaded */
+    const struct job *job;   /* the job with the edits up to this frame */
     int frame;
     double years; /* since the first frame */
     int voxels[3];
-    double h;            /* m: their side */
+    double h;            /* m: side of a voxel */
     double start_volume; /* m3 */
     struct ledger ledger;
-    struct budget budget;      /* where the model has processes */
+    struct budget budget;      /* only if the model has processes */
     int64_t change[PROCESSES]; /* quanta, in the last frame */
     struct gpu_work *work;
     struct field field;
-    struct aov aov;     /* where the job has pictures */
-    bool only_pictures; /* nothing else is wanted of this frame, and those in any case */
+    struct aov aov;     /* only if the job has pictures */
+    bool only_pictures; /* see model_pictures() */
     const struct particles
-        *shown;               /* the rock as particles, as long as it is on the device; NULL: it is not */
+        *shown;               /* the rock as particles; NULL while the device does not have it in that form */
     struct gpu_buffer *found; /* numbers.h */
 };
 
-/* What is written of a frame: a model makes nothing else of it for output(). */
+/* What is written of the current frame. output() makes nothing else. */
 struct frame_wants {
     bool points, volumes, pictures;
-    bool air; /* for a file or for pictures */
+    bool air; /* for files or pictures */
 };
 struct frame_wants model_wants(const struct model *m);
 
-/* What a model says of a job. model.c adds what all models have: the index of particles, scratch memory, the surface
- * field, pictures, and the frames that wait to be written. */
+/* A model's estimate for a job. model.c adds what all models need: the index of particles, scratch memory, the surface field, pictures,
+ * and frames waiting to be written. */
 struct model_needs {
-    const int *voxels;         /* given: of the domain */
-    struct scene_size size;    /* of the rock that frames show. size.point is freed by the caller */
-    struct disk_particle disk; /* what one particle of it takes */
-    uint64_t disk_other;       /* of a frame: files that only this model has */
-    size_t room;               /* particles there is room for on the device */
+    const int *voxels;         /* of the domain; input */
+    struct scene_size size;    /* of the rock that frames show; the caller frees size.point */
+    struct disk_particle disk; /* disk space of one particle */
+    uint64_t disk_other;       /* bytes per frame of files that only this model has */
+    size_t capacity;           /* particles for which the device has buffers */
     uint64_t device_bytes;     /* of the model's own buffers */
     uint64_t samples;          /* of each grid of a frame */
-    uint64_t frame_bytes;      /* of a waiting frame: what only this model's frames have */
+    uint64_t frame_bytes;      /* host memory of a frame for what only this model's frames have */
     uint64_t host_bytes;       /* of the model's own arrays */
     uint64_t checkpoint_bytes;
     double steps;
-    int kernels; /* that it runs, about: on a CPU each is compiled into the process */
+    int kernels; /* about how many run; on a CPU device each is compiled into the process */
 };
 
 struct model_type {
-    size_t size; /* of its struct */
+    size_t size; /* of the model's own struct, which starts with struct model */
 
     MUST_USE status (*estimate)(const struct job *job, struct model_needs *needs);
 
-    /* Items of scratch memory that a model of the job's works with. */
+    /* Items of scratch memory (gpu_work_create()) that the model needs for this job. */
     size_t (*work_items)(const struct job *job, const int voxels[3]);
 
-    /* What does not depend on the rock: buffers, tables. */
+    /* Creates what does not depend on the rock: buffers and tables. */
     MUST_USE status (*create)(struct model *m);
 
-    /* The job's first frame, ledger and start volume included. */
+    /* Makes the job's first frame, with ledger and start volume. */
     MUST_USE status (*begin)(struct model *m);
 
-    /* The same from a checkpoint: model.c has checked its domain and read what sections_add_counts() wrote. */
+    /* Restores the state of a checkpoint. model.c has checked its domain and read what sections_add_counts() wrote. */
     MUST_USE status (*restore)(struct model *m, const struct checkpoint *from);
 
-    /* Frees what the three before have made, of a model however unfinished. */
+    /* Frees what the three functions above made, also if they failed halfway. */
     void (*destroy)(struct model *m);
 
-    /* One frame. Its number, its years and its job are set, and its budget is empty. */
+    /* Simulates one frame. Its number, years and job are set, and the budget is empty. */
     MUST_USE status (*step)(struct model *m);
 
-    /* Adds what of its own lasts longer than the stage that has ended; NULL: nothing. `shown` and the surface field are there. */
+    /* Adds the model's own arrays that outlive the stage that has ended (numbers.h); may be NULL. The list already has the fields of
+     * `shown` and the surface field. */
     void (*watch)(const struct model *m, struct watch_list *list);
 
-    /* Adds to a frame that has its number, years, ledger, start volume and changes: its measures, and of the rest what
-     * model_wants() says. */
+    /* Fills in the frame's volume and stress, and the parts that model_wants() names. Number, years, ledger, start volume and changes are
+     * filled in already. */
     MUST_USE status (*output)(struct model *m, struct frame *out);
 
-    /* Adds its sections behind that of the domain, those of sections_add_counts() among them. */
+    /* Adds the model's sections, and calls sections_add_counts(). The section of the domain is there already. */
     MUST_USE status (*save)(struct model *m, struct checkpoint *out);
 };
 
-/* Is it to be looked at here, what stage `by` makes and `before` begins with? Also before it is saved or shown. */
+/* Whether an array that stage `by` writes and stage `before` reads must be checked now: after `by`, and before `before`, a checkpoint or
+ * the frame's field. */
 bool watch_between(const struct watch_list *list, const char *by, const char *before);
 
-/* What is left of n voxels or particles, as so many whole ones. */
+/* The sum of n shares of voxels or particles that are left. */
 double model_sum(const float *left, size_t n);
 
-/* Enters all that the rock has, before and after a process, into the frame's budget. */
-void model_weigh(struct model *m, enum process process, bool after, struct gpu_buffer *left, size_t n);
+/* Enter the total of `left` (n shares on the device) before and after a process into the frame's budget; the difference is what the
+ * process changed. Record only. */
+void model_budget_before(struct model *m, enum process process, struct gpu_buffer *left, size_t n);
+void model_budget_after(struct model *m, enum process process, struct gpu_buffer *left, size_t n);
 
-/* Says in the first frame how much was taken out because nothing holds it. `lowest`: the foot of the lowest voxel that was at
- * least half rock, m; HUGE_VAL: there was none. E_USAGE: nothing is left, or `whole` says that none such is, where there was one. */
-MUST_USE status model_check_stands(const struct model *m, double lowest, bool whole);
+/* In the first frame, logs how much rock was removed because nothing supports it. `lowest`: foot of the lowest voxel that was at least
+ * half rock, m, or HUGE_VAL if there was none; `whole`: such a voxel remains. E_USAGE: nothing remains, or there was such a voxel and
+ * none remains. */
+MUST_USE status model_check_supported(const struct model *m, double lowest, bool whole);
 
-/* The ledger; and for a model with processes (keys.def), start volume and changes. */
+/* Adds the ledger and, for a model with processes (keys.def), start volume and changes. */
 MUST_USE status sections_add_counts(struct checkpoint *c, const struct model *m);
 
 #endif

@@ -37,7 +37,7 @@ struct run_memory run_memory_needed_overlapped(const struct gpu *gpu, const stru
 struct run_memory run_memory_needed(const struct gpu *gpu, const struct model_estimate *e)
 {
     struct run_memory out = run_memory_needed_overlapped(gpu, e);
-    out.host -= e->waiting_bytes;
+    out.host -= e->overlap_bytes;
     return out;
 }
 

@@ -381,8 +381,8 @@ static status check_memory(struct run *r)
         return st;
     log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
              info->name, info->driver);
-    r->blocking =
-        e.turns || !run_memory_fits(run_memory_available(r->gpu), run_memory_needed_overlapped(r->gpu, &e));
+    r->blocking = e.one_frame ||
+                  !run_memory_fits(run_memory_available(r->gpu), run_memory_needed_overlapped(r->gpu, &e));
     if (r->blocking)
         log_info("memory holds one frame at a time: each is written before the next is made");
     return OK;

@@ -21,15 +21,15 @@ sed -i '/^    PART(collapse, LASTS_ROCK,/i \    PART(exfoliation, LASTS_ROCK, ar
          arenite_ever(a->m.whole, exfoliation_wanted) \\\
              ? exfoliation_create(a->m.gpu, a->particles.n_max, \&a->exfoliation) : OK) \\' $state
 frame=tree/src/model/arenite.c
-sed -i '/^\/\* A part of a step\. Stress/i \/* What comes off by itself. */\
+sed -i '/^\/\* One part of a step\. The stress/i \/* What comes off by itself. */\
 static void exfoliate(struct arenite *a, double kyr)\
 {\
     if (!exfoliation_wanted(a->m.job))\
         return;\
     gpu_stage(a->m.gpu, "exfoliation");\
-    weigh(a, PROCESS_EXFOLIATION, false);\
+    budget_before(a, PROCESS_EXFOLIATION);\
     exfoliation_step(a->m.gpu, \&a->exfoliation, a->m.job, a->m.frame, kyr, \&a->particles);\
-    weigh(a, PROCESS_EXFOLIATION, true);\
+    budget_after(a, PROCESS_EXFOLIATION);\
 }\
 ' $frame
 sed -i '/^    TRY(crumble(a, &n_eroded));/i \    exfoliate(a, kyr);' $frame

@@ -182,7 +182,7 @@ more = ("--from", "every@1004", "--set", "wind.flow.solver=sph", "--set", "wind.
 code, said = run("air", *more, job=job)
 first, _ = run("parts", *more, "--frames", "1004-1006", job=job)
 second, _ = run("parts", *more, job=job)
-ok(code == 0 and "it begins anew" in said and ledger("air", 1008, "air")["deposit"] > 0, "a branch may turn on flowing air and deposits", said)
+ok(code == 0 and "starts from still air" in said and ledger("air", 1008, "air")["deposit"] > 0, "a branch may turn on flowing air and deposits", said)
 ok(first == 0 and second == 0 and tree("parts", *FILES) == tree("air", *FILES), "and resumes in blocks with the same bytes", second)
 
 # ---- refused

@@ -64,7 +64,7 @@ static status restore(struct model *m, const struct checkpoint *from)
     struct rock *rock = &of(m)->rock;
     const struct section_rule rule = {"ice", SECTION_FLOAT, rock->n, 1, {{0, 1}}};
     const void *ice;
-    TRY(section_take(from, &rule, &ice, NULL));
+    TRY(section_get(from, &rule, &ice, NULL));
     memcpy(rock->viability, ice, 4 * rock->n);
 done:
     return st;
