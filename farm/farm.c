@@ -27,7 +27,7 @@ static status set_paths(struct farm *f, const char *out)
     }
     TRY(*relative.text == '/' ? path_format(&f->root, "%s", relative.text)
                               : path_join(&f->root, here.text, relative.text));
-    TRY(folder_room(f->root.text));
+    TRY(folder_check_length(f->root.text));
 done:
     return st;
 }
@@ -163,7 +163,7 @@ status farm_freeze(struct farm *f)
         goto done;
     }
     TRY(path_format(&f->root, "%s", real));
-    TRY(folder_room(f->root.text));
+    TRY(folder_check_length(f->root.text));
     TRY(job_resolved(f->base, &t));
     TRY(path_join(&path, f->root.text, "farm/job.yaml"));
     TRY(atomic_file_write(path.text, t.data, t.size));

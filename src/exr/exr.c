@@ -13,12 +13,12 @@
 #include "base/version.h"
 #include "exr/hash.h"
 
-/* A file growing in memory, and the library's last complaint about it. */
+/* A file growing in memory, and the library's last error message. */
 struct sink {
     char *bytes;
     size_t size, capacity;
     char message[256];
-    bool out_of_memory; /* to the library it is one of many failures to write */
+    bool out_of_memory; /* the library reports it only as a failure to write */
 };
 
 static int64_t sink_write(exr_const_context_t exr, void *user, const void *bytes, uint64_t n, uint64_t at,
@@ -54,7 +54,7 @@ static status exr_status(exr_result_t code, const struct sink *s)
 
 #define TRY_EXR(call) TRY(exr_status((call), sink))
 
-/* 24000/1001 and its like for film and video rates, else thousandths. */
+/* Film and video rates as 24000/1001 and the like, others in thousandths. */
 static exr_attr_rational_t rational_of(double fps)
 {
     const double video = round(fps * 1.001);
@@ -65,8 +65,8 @@ static exr_attr_rational_t rational_of(double fps)
     return (exr_attr_rational_t){(int32_t)round(fps * 1000), 1000};
 }
 
-/* SMPTE 12M time of a frame, in binary coded decimals. Two bits hold the tens of frames: false above 30
- * frames a second. */
+/* SMPTE 12M time code of a frame, in binary-coded decimals. Two bits hold the tens of frames, so this returns false above 30 frames per
+ * second. */
 static bool timecode_of(int frame, double fps, exr_attr_timecode_t *out)
 {
     const int rate = (int)round(fps);
@@ -126,7 +126,7 @@ done:
     return st;
 }
 
-/* Does channel c belong in the part whose first channel is `first`? */
+/* Whether channel c belongs to the part whose first channel is `first`. */
 static bool in_part(const struct aov_image *image, const struct exr_options *options, size_t first, size_t c)
 {
     return options->layout == AOV_LAYOUT_SINGLE ||
@@ -196,7 +196,7 @@ static exr_result_t encode_chunk(exr_context_t exr, int part, int row, const str
         }
     bad = exr_encoding_choose_default_routines(exr, part, &pipe);
     if (bad == EXR_ERR_SUCCESS) {
-        /* Chunks are compressed on all cores and written in order afterwards. */
+        /* Chunks are compressed in parallel here and written in order later. */
         pipe.yield_until_ready_fn = NULL;
         pipe.write_fn = NULL;
         bad = exr_encoding_run(exr, part, &pipe);
@@ -244,7 +244,7 @@ static status check_image(const struct aov_image *image)
 {
     if (image->width < 1 + 2 * image->margin[0] || image->height < 1 + 2 * image->margin[1] ||
         image->margin[0] < 0 || image->margin[1] < 0 || image->n_channels < 1)
-        return fail(E_OUTPUT, "EXR: %d x %d pixels and %zu channels make no picture", image->width,
+        return fail(E_OUTPUT, "EXR: a picture cannot have %d x %d pixels and %zu channels", image->width,
                     image->height, image->n_channels);
     for (size_t c = 0; c < image->n_channels; c++) {
         if (!image->channel[c].value && !image->channel[c].id)
@@ -265,7 +265,7 @@ status exr_encode(const struct aov_image *image, const struct exr_options *optio
     init.error_handler_fn = sink_complaint;
     init.user_data = sink;
     init.write_fn = sink_write;
-    init.zip_level = 2; /* half the time of 4, for files about 4 % larger: the simulation wants the cores */
+    init.zip_level = 2; /* takes half the time of 4, for files that are about 4 % larger */
     int n_parts = 0;
     TRY(check_image(image));
     TRY_EXR(exr_start_write(&exr, "memory", EXR_WRITE_FILE_DIRECTLY, &init));
@@ -277,8 +277,7 @@ status exr_encode(const struct aov_image *image, const struct exr_options *optio
     TRY_EXR(exr_write_header(exr));
     for (int part = 0; part < n_parts; part++)
         TRY(write_part(exr, part, image, sink));
-    /* This writes the chunk tables. It does not report chunks that are missing: write_part() has written them
-     * all. */
+    /* Writes the chunk tables. It would not report missing chunks, but write_part() has written them all. */
     *memory.message = '\0';
     TRY_EXR(exr_finish(&exr));
     if (*memory.message)

@@ -1,5 +1,4 @@
-/* OpenEXR files from C: one frame's AOVs. Written into memory, so that a full disk is the caller's to notice.
- */
+/* OpenEXR files of one frame's AOVs. Files are encoded in memory; the caller writes them, and so notices a full disk. */
 #ifndef HOODOO_EXR_H
 #define HOODOO_EXR_H
 
@@ -14,18 +13,18 @@ struct exr_options {
     double years;
     uint64_t job_hash;
     const char *owner, *comments;
-    const char *wedge; /* which values this wedge has; "" or NULL: none */
+    const char *wedge; /* the values of this wedge; "" or NULL: the job has no wedges */
 };
 
-/* ZIP; float but for channels marked half; uint for ids. Standard attributes as DESIGN 2 lists them, and
- * hoodoo:*. *bytes is freed with free(). */
+/* Encodes a picture with ZIP compression: uint channels for ids, half where the channel says so, float otherwise. Attributes are the
+ * standard ones for cameras, colours and time, and hoodoo:*. `bytes` points to the pointer that receives the file, freed with free(). */
 MUST_USE status exr_encode(const struct aov_image *image, const struct exr_options *options, void *bytes,
                            size_t *size);
 
-/* Reads every pixel. E_INPUT if anything is missing or damaged. */
+/* Reads every pixel. E_INPUT if the file is missing or damaged. */
 MUST_USE status exr_check(const char *path);
 
-/* Parts, channels, size, compression and attributes as a JSON object's members. E_INPUT as above. */
+/* Adds parts, channels, size, compression and attributes to `out`, as members of a JSON object. E_INPUT as above. */
 MUST_USE status exr_describe(const char *path, struct text *out);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/hash.h"
 
-/* How the attribute starts in the file: its name, its type and its length. */
+/* The start of the attribute in the file: its name, type and length. */
 static const char HEAD[] = EXR_HASH_NAME "\0string\0\x10\0\0";
 enum { DIGITS = 16, SEARCHED = 1 << 16 };
 
@@ -26,7 +26,7 @@ void exr_hash_set(char *bytes, size_t size)
 bool exr_hash_holds(char *bytes, size_t size)
 {
     char text[DIGITS + 1], found[DIGITS], *digits = find_digits(bytes, size);
-    if (!digits) /* by someone else, if it says nothing of hoodoo */
+    if (!digits) /* intact if hoodoo is not mentioned: another program wrote it */
         return !memmem(bytes, size < SEARCHED ? size : SEARCHED, "hoodoo:", 7);
     memcpy(found, digits, DIGITS);
     memcpy(digits, EXR_HASH_NONE, DIGITS);

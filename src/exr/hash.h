@@ -1,5 +1,5 @@
-/* The hash of an EXR file's bytes, inside the file: a string attribute of fixed length in the first header.
- * Only ZIP chunks carry checksums of their own; headers and chunks that do not compress have none. */
+/* A hash of an EXR file's bytes, stored inside the file as a string attribute of fixed length in the first header. It is needed because
+ * only ZIP chunks have checksums; headers and chunks that do not compress have none. */
 #ifndef HOODOO_EXR_HASH_H
 #define HOODOO_EXR_HASH_H
 
@@ -9,10 +9,10 @@
 #define EXR_HASH_NAME "hoodoo:fileHash"
 #define EXR_HASH_NONE "0000000000000000"
 
-/* Fills in the attribute's 16 digits, which are zeros so far. */
+/* Computes the hash and stores it in the attribute, whose 16 digits must be zeros. */
 void exr_hash_set(char *bytes, size_t size);
 
-/* False if hoodoo wrote this and the bytes are no longer what it wrote. May change `bytes`. */
+/* Returns false if hoodoo wrote the file and its bytes have changed since. May modify `bytes`. */
 bool exr_hash_holds(char *bytes, size_t size);
 
 #endif

@@ -1,4 +1,4 @@
-/* What an EXR file holds, and whether it is all there. Runs in hoodoo-read: these bytes may come from anyone. */
+/* Checks and describes EXR files. Runs in hoodoo-read, because the files may be hostile. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ struct source {
     char message[256];
 };
 
-/* As a file is read: fewer bytes at its end. Headers are read ahead; where all of it is needed, the library says so. */
+/* Reads as from a file, with fewer bytes at its end. The library reads headers ahead, and reports an error if it needed all bytes. */
 static int64_t source_read(exr_const_context_t exr, void *user, void *bytes, uint64_t n, uint64_t at,
                            exr_stream_error_func_ptr_t error)
 {
@@ -93,8 +93,7 @@ static status read_part(exr_context_t exr, int part, const struct source *source
     int32_t lines = 0;
     TRY_EXR(exr_get_storage(exr, part, &storage));
     if (storage != EXR_STORAGE_SCANLINE) {
-        st = fail(E_INPUT, "%s: part %d is tiled or deep, not scan lines as hoodoo writes them", source->path,
-                  part);
+        st = fail(E_INPUT, "%s: part %d is tiled or deep, but hoodoo writes scan lines", source->path, part);
         goto done;
     }
     TRY_EXR(exr_get_data_window(exr, part, &window));
@@ -146,7 +145,7 @@ static void describe_attribute(const exr_attribute_t *a, struct text *out)
     case EXR_ATTR_CHROMATICITIES:
         describe_numbers(out, a->name, &a->chromaticities->red_x, 8);
         break;
-    default: /* what is told elsewhere, and what hoodoo does not write */
+    default: /* attributes described elsewhere, or not written by hoodoo */
         break;
     }
 }
@@ -197,7 +196,7 @@ done:
     return st;
 }
 
-/* Reads every pixel; describes the file if `out` is not NULL. */
+/* Reads every pixel, and describes the file if `out` is not NULL. */
 static status read_file(const char *path, struct text *out)
 {
     status st = OK;
@@ -223,7 +222,7 @@ static status read_file(const char *path, struct text *out)
         json_end_array(out);
     }
     if (!exr_hash_holds(file.bytes, file.size))
-        st = fail(E_INPUT, "%s: damaged: its content is not what was written", path);
+        st = fail(E_INPUT, "%s: damaged: its content does not match its hash", path);
 done:
     if (exr)
         exr_finish(&exr);

@@ -1,4 +1,4 @@
-/* OpenEXR files in their reader: "exr.check" answers with no parts, "exr.describe" with a text (describe.h). */
+/* OpenEXR files in hoodoo-read: "exr.check" answers without parts, "exr.describe" with a text (reader/describe.h). */
 #ifndef HOODOO_EXR_SERVE_H
 #define HOODOO_EXR_SERVE_H
 

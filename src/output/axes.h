@@ -1,10 +1,11 @@
-/* From the simulator's axes, z up, to those of files: output.up. y up is a turn about x, so that windings stay. */
+/* Conversion from the simulator's axes (z up) to those of files (output.up). y up is a rotation about x, so triangles keep their
+ * orientation. */
 #ifndef HOODOO_AXES_H
 #define HOODOO_AXES_H
 
 #include "job/job.h"
 
-/* 0 - y, not -y: no negative zeros. */
+/* 0 - y instead of -y avoids negative zeros. */
 static inline void axes_turn(const float sim[3], int up, float file[3])
 {
     file[0] = sim[0];

@@ -40,7 +40,8 @@ static const struct {
     [FILE_WIND] = {"wind", "vdb"},
     [FILE_MESH_USD] = {"mesh", "usdc"},
 };
-/* Made by who fills them: rocks, stacks and wind by the writer, the others by their verbs: mesh, preview, turntable, report, log. */
+/* The folders that folder_prepare() creates. The others are created when they are first needed: rocks, stacks and wind by the writer,
+ * mesh, preview, turntable and report by their verbs. */
 static const enum folder_file always[] = {FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST,
                                           FILE_CHECKPOINT};
 
@@ -55,7 +56,7 @@ status folder_name(struct path *out, const char *name, enum folder_file kind, in
                        frame_text(frame, number), extension);
 }
 
-/* `view`: what stands for its number. */
+/* `view` is the number of the view as text, or a pattern for it. */
 static status view_name(struct path *out, const char *name, const char *part, int frame, const char *view)
 {
     char number[FRAME_TEXT];
@@ -72,7 +73,7 @@ status folder_view(struct path *out, const char *name, const char *part, int fra
 
 status folder_views(struct path *out, const char *name, const char *part, int frame)
 {
-    /* Names hold letters, digits, _ and - alone: no '%' but this. */
+    /* Names have only letters, digits, _ and -, so this is the only '%'. */
     return view_name(out, name, part, frame, "%03d");
 }
 
@@ -84,21 +85,21 @@ status folder_path(struct path *out, const char *root, const char *name, enum fo
     return st == OK ? path_join(out, root, below.text) : st;
 }
 
-status folder_room(const char *root)
+status folder_check_length(const char *root)
 {
-    /* A wedge's folder, a folder in it, a name of up to 200 letters, a part's, a number, and what a temporary name
-     * adds. */
+    /* Bytes for a wedge's folder, a folder in it, a job's name of up to 200 letters, a part, a number, and the suffix of temporary
+     * names. */
     enum { BELOW = 512, LONGEST = PATH_BYTES - 1 - BELOW };
     const size_t n = strlen(root);
     return n <= LONGEST
                ? OK
                : fail(
                      E_OUTPUT,
-                     "%.100s...: the output folder's path is %zu bytes long; at most %d leave room for its files",
+                     "%.100s...: the output folder's path is %zu bytes long; the limit is %d, so that its files' paths fit",
                      root, n, LONGEST);
 }
 
-/* `depth`: how many folders further down are swept, too. */
+/* Also sweeps folders up to `depth` levels below. */
 static void sweep(const char *folder, int depth)
 {
     struct path path;
@@ -123,7 +124,7 @@ status folder_prepare(const char *root)
 {
     status st = OK;
     struct path path;
-    TRY(folder_room(root));
+    TRY(folder_check_length(root));
     TRY(folder_make(root));
     folder_sweep(root);
     for (size_t i = 0; i < sizeof always / sizeof *always; i++) {
@@ -136,7 +137,7 @@ done:
     return st;
 }
 
-/* The frame of a file called NAME.FRAME.ENDING. */
+/* Parses the frame from a file name NAME.FRAME.ENDING. */
 static bool frame_of(const char *file, const char *name, const char *ending, int *frame)
 {
     const size_t n = strlen(name);
@@ -197,7 +198,7 @@ status folder_frames(const char *root, const char *name, int **frames, size_t *n
     return folder_list(root, name, FILE_MANIFEST, frames, n);
 }
 
-/* What a job may be called (keys.def): it becomes part of paths. */
+/* Whether a text is a valid job name (keys.def), since it becomes part of paths. */
 static bool is_name(const char *name)
 {
     const size_t n = strlen(name);
@@ -235,13 +236,13 @@ status folder_open(const char *root, char name[256])
     TRY(read_run(root, &run));
     text = json_to_text(json_member(run, "name"));
     if (!text || !is_name(text)) {
-        st = fail(E_INPUT, "%s/run.json: no job name in it (letters, digits, _ and -)", root);
+        st = fail(E_INPUT, "%s/run.json: it has no job name (letters, digits, _ and -)", root);
         goto done;
     }
     snprintf(name, 256, "%s", text);
     TRY(path_join(&path, root, "job.yaml"));
     if (stat(path.text, &info) != 0)
-        st = fail(E_INPUT, "%s: %s: the folder has lost its job", path.text, strerror(errno));
+        st = fail(E_INPUT, "%s: %s: the folder has lost its job.yaml", path.text, strerror(errno));
 done:
     if (run)
         json_free(&run);
@@ -258,7 +259,7 @@ status folder_job_hash(const char *root, uint64_t *hash)
     TRY(read_run(root, &run));
     text = json_to_text(json_member(run, "job_hash"));
     if (!text || sscanf(text, "%16llx%n", &number, &end) != 1 || end != 16 || text[end])
-        st = fail(E_INPUT, "%s/run.json: no hash of the job in it", root);
+        st = fail(E_INPUT, "%s/run.json: it has no hash of the job", root);
     else
         *hash = number;
 done:

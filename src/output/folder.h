@@ -1,4 +1,4 @@
-/* The output folder's layout, and frame manifests: what says that a frame is done. */
+/* The layout of the output folder, and manifests: the files that mark frames as done. */
 #ifndef HOODOO_FOLDER_H
 #define HOODOO_FOLDER_H
 
@@ -11,64 +11,63 @@
 #include "base/text.h"
 #include "particles/frame.h"
 
-enum folder_file { /* VDBs hold a hash of theirs: new ones come last */
+enum folder_file { /* the identity of a VDB depends on these numbers: add new kinds at the end */
                    FILE_POINTS,
                    FILE_VOLUMES,
                    FILE_AOV,
                    FILE_MANIFEST,
                    FILE_CHECKPOINT,
-                   FILE_MESH, /* the PLY */
-                   FILE_USD,  /* the surface's points */
+                   FILE_MESH, /* PLY */
+                   FILE_USD,  /* points of the surface */
                    FILE_ROCKS,
                    FILE_ROCKS_USD,
                    FILE_STACKS,
-                   FILE_KEEP, /* beside a checkpoint that is never pruned */
+                   FILE_KEEP, /* marks a checkpoint that is never pruned */
                    FILE_OBJ,
                    FILE_STILL,
-                   FILE_STILL_SCENE, /* POV-Ray's */
+                   FILE_STILL_SCENE, /* POV-Ray scene */
                    FILE_ORBIT_SCENE,
-                   FILE_SHEET, /* of all frames, as are those that follow */
+                   FILE_SHEET, /* contact sheet; this and the next three are of all frames */
                    FILE_VIDEO,
-                   FILE_WEDGES, /* the sheet across a farm's wedges */
+                   FILE_WEDGES, /* contact sheet of a farm's wedges */
                    FILE_STAGE,
                    FILE_WIND,
                    FILE_MESH_USD
 };
 
-/* points/NAME.1001.vdb and so on, relative to the output folder: `name` is the job's. `part`: put in the name
- * (NAME.PART.1001.exr), or NULL: the camera of an AOV when the job has more than one AOV camera, the value
- * that a picture shows. A file of all frames has no number: NAME.contact.png. E_OUTPUT if it is too long. */
+/* The path of a file relative to the output folder, such as points/NAME.1001.vdb; `name` is the job's. `part`, unless NULL, becomes part
+ * of the name (NAME.PART.1001.exr): the camera of an AOV if the job has several, or the value that a picture shows. Files of all frames
+ * have no number: NAME.contact.png. E_OUTPUT: the path is too long. */
 MUST_USE status folder_name(struct path *out, const char *name, enum folder_file kind, int frame,
                             const char *part);
 
-/* turntable/NAME.1001.000.png: a view of an orbit. */
+/* turntable/NAME.1001.000.png: one view of an orbit. */
 MUST_USE status folder_view(struct path *out, const char *name, const char *part, int frame, int view);
 
-/* All views of an orbit, as programs want them that read sequences: turntable/NAME.1001.%03d.png. */
+/* All views of an orbit, as a printf pattern for programs that read image sequences: turntable/NAME.1001.%03d.png. */
 MUST_USE status folder_views(struct path *out, const char *name, const char *part, int frame);
 
-/* root/points/NAME.1001.vdb: `root` is the output folder, the rest is folder_name()'s. E_OUTPUT if the path is
- * too long. */
+/* The path of a file below the output folder `root`: root/points/NAME.1001.vdb. Otherwise as folder_name(). */
 MUST_USE status folder_path(struct path *out, const char *root, const char *name, enum folder_file kind,
                             int frame, const char *part);
 
-/* Has the output folder `root` room below it for the longest path of any file there? E_OUTPUT if not. */
-MUST_USE status folder_room(const char *root);
+/* E_OUTPUT if `root` is so long that paths of files below it would exceed the limit. */
+MUST_USE status folder_check_length(const char *root);
 
-/* Removes the temporary files that killed processes left anywhere in the output folder: for who is about to write
- * there. Those of living processes stay. Never fails. */
+/* Removes temporary files that killed processes left in the output folder; those of running processes stay. To be called before
+ * writing there. Never fails. */
 void folder_sweep(const char *root);
 
-/* Makes root and its subfolders, and sweeps them. */
+/* Creates root and its subfolders, and calls folder_sweep(). */
 MUST_USE status folder_prepare(const char *root);
 
-/* A file a manifest vouches for. */
+/* A file listed in a manifest. */
 struct manifest_file {
     char path[512]; /* relative to root */
     uint64_t size, hash;
 };
 
-/* What a process changed of the rock since the frame before; negative: taken. */
+/* The volume that a process added since the frame before; negative if it removed rock. */
 struct manifest_change {
     char process[24];
     double m3;
@@ -86,44 +85,42 @@ struct manifest {
     struct manifest_change change[PROCESSES];
 };
 
-/* frames/NAME.1001.json. Written last. */
+/* Writes frames/NAME.1001.json; must be the last file of the frame. */
 MUST_USE status manifest_write(const char *root, const char *name, const struct manifest *manifest);
-/* E_INPUT: missing, damaged (it holds its own hash), or not the manifest of this frame. */
+/* E_INPUT: the manifest is missing, damaged (it contains its own hash), or belongs to another frame. */
 MUST_USE status manifest_read(const char *root, const char *name, int frame, struct manifest *out);
 void manifest_free(struct manifest *manifest);
 
-/* Is a file of that folder ("points/") and extension (".vdb") among its files? */
+/* Whether it lists a file in that folder ("points/") with that extension (".vdb"). */
 bool manifest_lists(const struct manifest *manifest, const char *folder, const char *extension);
 
-/* Does every file the manifest lists stand there with its size (and, if `deep`, its hash)? *bad names the
- * first that does not (a text in the manifest, or "" if all are well); status_message() then says what is
- * wrong with it. OK either way. */
+/* Checks that every listed file exists with its size and, if `deep`, its hash. *bad is the path of the first that does not (owned by the
+ * manifest) or "", and status_message() then says what is wrong. Returns OK in both cases. */
 MUST_USE status manifest_check(const char *root, const struct manifest *manifest, bool deep,
                                const char **bad);
 
-/* Does one file stand there as listed? E_INPUT says why not. */
+/* The same for one file. E_INPUT, with the reason, if it does not match. */
 MUST_USE status listed_check(const char *root, const struct manifest_file *file, bool deep);
 
-/* A hash of what is derived from a frame is made of: its points, volumes and rocks, as its manifest lists them. E_INPUT as
- * manifest_read(). */
+/* A hash of what products are made from: the frame's points, volumes and rocks, as listed in its manifest. E_INPUT as manifest_read(). */
 MUST_USE status manifest_source(const char *root, const char *name, int frame, uint64_t *hash);
 
-/* The frames of `name` that have a file of this kind (named as folder_name() does, with no part), ascending;
- * *frames freed with free(). A folder that is not there has none. */
+/* The frames of `name` that have a file of this kind without a part, ascending; *frames is freed with free(). None if the folder does not
+ * exist. */
 MUST_USE status folder_list(const char *root, const char *name, enum folder_file kind, int **frames,
                             size_t *n);
 
-/* Those that have an orbit: its first view. */
+/* The frames that have an orbit, known by its first view. */
 MUST_USE status folder_orbits(const char *root, const char *name, int **frames, size_t *n);
 
-/* Those that have a manifest. */
+/* The frames that have a manifest. */
 MUST_USE status folder_frames(const char *root, const char *name, int **frames, size_t *n);
 
-/* The job's name of an output folder, from root/run.json. E_INPUT if `root` is not a hoodoo output folder: no
- * run.json with a name, or no job.yaml. */
+/* The job's name, from root/run.json. E_INPUT if `root` is not an output folder of hoodoo: run.json has no name, or job.yaml is
+ * missing. */
 MUST_USE status folder_open(const char *root, char name[256]);
 
-/* job_hash() of the job that its frames are of, from root/run.json. E_INPUT. */
+/* The job_hash() of the frames in the folder, from root/run.json. E_INPUT. */
 MUST_USE status folder_job_hash(const char *root, uint64_t *hash);
 
 #endif

@@ -23,15 +23,15 @@ status manifest_write(const char *root, const char *name, const struct manifest 
     json_text(&t, "kind", "hoodoo frame");
     json_integer(&t, "format", 1);
     json_integer(&t, "frame", m->frame);
-    sealed_put_hash(&t, "job_xxh3", m->job_hash);
-    sealed_put_hash(&t, "output_xxh3", m->files_hash);
+    sealed_add_hash(&t, "job_xxh3", m->job_hash);
+    sealed_add_hash(&t, "output_xxh3", m->files_hash);
     json_number(&t, "years", m->years);
     json_array(&t, "files");
     for (size_t i = 0; i < m->n_files; i++) {
         json_object(&t, NULL);
         json_text(&t, "path", m->file[i].path);
         json_integer(&t, "size", (int64_t)m->file[i].size);
-        sealed_put_hash(&t, "xxh3", m->file[i].hash);
+        sealed_add_hash(&t, "xxh3", m->file[i].hash);
         json_end_object(&t);
     }
     json_end_array(&t);
@@ -59,7 +59,7 @@ done:
     return st;
 }
 
-/* null is what a number that is not finite was written as. */
+/* A number that is not finite is written as null. */
 static bool to_number(const struct json *json, double *out)
 {
     if (!json || (json->kind != JSON_NUMBER && json->kind != JSON_NULL))
@@ -85,7 +85,7 @@ static bool to_files(const struct json *files, struct manifest *out)
     return true;
 }
 
-/* Not every model has them. */
+/* Models without processes have no changes. */
 static bool to_changes(const struct json *changes, struct manifest *out)
 {
     if (!changes)
@@ -101,7 +101,7 @@ static bool to_changes(const struct json *changes, struct manifest *out)
     return true;
 }
 
-/* "" or what is wrong with it. `out` has room for the files. */
+/* Returns "", or what is wrong. out->file must hold all files. */
 static const char *to_manifest(const struct json *json, struct manifest *out)
 {
     const char *kind = json_to_text(json_member(json, "kind"));
@@ -110,7 +110,7 @@ static const char *to_manifest(const struct json *json, struct manifest *out)
     if (!kind || strcmp(kind, "hoodoo frame") != 0 || !json_to_uint64(json_member(json, "format"), &format))
         return "it is not the manifest of a frame";
     if (format != 1)
-        return "its format is a later one; use a newer hoodoo";
+        return "it has a later format; use a newer version of hoodoo";
     if (!json_to_int(json_member(json, "frame"), &out->frame) ||
         !sealed_to_hash(json_member(json, "job_xxh3"), &out->job_hash) ||
         !sealed_to_hash(json_member(json, "output_xxh3"), &out->files_hash) ||
@@ -152,7 +152,7 @@ status manifest_read(const char *root, const char *name, int frame, struct manif
     TRY(memory_alloc(files ? files->n : 0, sizeof *m.file, path.text, &m.file));
     wrong = to_manifest(json, &m);
     if (!*wrong && m.frame != frame)
-        wrong = "it is of another frame than its name says";
+        wrong = "it belongs to another frame than its name says";
     if (*wrong) {
         st = fail(E_INPUT, "%s: %s", path.text, wrong);
         goto done;

@@ -36,7 +36,7 @@ status recipe_of_frame(struct recipe *recipe, const char *name, int frame)
     return st == E_MEMORY ? st : OK;
 }
 
-/* ---- written */
+/* ---- writing */
 
 static status write_record(const struct recipe *r, const char *path, uint64_t hash, uint64_t size)
 {
@@ -51,10 +51,10 @@ static status write_record(const struct recipe *r, const char *path, uint64_t ha
     json_integer(&t, "format", 1);
     json_text(&t, "path", path);
     json_integer(&t, "size", (int64_t)size);
-    sealed_put_hash(&t, "xxh3", hash);
+    sealed_add_hash(&t, "xxh3", hash);
     if (r->frame != ALL_FRAMES)
         json_integer(&t, "frame", r->frame);
-    sealed_put_hash(&t, "source_xxh3", r->source);
+    sealed_add_hash(&t, "source_xxh3", r->source);
     json_array(&t, "command");
     for (size_t i = 0; i < r->n_words; i++)
         json_text(&t, NULL, r->word[i]);
@@ -65,7 +65,7 @@ done:
     return st;
 }
 
-static status make_room(struct path *out, const char *root, const char *path)
+static status prepare_path(struct path *out, const char *root, const char *path)
 {
     status st = OK;
     struct path folder;
@@ -80,7 +80,7 @@ status product_write(const struct recipe *r, const char *path, const void *bytes
 {
     status st = OK;
     struct path to;
-    TRY(make_room(&to, r->root, path));
+    TRY(prepare_path(&to, r->root, path));
     TRY(atomic_file_write(to.text, bytes, n));
     TRY(write_record(r, path, hash_bytes(bytes, n), n));
 done:
@@ -93,10 +93,10 @@ status product_adopt(const struct recipe *r, const char *temporary, const char *
     struct path from, to;
     uint64_t hash, size;
     TRY(path_join(&from, r->root, temporary));
-    TRY(make_room(&to, r->root, path));
-    /* Before it is in place: what is there afterwards may already be another process'. */
+    TRY(prepare_path(&to, r->root, path));
+    /* Hash the file before it is in place: afterwards another process may have replaced it. */
     if (hash_file(from.text, &hash, &size) != OK) {
-        st = fail(E_OUTPUT, "%s: could not be made: %s", to.text, strerror(errno));
+        st = fail(E_OUTPUT, "%s: the file could not be made: %s", to.text, strerror(errno));
         goto done;
     }
     TRY(atomic_file_adopt(from.text, to.text));
@@ -105,7 +105,7 @@ done:
     return st;
 }
 
-/* ---- read */
+/* ---- reading */
 
 void product_free(struct product *p)
 {
@@ -152,7 +152,8 @@ status product_read(const char *root, const char *path, struct product *out)
     TRY(record_path(&from, root, path));
     TRY(sealed_read(from.text, "a product's record", &p.json));
     if (!to_product(p.json, path, &p)) {
-        st = fail(E_INPUT, "%s: not the record of %s, or of a later format", from.text, path);
+        st = fail(E_INPUT, "%s: not the record of %s, or written by a later version of hoodoo", from.text,
+                  path);
         goto done;
     }
     *out = p;
@@ -172,7 +173,7 @@ status product_check(const char *root, const char *name, const struct product *p
     if (st != OK)
         return st == E_INPUT ? OK : st;
     return source == p->source ? OK
-                               : fail(E_INPUT, "%s/%s: it was made of another frame %d than is there now",
+                               : fail(E_INPUT, "%s/%s: it was made from frame %d before that was changed",
                                       root, p->file.path, p->frame);
 }
 
@@ -206,7 +207,7 @@ void product_list_free(struct product_list *list)
     *list = (struct product_list){0};
 }
 
-/* Calls it for records/ ("") and its folders ("mesh/"). */
+/* Calls `call` for records/ (with "") and for each folder in it (with "mesh/" and the like). */
 static status each_folder(const char *root, status (*call)(void *user, const char *folder, const char *below),
                           void *user)
 {
@@ -268,7 +269,7 @@ status product_list(const char *root, struct product_list *out)
     return st;
 }
 
-status product_forget(const char *root)
+status product_remove_records(const char *root)
 {
     status st = OK;
     struct product_list list = {0};

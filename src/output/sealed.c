@@ -6,11 +6,11 @@
 #include "base/atomic_file.h"
 #include "base/hash.h"
 
-/* The last member is the hash of all text before it. */
+/* The last member is the hash of all bytes before it. */
 static const char SELF[] = "\n  \"self_xxh3\": \"", END[] = "\"\n}\n";
 enum { HASH_DIGITS = 16, LARGEST = 16 << 20 };
 
-void sealed_put_hash(struct text *t, const char *key, uint64_t hash)
+void sealed_add_hash(struct text *t, const char *key, uint64_t hash)
 {
     char text[17];
     json_text(t, key, hash_text(hash, text));
@@ -44,7 +44,7 @@ status sealed_write(const char *path, struct text *t)
 {
     status st = OK;
     TRY(text_status(t));
-    sealed_put_hash(t, "self_xxh3", hash_bytes(t->data, t->size));
+    sealed_add_hash(t, "self_xxh3", hash_bytes(t->data, t->size));
     json_end_object(t);
     TRY(text_status(t));
     TRY(atomic_file_write(path, t->data, t->size));
@@ -57,7 +57,7 @@ static status check_self(const char *path, const char *what, const char *bytes, 
 {
     char text[17];
     const char *self = memmem(bytes, size, SELF, sizeof SELF - 1);
-    /* The comma before SELF was written together with it; after the digits comes END and nothing else. */
+    /* The comma before SELF is not hashed. The digits must be followed by END and nothing else. */
     if (!self || self == bytes ||
         size - (size_t)(self - bytes) != sizeof SELF - 1 + HASH_DIGITS + sizeof END - 1 ||
         memcmp(self + sizeof SELF - 1, hash_text(hash_bytes(bytes, (size_t)(self - bytes) - 1), text),

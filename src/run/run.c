@@ -265,7 +265,7 @@ static status discard_frames(const struct run *r)
         TRY(folder_path(&path, r->options->root, r->job->name, FILE_CHECKPOINT, frames[i], NULL));
         unlink(path.text);
     }
-    TRY(product_forget(r->options->root));
+    TRY(product_remove_records(r->options->root));
     free(frames);
     frames = NULL;
     TRY(folder_frames(r->options->root, r->job->name, &frames, &n));

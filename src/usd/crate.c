@@ -27,7 +27,7 @@ struct crate {
     uint32_t field_token[MAX_FIELDS];
     uint64_t field_value[MAX_FIELDS];
     uint32_t set[MAX_FIELDS + MAX_SPECS]; /* fields of a spec, ended by END_OF_SET */
-    uint32_t spec[MAX_SPECS][3];          /* path, where its set begins, type */
+    uint32_t spec[MAX_SPECS][3];          /* path, index of its field set, type */
 };
 static const uint32_t END_OF_SET = UINT32_MAX;
 
@@ -52,7 +52,7 @@ static uint32_t token(struct crate *c, const char *text)
     return c->n_tokens++;
 }
 
-/* A value's type, and where it is or, inlined, what it is. */
+/* A value: its type, and its offset or, if inlined, the value itself. */
 static uint64_t value(enum value_type type, uint64_t payload)
 {
     return (uint64_t)type << 48 | payload;
@@ -83,7 +83,7 @@ static uint64_t tokens_value(struct crate *c, const char *const *text, size_t n)
     return value(TOKEN_VECTOR, at);
 }
 
-/* An array of n items: how many, and the items. They begin at a multiple of 8, so that USD may map them. */
+/* Adds an array: the number of items, then the items, aligned to 8 bytes, so that USD can map them. */
 static uint64_t array_value(struct crate *c, enum usd_type type, const void *items, size_t n,
                             size_t item_size)
 {
@@ -96,7 +96,7 @@ static uint64_t array_value(struct crate *c, enum usd_type type, const void *ite
     return ARRAY | value((enum value_type)type, at);
 }
 
-/* One sample at `time`. Both parts begin with how far it is to what follows them. */
+/* Adds one time sample. Both of its parts begin with the distance to what follows them. */
 static uint64_t sample_value(struct crate *c, double time, uint64_t sample)
 {
     align(c);
@@ -134,7 +134,7 @@ static void end_spec(struct crate *c)
 
 /* ---- sections */
 
-/* An LZ4 block of literals alone, after the byte that says there is one block; its size first. */
+/* Adds bytes as an LZ4 block of literals only: its size, a byte that says there is one block, and the block. */
 static void add_packed(struct crate *c, const void *bytes, size_t n)
 {
     static const unsigned char more = 255;
@@ -151,8 +151,8 @@ static void add_packed(struct crate *c, const void *bytes, size_t n)
     text_add_bytes(&c->bytes, bytes, n);
 }
 
-/* Differences, each in 32 bits: a commonest one that none makes use of, two bits a difference that say so (3),
- * the differences. Each of `stride` words has one. */
+/* Adds every stride-th of the words in USD's integer coding, as differences of 32 bits each: the most common difference (not used here),
+ * two bits per difference (3: 32 bits), then the differences. */
 static void add_integers(struct crate *c, const uint32_t *word, uint32_t n, size_t stride)
 {
     enum { MOST = 2 * MAX_FIELDS };
@@ -200,8 +200,8 @@ static void add_fieldsets(struct crate *c)
     add_integers(c, c->set, c->n_set, 1);
 }
 
-/* The tree, depth first: the root, its only prim, and that one's attributes. A property's name is negative;
- * jumps tell what follows: -1 a child, 0 a sibling, -2 neither. */
+/* Adds the tree of paths, depth first: the root, its only prim, and the prim's attributes. Names of properties are negative. A jump tells
+ * what follows: -1 a child, 0 a sibling, -2 neither. */
 static void add_paths(struct crate *c)
 {
     uint32_t row[MAX_SPECS][3];
@@ -213,7 +213,7 @@ static void add_paths(struct crate *c)
         row[i][1] = property ? 0 - name : name;
         row[i][2] = (uint32_t)(!property ? -1 : i + 1 < c->n_specs ? 0 : -2);
     }
-    add_u64(c, c->n_specs); /* paths there are, and paths in the tree */
+    add_u64(c, c->n_specs); /* number of paths, and of paths in the tree */
     add_u64(c, c->n_specs);
     for (int column = 0; column < 3; column++)
         add_integers(c, &row[0][column], c->n_specs, 3);
@@ -289,7 +289,7 @@ static void add_prims(struct crate *c, int up, int frame, double fps)
     end_spec(c);
 }
 
-/* ---- what a prim has */
+/* ---- attributes of a prim */
 
 void usd_prim_add(struct usd_prim *prim, int which[USD_ATTRIBUTES_MAX], struct usd_attribute attribute,
                   int is)
@@ -324,11 +324,11 @@ status usd_crate(const struct usd_prim *prim, const struct usd_items *items, int
     struct crate c = {.prim = prim};
     *out = (struct vdb_bytes){0};
     text_add_bytes(&c.bytes, head, sizeof head);
-    token(&c, "defaultPrim"); /* the first name is number 0, which has no negative: no property's */
+    token(&c, "defaultPrim"); /* token 0 has no negative, so it must not be the name of a property */
     add_prims(&c, up, frame, fps);
     for (uint32_t a = 0; a < prim->n; a++)
         add_attribute(&c, a, &items[a], frame);
-    /* Every name is known before the section of names is written. */
+    /* All tokens are known now, so the sections can be written. */
     add_sections(&c);
     TRY(text_status(&c.bytes));
     *out = (struct vdb_bytes){.bytes = c.bytes.data, .size = c.bytes.size};

@@ -1,16 +1,15 @@
-/* One prim and its attributes, with a sample at one frame each, as a USD crate file of version 0.8.0: values,
- * then the sections TOKENS STRINGS FIELDS FIELDSETS PATHS SPECS, then where they are. Little endian, as this
- * machine is. Sections are in the compressed forms that readers want, of which the plainest is used: they are a
- * kilobyte beside megabytes of values.
+/* USD crate files (version 0.8.0) of one prim whose attributes each have one sample, at one frame. The file has the values, then the
+ * sections TOKENS STRINGS FIELDS FIELDSETS PATHS SPECS, then a table of sections; all little endian. Sections use the simplest of the
+ * compressed forms that readers accept, because they take a kilobyte beside megabytes of values.
  *
- * A table says once what a prim has: the crate's writer and the declarations in stage and manifest go by it.
+ * struct usd_prim describes a prim for both the crate writer and the declarations in the stage and the clips' manifest.
  */
 #ifndef HOODOO_USD_CRATE_H
 #define HOODOO_USD_CRATE_H
 
 #include "vdb/vdb.h"
 
-/* Of the crate's value types. */
+/* Value types, with the numbers of the crate format. */
 enum usd_type {
     USD_INT = 3,
     USD_INT64 = 5,
@@ -22,7 +21,7 @@ enum usd_type {
 };
 
 struct usd_attribute {
-    const char *name, *type; /* as in text */
+    const char *name, *type; /* as in .usda */
     enum usd_type value;
     size_t size; /* bytes of an item */
     const char *interpolation;
@@ -32,29 +31,28 @@ enum { USD_ATTRIBUTES_MAX = 10 + VALUES };
 
 struct usd_prim {
     const char *name, *type;
-    const char *folder; /* of its files and their manifest */
+    const char *folder; /* of its files and the clips' manifest */
     size_t n;
-    struct usd_attribute attribute[USD_ATTRIBUTES_MAX]; /* by name */
+    struct usd_attribute attribute[USD_ATTRIBUTES_MAX]; /* sorted by name */
 };
 
-/* One more attribute, in its place; which[], of each attribute, gets `is` there: readers of crates look for them by name. */
+/* Inserts an attribute; readers of crates expect them sorted by name. which[], parallel to prim->attribute, gets `is` at its index. */
 void usd_prim_add(struct usd_prim *prim, int which[USD_ATTRIBUTES_MAX], struct usd_attribute attribute,
                   int is);
 
-/* A value as a primvar of vertices or points. */
+/* The primvar attribute for a value, with one item per vertex or point. */
 struct usd_attribute usd_primvar(enum value_id value);
 
 const struct usd_prim *usd_points_prim(bool moves); /* points.c */
 extern const struct usd_prim usd_rocks_prim;        /* rocks.c */
 
-/* An attribute's array. */
+/* The array of an attribute. */
 struct usd_items {
     const void *at;
     size_t n;
 };
 
-/* The file of the prim; items[prim->n] in its attributes' order. Equal input gives equal bytes. out->bytes is
- * freed with free(). */
+/* Encodes the file; items[prim->n] are in the order of the attributes. Equal input gives equal bytes. out->bytes is freed with free(). */
 MUST_USE status usd_crate(const struct usd_prim *prim, const struct usd_items *items, int up, int frame,
                           double fps, struct vdb_bytes *out);
 

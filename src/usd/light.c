@@ -6,7 +6,7 @@
 #include "usd/text.h"
 #include "usd/usd.h"
 
-/* What an attribute is in a frame. */
+/* Adds the value of an attribute in one frame. */
 typedef void value_at(struct text *t, const struct usd_light *light);
 
 static void add_color(struct text *t, const double rgb[3])
@@ -22,7 +22,7 @@ static void sun_color(struct text *t, const struct usd_light *l)
     add_color(t, l->sun);
 }
 
-/* Irradiance: pi times what a white surface sends back. */
+/* Irradiance: pi times the radiance that a white surface reflects. */
 static void sun_intensity(struct text *t, const struct usd_light *l)
 {
     usd_add_number(t, 3.14159265358979323846 * luminance3(l->sun));

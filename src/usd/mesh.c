@@ -1,4 +1,4 @@
-/* The rock's surface as a USD mesh. */
+/* The surface of the rock as a USD mesh. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "output/axes.h"
 #include "usd/usd.h"
 
-/* What every mesh has; values of values.def follow. */
+/* The attributes of every mesh; those of values.def follow. */
 enum { EXTENT, COUNTS, INDICES, NORMALS, POINTS, COLOR, LAYER, VELOCITIES, OWN };
 static const struct usd_attribute own[OWN] = {
     [EXTENT] = {"extent", "float3[]", USD_VEC3F, 12, ""},
@@ -18,7 +18,7 @@ static const struct usd_attribute own[OWN] = {
     [LAYER] = {"primvars:layer", "int[]", USD_INT, 4, "vertex"},
     [VELOCITIES] = {"velocities", "vector3f[]", USD_VEC3F, 12, ""}};
 
-/* *which: of each attribute which of `own` it is, or OWN and which of the values. */
+/* which[i]: the index in `own` of attribute i, or OWN plus the index of its value. */
 static void make_prim(const char *const *value, size_t n, bool moves, struct usd_prim *out, int *which)
 {
     *out = (struct usd_prim){.name = "surface", .type = "Mesh", .folder = "mesh"};
@@ -35,7 +35,7 @@ void usd_mesh_prim(const char *const *value, size_t n, bool moves, struct usd_pr
     make_prim(value, n, moves, out, which);
 }
 
-/* Arrays as the file has them. */
+/* The arrays in the file's axes. */
 struct arrays {
     float *points, *normals, *velocities, extent[2][3];
     int32_t *counts;

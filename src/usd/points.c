@@ -1,4 +1,4 @@
-/* The rock's surface as USD points. */
+/* The surface particles of the rock as USD points. */
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "usd/crate.h"
 #include "usd/usd.h"
 
-/* What every point has; values of values.def follow. */
+/* The attributes of all points; those of values.def follow. */
 enum { EXTENT, IDS, NORMALS, POINTS, COLOR, VELOCITIES, WIDTHS, OWN };
 static const struct usd_attribute own[OWN] = {
     [EXTENT] = {"extent", "float3[]", USD_VEC3F, 12, ""},
@@ -19,8 +19,7 @@ static const struct usd_attribute own[OWN] = {
     [VELOCITIES] = {"velocities", "vector3f[]", USD_VEC3F, 12, ""},
     [WIDTHS] = {"widths", "float[]", USD_FLOAT, 4, "constant"}};
 
-/* The prim, of rock that stands still and of rock that moves, and for each of its attributes which of `own` it is, or OWN and
- * the value. */
+/* The prim without [0] and with [1] velocities; which[][i] is the index in `own` of attribute i, or OWN plus its value. */
 static struct usd_prim prim[2] = {{.name = "points", .type = "Points", .folder = "points"},
                                   {.name = "points", .type = "Points", .folder = "points"}};
 static int which[2][USD_ATTRIBUTES_MAX];
@@ -44,7 +43,7 @@ const struct usd_prim *usd_points_prim(bool moves)
     return &prim[moves];
 }
 
-/* Values of the surface's particles, as the file has them. */
+/* The arrays of the surface particles in the file's axes. */
 struct skin {
     size_t n;
     float *points, *normals, *color, *velocities; /* [n][3] */
@@ -98,10 +97,9 @@ static status skin_of(const struct rock *rock, const struct vdb_options *o, stru
     for (size_t i = 0; rock->N && i < rock->n; i++)
         n += on_surface(rock, i);
     if (n > UINT32_MAX / 2)
-        return fail(
-            E_OUTPUT,
-            "points of frame %d: %zu, more than a USD file can number here; set output.usd.points: none",
-            o->frame, n);
+        return fail(E_OUTPUT,
+                    "points of frame %d: %zu points are too many for a USD file; set output.usd.points: none",
+                    o->frame, n);
     s->n = n;
     s->width = (float)o->spacing;
     TRY(memory_alloc(n, 3 * sizeof(float), what, &s->points));

@@ -1,4 +1,4 @@
-/* Rocks as a USD point instancer, and the shapes that it puts there. */
+/* Rocks as a USD point instancer, and the shapes that it instances. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,7 +20,7 @@ const struct usd_prim usd_rocks_prim = {
                   [POSITIONS] = {"positions", "point3f[]", USD_VEC3F, 12, ""},
                   [PROTOS] = {"protoIndices", "int[]", USD_INT, 4, ""}}};
 
-/* i, j, k, then the real part; as halves. Shapes lie as they are in the tile. */
+/* i, j, k, then the real part, as halves. Rocks have the orientation of the tile. */
 struct half_quaternion {
     uint16_t part[4];
 };
@@ -40,7 +40,7 @@ static void take(const struct frame_rocks *rocks, const struct vdb_options *o, s
     p->orient[i] = NO_TURN;
     p->shape[i] = (int32_t)at->layer[i];
     p->id[i] = (int64_t)at->id[i];
-    /* Turned, corners are corners of the turned box, not its lowest and highest. */
+    /* In the file's axes these corners are corners of the box, but not its lowest and highest ones. */
     for (int corner = 0; corner < 2; corner++) {
         float turned[3];
         axes_turn(rocks->box[at->layer[i]][corner], o->up, turned);
@@ -106,7 +106,7 @@ static void add_shape(struct text *t, const struct usd_shapes *s, size_t k)
             low[a] = x < low[a] ? x : low[a];
             high[a] = x > high[a] ? x : high[a];
         }
-    if (s->up == OUTPUT_UP_Y) { /* the axis that turns round has its lowest at its highest */
+    if (s->up == OUTPUT_UP_Y) { /* the axis that changes its sign swaps lowest and highest */
         const float swapped = low[1];
         low[1] = high[1];
         high[1] = swapped;

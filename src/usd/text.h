@@ -1,4 +1,4 @@
-/* Values in a .usda's text. */
+/* Values as text in .usda files. */
 #ifndef HOODOO_USD_TEXT_H
 #define HOODOO_USD_TEXT_H
 
@@ -6,6 +6,6 @@
 
 void usd_add_number(struct text *t, double value);
 void usd_add_vector(struct text *t, const double *v, int n);
-void usd_add_matrix(struct text *t, const double m[16]); /* row vectors times matrix */
+void usd_add_matrix(struct text *t, const double m[16]); /* for row vectors */
 
 #endif

@@ -9,11 +9,11 @@
 #include "base/version.h"
 #include "usd/text.h"
 
-/* ---- words of the language */
+/* ---- tokens */
 
 enum { IDENTIFIER = 80 };
 
-/* A prim's name: letters, digits and _, not beginning with a digit. */
+/* Makes a valid prim name: letters, digits and _, not beginning with a digit. */
 static void identifier(const char *name, char out[IDENTIFIER])
 {
     size_t n = 0;
@@ -28,7 +28,7 @@ static void identifier(const char *name, char out[IDENTIFIER])
     out[n] = '\0';
 }
 
-/* What may stand in quotes. */
+/* Adds a quoted string, with escapes. */
 static void add_quoted(struct text *t, const char *value)
 {
     text_add(t, "\"");
@@ -61,7 +61,7 @@ void usd_add_vector(struct text *t, const double *v, int n)
     text_add(t, ")");
 }
 
-/* Files' paths, with frames as folder_name() writes them. */
+/* Adds the path of a file, named as by folder_name(). */
 static void add_path(struct text *t, const struct usd_sequence *s, const char *folder, int frame,
                      const char *extension)
 {
@@ -69,7 +69,7 @@ static void add_path(struct text *t, const struct usd_sequence *s, const char *f
     text_add(t, "@./%s/%s.%s.%s@", folder, s->name, frame_text(frame, number), extension);
 }
 
-/* ---- the stage's parts; `root` is the name of the prim that holds all */
+/* ---- the parts of the stage; `root` is the name of its top prim */
 
 static void add_field(struct text *t, const struct usd_sequence *s, const struct usd_field *f)
 {
@@ -113,7 +113,7 @@ static void add_volume(struct text *t, const struct usd_sequence *s, const char 
     text_add(t, "    }\n");
 }
 
-/* What the clips have values for; without declarations USD does not look into them. */
+/* Declares the attributes for which clips have values; without declarations USD ignores them. */
 static void add_declarations(struct text *t, const struct usd_prim *prim, const char *indent)
 {
     for (size_t i = 0; i < prim->n; i++) {
@@ -124,7 +124,7 @@ static void add_declarations(struct text *t, const struct usd_prim *prim, const 
     }
 }
 
-/* A prim whose values are in a file a frame; its braces stay open. */
+/* Begins a prim whose values are clips, one file per frame. Its braces are left open. */
 static void begin_clips(struct text *t, const struct usd_sequence *s, const struct usd_prim *prim,
                         const int *frame, size_t n, const char *schemas)
 {
@@ -149,7 +149,7 @@ static void begin_clips(struct text *t, const struct usd_sequence *s, const stru
     add_declarations(t, prim, "        ");
 }
 
-/* Triangles are what they are: no subdivision. */
+/* Meshes are rendered without subdivision. */
 static void add_meshes(struct text *t, const struct usd_sequence *s, const char *root)
 {
     begin_clips(t, s, &s->mesh, s->meshes_frame, s->n_meshes,
@@ -160,7 +160,7 @@ static void add_meshes(struct text *t, const struct usd_sequence *s, const char 
         root);
 }
 
-/* Rock of its strata's colours. */
+/* The material, which has the colours of the strata. */
 static void add_looks(struct text *t, const char *root)
 {
     text_add(
@@ -188,7 +188,7 @@ static void add_points(struct text *t, const struct usd_sequence *s)
     text_add(t, "    }\n");
 }
 
-/* Prototypes below an instancer show only where it puts them. */
+/* Prototypes below an instancer are rendered only where it instances them. */
 static void add_rocks(struct text *t, const struct usd_sequence *s, const char *root)
 {
     begin_clips(t, s, &usd_rocks_prim, s->rocks_frame, s->n_rocks, "");
@@ -228,7 +228,7 @@ static bool zooms(const struct usd_camera *c)
     return zooming;
 }
 
-/* USD's film is in tenths of the unit, a metre. */
+/* USD measures film in tenths of the unit, here a metre. */
 static double film(double mm)
 {
     return mm / 100;
@@ -274,7 +274,7 @@ static void add_camera(struct text *t, const struct usd_camera *c, const char *n
     text_add(t, "            uniform token[] xformOpOrder = [\"xformOp:transform\"]\n        }\n");
 }
 
-/* Two names may become the same one: the later is numbered. */
+/* Two cameras may get the same prim name; then the later one is numbered. */
 static void add_cameras(struct text *t, const struct usd_sequence *s)
 {
     text_add(t, "\n    def Scope \"cameras\"\n    {");

@@ -1,6 +1,5 @@
-/* OpenVDB archives in memory. File::write() does not notice a full disk and stamps each archive with random
- * bytes; here the archive goes to a growing buffer, and its UUID says whose file it is and what its content
- * hashes to. */
+/* OpenVDB archives in memory. File::write() does not notice a full disk and puts random bytes into each archive. Here the archive goes to
+ * a growing buffer, and its UUID is made from the file's identity and a hash of its content. */
 #include "vdb/shim.hpp"
 
 #include <openvdb/io/Archive.h>
@@ -21,7 +20,7 @@ extern "C" {
 
 namespace
 {
-/* A stream into memory that can go back, as the archive does to fill in grid offsets. */
+/* A stream into memory that can seek back, as the archive does to fill in grid offsets. */
 class memory_sink : public std::streambuf
 {
   public:
@@ -96,8 +95,8 @@ class memory_sink : public std::streambuf
     size_t at_ = 0, size_ = 0, capacity_ = 0;
 };
 
-/* What Archive::write() makes of grids with different names and trees, but of one at a time: a grid's tree takes several times what
- * the file takes, and all of a frame's together more than the frame. */
+/* Writes the same bytes as Archive::write() for grids with different names and trees, but makes one grid at a time: the tree of a grid
+ * takes several times the memory of the file, and all grids together more than the frame. */
 struct memory_archive : openvdb::io::Archive {
     void to(std::ostream &os, size_t n_grids, const vdb::grid_maker &make,
             const openvdb::MetaMap &metadata) const
@@ -115,13 +114,12 @@ struct memory_archive : openvdb::io::Archive {
             const openvdb::GridBase::ConstPtr grid = make(i);
             io::GridDescriptor descriptor(grid->getName(), grid->type(), grid->saveFloatAsHalf());
             writeGrid(descriptor, grid, os, /*seekable=*/true);
-            io::setDataCompression(os, compression()); /* writing a grid has set it to the grid's own */
+            io::setDataCompression(os, compression()); /* writing a grid sets it to the grid's own */
         }
     }
 };
 
-/* A version 8 UUID (RFC 9562: the maker's own): 58 bits of the identity, then the hash of all the file's
- * other bytes. */
+/* A version 8 UUID (RFC 9562: vendor-specific): 58 bits of the identity, then the hash of all other bytes of the file. */
 constexpr size_t UUID_AT = 21, UUID_SIZE = 36, HASH_AT = UUID_AT + 19;
 
 void put_identity(char *bytes, uint64_t identity)
@@ -133,7 +131,7 @@ void put_identity(char *bytes, uint64_t identity)
     std::memcpy(bytes + UUID_AT, text, sizeof text - 1);
 }
 
-/* The UUID's end for this content. */
+/* The last digits of the UUID for this content. */
 std::string hash_digits(const char *bytes, size_t size)
 {
     const size_t rest = UUID_AT + UUID_SIZE;
@@ -153,7 +151,7 @@ void start()
     static std::once_flag once;
     std::call_once(once, [] {
         openvdb::initialize();
-        /* It would warn on stdout, where farm managers obey what a line says. */
+        /* OpenVDB would log warnings to stdout, which farm managers parse. */
         openvdb::logging::setLevel(openvdb::logging::Level::Fatal);
     });
 }
@@ -162,7 +160,7 @@ openvdb::MetaMap file_metadata(const vdb_options &options, double voxel)
 {
     const bool y_up = options.up == OUTPUT_UP_Y;
     openvdb::MetaMap m;
-    /* Blender turns a file upright only if its creator starts with "Houdini". */
+    /* Blender rotates a y-up file upright only if its creator starts with "Houdini". */
     const std::string by =
         std::string(y_up ? "Houdini axes (y up); written by hoodoo " : "hoodoo ") + hoodoo_version;
     m.insertMeta("creator", openvdb::StringMetadata(by));
@@ -197,7 +195,7 @@ void encode(size_t n_grids, const grid_maker &make, const vdb_options &options,
     os.exceptions(std::ios::badbit | std::ios::failbit);
     archive.to(os, n_grids, make, metadata);
     if (sink.size() < UUID_AT + UUID_SIZE || sink.data()[UUID_AT + 8] != '-')
-        throw std::runtime_error("OpenVDB's file header is not the known one");
+        throw std::runtime_error("OpenVDB's file header has an unknown layout");
     put_identity(sink.data(), options.identity);
     const std::string hash = hash_digits(sink.data(), sink.size());
     std::memcpy(sink.data() + HASH_AT, hash.data(), hash.size());
@@ -207,8 +205,7 @@ void encode(size_t n_grids, const grid_maker &make, const vdb_options &options,
 
 bool is_intact(const void *bytes, size_t size)
 {
-    /* The name stands in the file's and in each grid's metadata, so one damaged byte cannot hide whose file
-     * this is. */
+    /* The metadata of the file and of each grid contain the name, so one damaged byte cannot hide that hoodoo wrote the file. */
     const char *text = static_cast<const char *>(bytes);
     if (size < UUID_AT + UUID_SIZE)
         return false;

@@ -1,4 +1,4 @@
-/* OpenVDB files as bytes: what vdb.h's vdb_volumes() and vdb_points() call in hoodoo-vdb.so. */
+/* Encoding of OpenVDB files in memory: the functions of hoodoo-vdb.so that vdb_volumes() and vdb_points() call. */
 #ifndef HOODOO_VDB_ENCODE_H
 #define HOODOO_VDB_ENCODE_H
 
@@ -10,7 +10,7 @@ extern "C" {
 
 typedef status vdb_encode_volumes_function(const struct frame_grids *grids, const struct vdb_options *options,
                                            struct vdb_bytes *out);
-/* A frame's rock, piece by piece (particles/pieces.h). Where get() fails the file is not made, and get() has said why. */
+/* A frame's rock, piece by piece (particles/pieces.h). If get() fails, no file is made; get() has set the error message. */
 struct vdb_pieces {
     const struct rock *rock;
     size_t n;

@@ -1,4 +1,4 @@
-/* Frames back from their files. */
+/* Reading frames back from their files. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "vdb/serve.h"
 #include "vdb/vdb.h"
 
-/* How many samples; false if no lattice has as many, or more bricks than can be numbered. */
+/* The number of samples; false if the size is not one of a lattice, or has too many bricks. */
 static bool count(const int32_t n[3], size_t *out)
 {
     int bricks[3];
@@ -30,7 +30,7 @@ static status take_grid(struct reader_answer *answer, const struct vdb_part_grid
     return reader_take_array(answer, samples, (size_t)part->components * sizeof *g->value, &g->value);
 }
 
-/* Numbers of bricks, each of the lattice and greater than the one before. */
+/* Takes the numbers of the bricks, which must be within the lattice and ascending. */
 static status take_bricks(struct reader_answer *answer, uint64_t n, struct frame_grids *grids)
 {
     status st = OK;

@@ -1,4 +1,4 @@
-/* Frames back from their files: volumes as bricks of samples, points as particles. Runs in hoodoo-read. */
+/* Reads frames back from their files: volumes as bricks of samples, points as particles. Runs in hoodoo-read. */
 #include "vdb/shim.hpp"
 
 #include <openvdb/points/AttributeArray.h>
@@ -19,7 +19,7 @@ using openvdb::Vec3d;
 using openvdb::Vec3f;
 using openvdb::points::PointDataGrid;
 
-/* The answer cannot be given. */
+/* Thrown when the answer cannot be written; the message is set. */
 struct failure : std::exception {
 };
 void must(status st)
@@ -28,10 +28,10 @@ void must(status st)
         throw failure();
 }
 
-/* How many samples are on their way to the answer at a time: a grid may be much larger than its file. */
+/* Samples that are buffered on the way to the answer. A grid may be much larger than its file. */
 constexpr size_t TOGETHER = 1 << 16;
 
-/* Samples on their way. */
+/* A buffer of samples for the answer. */
 struct stream {
     struct serve_answer *answer;
     std::vector<float> sample;
@@ -73,7 +73,7 @@ template <class accessor> auto sample_at(const accessor &at, int x, int y, int z
     return in_sim(at.getValue(vdb::file_from_sim(Coord(x, y, z), y_up)), y_up);
 }
 
-/* The bricks of the frame's lattice (particles/grids.h) that hold something in any of its grids. */
+/* The bricks of the frame's lattice (particles/grids.h) in which any of its grids has content. */
 struct bricks {
     int n[3], m[3];
     bool y_up;
@@ -87,7 +87,7 @@ struct bricks {
         held.resize(grid_bricks_of(n, m));
     }
 
-    /* All that reach into this box of the file's index space. */
+    /* Adds all bricks that overlap this box of the file's index space. */
     void hold(const openvdb::CoordBBox &box)
     {
         const Coord a = vdb::sim_from_file(box.min(), y_up), b = vdb::sim_from_file(box.max(), y_up);
@@ -105,7 +105,7 @@ struct bricks {
                     held[(size_t(z) * size_t(m[1]) + size_t(y)) * size_t(m[0]) + size_t(x)] = true;
     }
 
-    /* What differs from the grid's background: tiles, and voxels of leaves. */
+    /* Adds the bricks where tiles or voxels of leaves differ from the grid's background. */
     template <class grid_type> void hold_grid(const grid_type &grid)
     {
         const auto background = grid.background();
@@ -145,14 +145,14 @@ void send_bricks(const grid_type &grid, const bricks &b, struct serve_answer *an
     out.flush();
 }
 
-/* A lattice's size as a file gives it. One whose samples (of a dense one) or bricks memory does not hold means nothing. */
+/* Sets the size of the lattice from the file, and refuses one that does not fit into memory. */
 void set_size(int32_t n[3], const openvdb::Vec3i &size)
 {
     double bricks = 1;
     for (int a = 0; a < 3; a++) {
         n[a] = size[a];
         if (n[a] < 1 || n[a] > 1 << 20)
-            throw std::runtime_error("its grids have no sensible size");
+            throw std::runtime_error("the size of its grids is out of range");
         bricks *= (n[a] + BRICK_SIDE - 1) / BRICK_SIDE;
     }
     if (bricks > INT32_MAX || bricks * sizeof(float) > double(memory_available()))
@@ -233,7 +233,7 @@ void send_field(const point_leaves &leaves, enum rock_field f, bool y_up, struct
     }
 }
 
-/* Calls work(grid) with the grid as what it is. */
+/* Calls work(grid) with the grid as its actual type. */
 template <class work_fn>
 void as_what_it_is(const openvdb::GridBase &base, const std::string &name, const work_fn &work)
 {
@@ -245,7 +245,7 @@ void as_what_it_is(const openvdb::GridBase &base, const std::string &name, const
         throw std::runtime_error("grid '" + name + "' does not hold floats");
 }
 
-/* What the frame's lattice is, and its grids. */
+/* Describes the frame's lattice and grids. */
 vdb_part_volumes volumes_of(const vdb::file &file, const struct serve_question *q)
 {
     vdb_part_volumes part{};

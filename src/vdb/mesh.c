@@ -1,4 +1,4 @@
-/* The zero surface of a frame's level set as triangles, with values of the frame's other grids at its vertices. */
+/* Makes a mesh of the zero surface of a frame's level set, with values of the frame's other grids at its vertices. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +9,10 @@
 #include "reader/reader.h"
 #include "vdb/vdb.h"
 
-/* No simplified edge is longer, in voxels: values vary along it. */
+/* Voxels: the longest edge after simplification, because values vary along edges. */
 static const double LONGEST = 12;
 
-/* A failure of what knows no files. */
+/* Adds the file to the message of an error. */
 static status in_file(const char *path, status st)
 {
     char said[1000];
@@ -22,7 +22,7 @@ static status in_file(const char *path, status st)
     return fail(st, "%s: %s", path, said);
 }
 
-/* The surface as it is sampled. */
+/* Gets the samples from the reader and makes the surface. */
 static status march(const char *path, struct trimesh *out, double *voxel)
 {
     status st = OK;
@@ -71,7 +71,7 @@ done:
     return st;
 }
 
-/* What the file's grids hold at the vertices. */
+/* Gets the values of the file's grids at the vertices. */
 static status read_values(const char *path, const struct trimesh *m, const struct vdb_mesh_options *o,
                           struct vdb_mesh *out)
 {
@@ -80,7 +80,7 @@ static status read_values(const char *path, const struct trimesh *m, const struc
     char optional[24];
     const char *word[VALUES + 3] = {o->smooth > 0 ? "0" : "1", optional};
     if (o->n_values > VALUES)
-        return fail(E_USAGE, "%s: more than %d values at once", path, VALUES);
+        return fail(E_USAGE, "%s: more than %d values were requested at once", path, VALUES);
     snprintf(optional, sizeof optional, "%zu", o->n_optional);
     for (size_t i = 0; i < o->n_values; i++)
         word[2 + i] = o->values[i];

@@ -1,10 +1,10 @@
-/* Particles to an OpenVDB PointDataGrid: sorted into voxels, and by id within each, so that the order in the file is always the same,
- * whatever that of the particles is.
+/* Particles as an OpenVDB PointDataGrid. They are sorted into voxels, and by id within each voxel, so that the order in the file does not
+ * depend on the order of the particles.
  *
- * In 16 bits a position is the nearest of 65,536 along each side of its voxel. What is a share (BITS_SHARE of
- * values.def) is the nearest of as many from 0 to 1, with 0 and 1 exact and nothing else made 0; v and Cd are
- * halves. Normals are unit vectors in two bytes where each particle has one, else halves, for OpenVDB's unit
- * vectors cannot be zero. Stresses, rates and numbers stay as they are. */
+ * With 16 bits, a position is rounded to the nearest of 65,536 along each side of its voxel. Shares (BITS_SHARE of values.def) are
+ * rounded to the nearest of 65,536 from 0 to 1, where 0 and 1 are exact and nothing else becomes 0. v and Cd are halves. Normals are
+ * unit vectors in two bytes if every particle of the leaf has one, otherwise halves, because OpenVDB's unit vectors cannot be zero.
+ * Stresses, rates and integers are exact. */
 #include "vdb/shim.hpp"
 
 #include <openvdb/points/AttributeArray.h>
@@ -38,7 +38,7 @@ using place = openvdb::points::FixedPointCodec<false, openvdb::points::PositionR
 template <class T, class codec> using array_of = openvdb::points::TypedAttributeArray<T, codec>;
 constexpr double STEPS = 65535;
 
-/* The codecs cut off what lies between two steps: from the middle of the nearest step this does no harm. */
+/* The codecs truncate to a step, so values are first moved to the middle of the nearest step. */
 float nearest_step(double x)
 {
     return float((std::floor(x * STEPS + 0.5) + 0.5) / STEPS);
@@ -48,8 +48,7 @@ float nearest_share(float x)
     return x > 0 && x < float(1 / STEPS) ? float(1.5 / STEPS) : nearest_step(double(x));
 }
 
-/* Which particles go to which leaf: those of leaf l are particle[begin[l]] to particle[begin[l + 1] - 1],
- * ascending. */
+/* The particles of each leaf: those of leaf l are particle[begin[l]] to particle[begin[l + 1] - 1], ascending. */
 struct leaf_lists {
     std::vector<Coord> origin;
     std::vector<uint32_t> begin, particle;
@@ -80,7 +79,7 @@ bool is_written(const rock &r, const vdb_options &options, size_t i)
     return options.points == VDB_POINTS_SURFACE && (n[0] != 0 || n[1] != 0 || n[2] != 0);
 }
 
-/* False if a particle is nowhere: `bad` is its number. */
+/* Returns false if the position of a particle is not finite; `bad` is its index. */
 bool sort_into_leaves(const rock &r, const vdb_options &options, const placement &at, leaf_lists &lists,
                       size_t &bad)
 {
@@ -123,8 +122,7 @@ bool sort_into_leaves(const rock &r, const vdb_options &options, const placement
     return true;
 }
 
-/* An attribute of the file: how its value for particle i is made. All values equal in a leaf are stored once.
- */
+/* An attribute of the file, and how its value for particle i is made. Values that are equal within a leaf are stored once. */
 enum attribute_kind { CONSTANT, FLOAT, INT, VECTOR, COLOR, ORIENT };
 struct attribute {
     std::string name;
@@ -229,7 +227,7 @@ class leaf_maker
     }
 
   private:
-    /* In 16 bits: as the values that are fields say; colours are halves. */
+    /* The coding with 16 bits, from values.def; colours are halves. */
     coding coding_of(const std::string &name) const
     {
         for (int v = 1; v < VALUES; v++)
@@ -283,7 +281,7 @@ class leaf_maker
         case CONSTANT:
             if (real)
                 openvdb::points::TypedAttributeArray<float>::collapse(&array, *real);
-            break; /* else zero, as it was made */
+            break; /* otherwise it keeps its zeros */
         case FLOAT:
             if (a.how == SHARE)
                 fill<float, share>(array, order, [real](uint32_t i) { return nearest_share(real[i]); });
@@ -318,7 +316,7 @@ class leaf_maker
     std::vector<attribute> attributes_;
     descriptor::Ptr position_, all_;
 };
-/* A piece of a frame's rock, while its grid is made; refused() where there is none. */
+/* A piece of a frame's rock while its grid is made; throws refused if it cannot be made. */
 struct refused {
     status st;
 };
@@ -347,10 +345,10 @@ class piece
     rock rock_{};
 };
 
-/* The leaves with the piece's particles. */
+/* Makes the grid of a piece. */
 PointDataGrid::Ptr make_grid(const rock &r, const vdb_options &options)
 {
-    /* About eight particles a voxel, as OpenVDB advises. */
+    /* About eight particles per voxel, as OpenVDB recommends. */
     const placement at{r.P, 2 * options.spacing, options.up == OUTPUT_UP_Y};
     leaf_lists lists;
     size_t bad = 0;
@@ -380,7 +378,8 @@ try {
     *out = vdb_bytes{nullptr, 0};
     const rock &whole = *pieces->rock;
     if (!(options->spacing > 0) || !std::isfinite(options->spacing))
-        return fail(E_OUTPUT, "points of frame %d: a spacing of %g m", options->frame, options->spacing);
+        return fail(E_OUTPUT, "points of frame %d: the spacing must not be %g m", options->frame,
+                    options->spacing);
     if (whole.n >= UINT32_MAX || (whole.n && !whole.P))
         return fail(E_OUTPUT, "points of frame %d: %zu particles%s", options->frame, whole.n,
                     whole.P ? ", more than a file can number" : " without positions");

@@ -1,5 +1,4 @@
-/* What an OpenVDB file holds, and whether it is all there. Runs in hoodoo-read, single-threaded: these bytes may come
- * from anyone. */
+/* Checks and describes OpenVDB files. Runs in hoodoo-read, with a single thread, because the files may be hostile. */
 #include "vdb/shim.hpp"
 
 #include <openvdb/io/File.h>
@@ -22,7 +21,7 @@ using openvdb::GridBase;
 using openvdb::Index64;
 using openvdb::points::PointDataGrid;
 
-/* Every active value belongs to a leaf or is a tile; counted without threads. */
+/* Counts active values, which are in leaves or are tiles, without OpenVDB's threads. */
 template <class tree_type> Index64 count_active(const tree_type &tree)
 {
     Index64 n = 0;
@@ -46,7 +45,7 @@ void describe_points(const PointDataGrid &grid, struct text *out)
     json_integer(out, "points", int64_t(n));
     json_array(out, "attributes");
     if (set) {
-        /* in the order of their positions, which is the order they were made in */
+        /* by position, which is the order in which they were created */
         for (size_t i = 0; i < set->size(); i++)
             for (const auto &entry : set->descriptor().map())
                 if (entry.second == i) {
@@ -115,7 +114,7 @@ void describe_grid(const GridBase &grid, struct text *out)
     count_voxels active;
     if (grid.apply<known_grids>(active))
         json_integer(out, "active_voxels", int64_t(active.n));
-    /* Samples stand at voxel centres; points lie up to half a voxel around theirs. */
+    /* Samples are at the centres of voxels; points are up to half a voxel away from theirs. */
     openvdb::CoordBBox box;
     if (grid.baseTree().evalActiveVoxelBoundingBox(box)) {
         const double reach = grid.isType<PointDataGrid>() ? 0.5 : 0;
@@ -152,7 +151,7 @@ struct memory_source : std::streambuf {
     }
 };
 
-/* The lattice's size is metadata of the file. */
+/* Describes the lattice, whose size is in the metadata of the file. */
 void describe_lattice(const GridBase &grid, const openvdb::MetaMap &file, struct text *out)
 {
     const auto size = file.getMetadata<openvdb::Vec3IMetadata>(vdb::LATTICE);
@@ -174,7 +173,7 @@ void describe_lattice(const GridBase &grid, const openvdb::MetaMap &file, struct
 }
 } // namespace
 
-/* The library does not notice when a file ends too early: the stream does, and throws. */
+/* The library does not detect a truncated file, but the stream throws an exception. */
 status vdb::load(const char *path, vdb::file *out)
 {
     void *bytes = nullptr;
@@ -189,7 +188,7 @@ status vdb::load(const char *path, vdb::file *out)
     is.exceptions(std::ios::eofbit | std::ios::failbit | std::ios::badbit);
     openvdb::io::Stream stream(is, /*delayLoad=*/false);
     if (!vdb::is_intact(bytes, size))
-        return fail(E_INPUT, "%s: damaged: its content is not what was written", path);
+        return fail(E_INPUT, "%s: damaged: its content does not match its hash", path);
     out->metadata = stream.getMetadata();
     out->grids = stream.getGrids();
     out->y_up = vdb::is_y_up(*out->metadata);

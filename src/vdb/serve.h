@@ -1,11 +1,10 @@
-/* OpenVDB files in their reader (vdb_*_shim.cpp of hoodoo-read), and what its answers hold. Each kind reads the whole file
- * and knows if it is not as it was written.
+/* OpenVDB files in hoodoo-read (*_shim.cpp), and the parts of its answers. Each kind reads the whole file and detects damage.
  *
  * vdb.check                         no parts
- * vdb.describe, vdb.lattices        text, as vdb.h says; words: describe.h
+ * vdb.describe, vdb.lattices        text, see vdb.h; arguments: reader/describe.h
  * vdb.volumes NAME...               struct vdb_part_volumes; the numbers of the frame's bricks; the values of each of its
  *                                   grids, floats, brick by brick (particles/grids.h)
- * vdb.points                        struct vdb_part_points; each field of particles.def that is there
+ * vdb.points                        struct vdb_part_points; each field of particles.def that the file has
  * vdb.surface                       struct trimesh_lattice; its samples, floats: `surface` around its zero
  * vdb.at NORMALS OPTIONAL NAME...   input: positions float[n][3]. If NORMALS is 1, float[n][3] of `surface`; then for
  *                                   each name float[n], 0 for those of the last OPTIONAL that are not in the file.
@@ -24,7 +23,7 @@
 enum { VDB_PART_GRIDS = VALUES };
 
 struct vdb_part_grid {
-    uint32_t word; /* which of the names it was asked for */
+    uint32_t word; /* index of its name in the arguments */
     int32_t kind, components;
 };
 

@@ -1,4 +1,4 @@
-/* The surface of any file's level set or fog as triangles. Runs in hoodoo-read. */
+/* Makes a mesh of the surface of a level set or fog in any OpenVDB file. Runs in hoodoo-read. */
 #include "vdb/shim.hpp"
 
 extern "C" {
@@ -20,7 +20,7 @@ using openvdb::FloatGrid;
 using openvdb::GridBase;
 using openvdb::Vec3d;
 
-/* The grid of that name; "": the only or first that has floats. What may be asked for is in the message. */
+/* The grid with that name or, if it is "", the first grid of floats. The error message lists the file's grids. */
 FloatGrid::Ptr choose(const vdb::file &file, const std::string &name)
 {
     std::string there;
@@ -46,9 +46,9 @@ FloatGrid::Ptr choose(const vdb::file &file, const std::string &name)
                                                 (there.empty() ? "none" : there));
 }
 
-/* The library interpolates straight, and puts vertices in the middle of what they stand for; both take off what is round, half a percent of
- * a ball of 15 voxels' radius. They go to where the grid has the value by parabolas. */
-void settle(const FloatGrid &grid, double iso, openvdb::Vec3s &point)
+/* Moves a vertex to where the grid, interpolated by parabolas, has the value iso. The library interpolates linearly and averages vertices,
+ * which shrinks round shapes: a ball of 15 voxels' radius by half a percent. */
+void refine_vertex(const FloatGrid &grid, double iso, openvdb::Vec3s &point)
 {
     const FloatGrid::ConstAccessor at = grid.getConstAccessor();
     const Vec3d first = grid.worldToIndex(Vec3d(point));
@@ -78,7 +78,7 @@ status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct se
     std::vector<openvdb::Vec4I> quad;
     openvdb::tools::volumeToMesh(grid, point, triangle, quad, iso, 0);
     for (openvdb::Vec3s &p : point)
-        settle(grid, iso, p);
+        refine_vertex(grid, iso, p);
     struct mesh_part part = {};
     part.n_vertices = point.size();
     part.n_triangles = triangle.size() + 2 * quad.size();
@@ -92,7 +92,7 @@ status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct se
     if (st == OK)
         st = serve_add_part(answer, place.data(), place.size() * sizeof place[0]);
     std::vector<uint32_t> corner;
-    /* Of a level set the library's faces are clockwise from outside; what a fog holds is above its value. */
+    /* The library's faces of a level set are clockwise as seen from outside. In a fog the inside is above iso, so they are reversed. */
     const auto put = [&](uint32_t a, uint32_t b, uint32_t c) {
         corner.insert(corner.end(), {a, is_fog ? b : c, is_fog ? c : b});
     };
@@ -110,11 +110,11 @@ extern "C" status vdb_serve_shape(const struct serve_question *q, struct serve_a
 try {
     vdb::file file;
     status st = q->n_arguments == 2 ? vdb::load(q->path, &file)
-                                    : fail(E_INPUT, "%s: its reader was told too little", q->path);
+                                    : fail(E_INPUT, "%s: its reader lacks an argument", q->path);
     if (st != OK)
         return st;
     const FloatGrid::Ptr grid = choose(file, q->argument[0]);
-    /* Files that do not say what they hold hold a fog where nothing is below 0. */
+    /* A grid without a class counts as a fog if no value is below 0. */
     bool is_fog = grid->getGridClass() == openvdb::GRID_FOG_VOLUME;
     if (grid->getGridClass() != openvdb::GRID_FOG_VOLUME && grid->getGridClass() != openvdb::GRID_LEVEL_SET)
         is_fog = !(grid->background() > 0);

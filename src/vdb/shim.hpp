@@ -1,4 +1,4 @@
-/* What the OpenVDB shims share: the turn between the simulator's axes and the file's, and files as bytes. */
+/* Declarations shared by the OpenVDB shims: conversion between the simulator's axes and the file's, and files in memory. */
 #ifndef HOODOO_VDB_SHIM_HPP
 #define HOODOO_VDB_SHIM_HPP
 
@@ -20,9 +20,9 @@ extern "C" {
 #include "vdb/encode.h"
 }
 
-/* OpenVDB's library holds these classes whole, for it registers their grids. Without being told so, each file that names one
- * compiles all of it again, which took most of the time that hoodoo took to build. What the library has not kept of them are
- * small members that gcc compiles into whoever calls them; clang, and gcc without optimisation, would miss some. */
+/* OpenVDB's library contains instances of these classes, because it registers their grids. Without these declarations each source file
+ * would instantiate them again, which took most of the build time. The library lacks only small members that optimising gcc inlines;
+ * clang, and gcc without optimisation, would miss some of them. */
 #if defined(__OPTIMIZE__) && !defined(__clang__)
 namespace openvdb
 {
@@ -39,8 +39,7 @@ extern template class tree::Tree<points::PointDataTree::RootNodeType>;
 } // namespace openvdb
 #endif
 
-/* Ends a function-try-block: no exception crosses into C. `wrong` is what a failure other than of memory
- * means. */
+/* Ends a function-try-block, so that no exception crosses into C. `wrong` is the status for failures other than lack of memory. */
 #define SHIM_CATCH(wrong, subject)                                                                           \
     catch (const std::bad_alloc &)                                                                           \
     {                                                                                                        \
@@ -63,26 +62,26 @@ namespace vdb
 {
 using openvdb::Coord;
 
-/* y up: (x, y, z) in the simulator is (x, z, -y) in the file. A turn about x, so windings stay. */
+/* With y up, (x, y, z) in the simulator is (x, z, -y) in the file, a rotation about x, so triangles keep their orientation. */
 template <class V> V file_from_sim(const V &s, bool y_up)
 {
-    return y_up ? V(s[0], s[2], 0 - s[1]) : s; /* not -s: no negative zeros */
+    return y_up ? V(s[0], s[2], 0 - s[1]) : s; /* 0 - s avoids negative zeros */
 }
 template <class V> V sim_from_file(const V &f, bool y_up)
 {
     return y_up ? V(f[0], 0 - f[2], f[1]) : f;
 }
 
-/* Metadata of the file: how many voxels the frame's grids had, in the simulator's axes. Of a grid: how many
- * it had, where that is something else. */
+/* Name of the metadata with the number of voxels along each axis, in the simulator's axes: of the file for the frame's grids, and of a
+ * grid if its own differs. */
 constexpr char LATTICE[] = "lattice_voxels";
 
-/* A lattice's samples in the file's index space: their box. */
+/* The box of a lattice's samples in the file's index space. */
 struct lattice {
     Coord lo, hi; /* inclusive */
     bool y_up;
 
-    /* `pad` more samples on every side; index 0 stays where it is. */
+    /* With `pad` more samples on every side; index 0 keeps its place. */
     lattice(const int n[3], bool y, int pad = 0) : y_up(y)
     {
         lo = y_up ? Coord(0, 0, 1 - n[1]) : Coord(0);
@@ -92,16 +91,16 @@ struct lattice {
     }
 };
 
-/* Registers OpenVDB's types once. */
+/* Registers OpenVDB's types; may be called repeatedly. */
 void start();
 
 /* The metadata of a file hoodoo writes. */
 openvdb::MetaMap file_metadata(const vdb_options &options, double voxel);
 
-/* Whether a file's metadata says y is up. Files by others are taken as y up if Houdini wrote them. */
+/* Whether y is up, by the file's metadata. Files of other programs count as y up if Houdini wrote them. */
 bool is_y_up(const openvdb::MetaMap &metadata);
 
-/* A file, read completely. */
+/* A file that was read completely. */
 struct file {
     openvdb::MetaMap::Ptr metadata;
     openvdb::GridPtrVecPtr grids;
@@ -111,18 +110,17 @@ struct file {
     openvdb::GridBase::Ptr grid(const std::string &name) const;
 };
 
-/* E_INPUT: it is not as it was written. Throws what the library throws. */
+/* E_INPUT: the file is damaged. Also throws the library's exceptions. */
 status load(const char *path, file *out);
 
-/* Makes grid i, which is let go when it is written. */
+/* Makes grid i, which is released after it was written. */
 using grid_maker = std::function<openvdb::GridBase::ConstPtr(size_t i)>;
 
-/* So many grids, each with a name and a tree of its own, as a file in memory, with its archive UUID made from `identity` and the
- * content. */
+/* Encodes n_grids grids with different names and trees as a file in memory. Its archive UUID is made from `identity` and the content. */
 void encode(size_t n_grids, const grid_maker &make, const vdb_options &options,
             const openvdb::MetaMap &metadata, vdb_bytes *out);
 
-/* For files that say hoodoo wrote them: is the UUID the one encode() gave this content? */
+/* For files that claim to be written by hoodoo: whether the UUID matches the content. */
 bool is_intact(const void *bytes, size_t size);
 } // namespace vdb
 

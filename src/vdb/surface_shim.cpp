@@ -1,4 +1,4 @@
-/* A frame's level set as samples, and what it and the frame's other grids hold at given places. Runs in hoodoo-read. */
+/* Samples of a frame's level set, and the values of its grids at given positions. Runs in hoodoo-read. */
 #include "vdb/shim.hpp"
 
 extern "C" {
@@ -20,7 +20,7 @@ using openvdb::FloatGrid;
 using openvdb::Vec3d;
 using openvdb::Vec3s;
 
-/* Indices of voxels are less. */
+/* Indices of voxels must be below this. */
 constexpr double FARTHEST = 1 << 24;
 
 FloatGrid::Ptr float_grid(const vdb::file &file, const std::string &name)
@@ -34,7 +34,7 @@ FloatGrid::Ptr float_grid(const vdb::file &file, const std::string &name)
     return grid;
 }
 
-/* The gradient over one voxel, at an index-space position. Unit length, or 0 where the field is flat. */
+/* The direction of the gradient over one voxel at a position in index space: of unit length, or 0 if the field is flat. */
 Vec3d gradient(const FloatGrid::ConstAccessor &at, const Vec3d &x)
 {
     Vec3d g;
@@ -48,9 +48,8 @@ Vec3d gradient(const FloatGrid::ConstAccessor &at, const Vec3d &x)
     return length > 0 ? g / length : Vec3d(0);
 }
 
-/* Trilinear over active samples only, weights made to add up to 1: the empty side of a surface does not
- * dilute the value. Where no corner is active, the mean of the active voxels around them; 0 if there are
- * none. */
+/* Trilinear interpolation over active samples only, with weights that are normalised, so that the empty side of a surface does not dilute
+ * the value. If no corner is active, the mean of the active voxels around them; 0 if there are none. */
 template <class accessor, class number_fn>
 float value_at(const accessor &at, const number_fn &number, const Vec3d &x)
 {
@@ -77,7 +76,7 @@ float value_at(const accessor &at, const number_fn &number, const Vec3d &x)
     return weight > 0 ? float(sum / weight) : 0;
 }
 
-/* The box of a level set's samples around its surface, in the simulator's axes, with one more on every side. */
+/* The box of a level set's active samples, in the simulator's axes, enlarged by one sample on every side. */
 struct box_of_samples {
     trimesh_lattice lattice{};
     Coord lo;
@@ -127,7 +126,7 @@ status send_samples(const FloatGrid &grid, const box_of_samples &box, bool y_up,
     return st;
 }
 
-/* The places asked about, in the file's axes. */
+/* Reads the requested positions and converts them to the file's axes. */
 status read_places(const struct serve_question *q, bool y_up, std::vector<Vec3d> *out)
 {
     std::vector<float> x(size_t(q->n_input / sizeof(float)));
@@ -160,7 +159,7 @@ void values_of(const grid_type &grid, const number_fn &number, const std::vector
         (*out)[i] = value_at(at, number, grid.worldToIndex(place[i]));
 }
 
-/* Of a grid that need not be there and is not: 0. */
+/* Sends the values of one grid. If the grid may be missing and is, they are 0. */
 status send_values(const vdb::file &file, const std::string &word, bool may_lack,
                    const std::vector<Vec3d> &place, struct serve_answer *answer)
 {
@@ -207,7 +206,7 @@ try {
     if (st == OK)
         st = read_places(q, file.y_up, &place);
     if (st == OK && q->n_arguments < 2)
-        st = fail(E_INPUT, "%s: its reader was told too little", q->path);
+        st = fail(E_INPUT, "%s: its reader lacks an argument", q->path);
     if (st == OK && *q->argument[0] == '1')
         st = send_normals(*float_grid(file, "surface"), place, file.y_up, answer);
     const size_t optional = st == OK ? size_t(std::atoi(q->argument[1])) : 0;

@@ -1,4 +1,4 @@
-/* A frame's grids to OpenVDB grids, leaf by leaf. */
+/* Makes OpenVDB grids of a frame's grids, leaf by leaf. */
 #include "vdb/shim.hpp"
 
 #include <openvdb/tools/Prune.h>
@@ -15,7 +15,7 @@ using openvdb::Coord;
 using openvdb::Vec3f;
 using vdb::lattice;
 
-/* Where samples are in an array: eight of them along x, from a multiple of eight on, lie side by side. */
+/* The index of samples in an array. Eight samples along x, starting at a multiple of eight, are adjacent. */
 struct of_bricks {
     const frame_grids *grids;
     ptrdiff_t row(const Coord &s) const
@@ -24,8 +24,8 @@ struct of_bricks {
     }
 };
 
-/* What a kind of grid means by active, and what its inactive voxels hold. get() has sample `at` of an array, which is sample s
- * of the lattice, in the simulator's axes; deep() one that is not kept, being inside. */
+/* For each kind of grid: which voxels are active, and the value of inactive ones. get() returns sample `at` of an array, which is sample s
+ * of the lattice, in the simulator's axes; deep() the value of samples that are not kept because they are inside. */
 struct level_set {
     using grid = openvdb::FloatGrid;
     const float *value;
@@ -82,8 +82,8 @@ struct vector {
     }
 };
 
-/* A solid that reaches the border of its grid, such as one with a floor that is not ours, ends half a voxel beyond the
- * outermost samples. Without this the level set would have an inside without a surface around it, and its mesh a hole. */
+/* A solid that reaches the border of its grid, such as a mesh with a floor of its own, ends half a voxel beyond the outermost samples.
+ * Otherwise the level set would not be closed, and its mesh would have a hole. */
 struct closed_level_set : level_set {
     const frame_grids *grids;
     const frame_grid *self;
@@ -154,7 +154,7 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
                 const Coord o = origin(i);
                 const Coord b = Coord::maxComponent(o, l.lo) - o,
                             e = Coord::minComponent(o.offsetBy(D - 1), l.hi) - o;
-                bool any = false; /* most of a box that is much larger than its rock has nothing */
+                bool any = false; /* most leaves of a large box with little rock are empty */
                 for (int y = b[1]; y <= e[1] && !any; y++)
                     for (int z = b[2]; z <= e[2] && !any; z++)
                         any = p.row(vdb::sim_from_file(o.offsetBy(b[0], y, z), l.y_up)) != ROW_OUTSIDE;
@@ -201,7 +201,7 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
     return grid;
 }
 
-/* How many more samples of air a level set gets on every side where it is closed. */
+/* Samples of air that a closed level set gets on every side. */
 constexpr int PAD = 4;
 
 openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, const lattice &l,
@@ -232,7 +232,7 @@ openvdb::GridBase::Ptr make_level_set(const frame_grids &grids, const frame_grid
     return grid;
 }
 
-/* Halves end at 65,504: some values go beyond. */
+/* Whether the values fit into halves, whose largest is 65,504. */
 bool fits_half(const frame_grid &g)
 {
     const enum value_id v = value_of_name(g.name);
@@ -246,7 +246,7 @@ status check_lattice(const grid_lattice &l, int frame)
             return fail(E_OUTPUT, "volumes of frame %d: %d x %d x %d voxels is not a grid", frame, l.n[0],
                         l.n[1], l.n[2]);
     if (!(l.voxel > 0) || !std::isfinite(l.voxel))
-        return fail(E_OUTPUT, "volumes of frame %d: a voxel of %g m", frame, l.voxel);
+        return fail(E_OUTPUT, "volumes of frame %d: voxels must not be %g m", frame, l.voxel);
     return OK;
 }
 

@@ -10,7 +10,7 @@ status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *op
     return st == OK ? library_said(encode(grids, options, out)) : st;
 }
 
-/* Pieces, and what went wrong with one of them. */
+/* The pieces, and the status of getting them. */
 struct getting {
     struct rock_pieces pieces;
     status st;
@@ -38,7 +38,7 @@ status vdb_points_of_frame(const struct rock *rock, const struct frame_deep *dee
     TRY(rock_pieces_begin(rock, deep, &g.pieces));
     const struct vdb_pieces pieces = {rock, g.pieces.n, &g, get_piece, drop_piece};
     st = encode(&pieces, options, out);
-    if (g.st == OK) /* else it is said already */
+    if (g.st == OK) /* otherwise the message is set already */
         st = library_said(st);
 done:
     rock_pieces_end(&g.pieces);

@@ -53,10 +53,10 @@ static void paths_are_those_of_the_design(void **state)
     longest[4090] = '\0';
     assert_int_equal(folder_path(&path, longest, "arch", FILE_AOV, 1, NULL), E_OUTPUT);
     assert_string_equal(path.text, "");
-    assert_int_equal(folder_room(longest), E_OUTPUT);
+    assert_int_equal(folder_check_length(longest), E_OUTPUT);
     assert_int_equal(folder_prepare(longest), E_OUTPUT);
     longest[3583] = '\0';
-    assert_int_equal(folder_room(longest), OK);
+    assert_int_equal(folder_check_length(longest), OK);
     assert_int_equal(folder_view(&path, "arch", "stress", -12, 7), OK);
     assert_string_equal(path.text, "turntable/arch.stress.-0012.007.png");
     assert_int_equal(folder_views(&path, "arch", NULL, -12), OK);
