@@ -136,7 +136,7 @@ static status start(struct local *l, size_t task, int k)
                                           .log = log.text,
                                           .variable = variables,
                                           .n_variables = 2,
-                                          .at_our_end = SIGTERM};
+                                          .death_signal = SIGTERM};
     TRY(child_start(&options, &l->child[k]));
     l->worker[k].task = task;
     l->worker[k].since = clock_seconds();

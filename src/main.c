@@ -1,4 +1,4 @@
-/* hoodoo VERB ...: finds the verb, calls it, says what went wrong, and exits. The only exit there is. */
+/* hoodoo VERB ...: calls the function of the verb, prints the message of a failure, and returns the exit code. */
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -33,7 +33,7 @@ static void print_help(void)
         printf("%s", t.data ? t.data : "");
         text_free(&t);
     }
-    printf("\n'hoodoo VERB -h' explains a verb. Exit codes:\n");
+    printf("\n'hoodoo VERB -h' describes a verb and its options. Exit codes:\n");
 #define CODE_LINE(name, code, text) printf("  %-3d %s\n", code, text);
     STATUS_MAP(CODE_LINE)
 #undef CODE_LINE
@@ -46,8 +46,8 @@ static status unknown_verb(const char *word)
         known[i] = verbs[i].name;
     const char *near = nearest_word(word, known, N_VERBS);
     if (near)
-        return fail(E_USAGE, "there is no '%.80s'; did you mean 'hoodoo %s'?", word, near);
-    return fail(E_USAGE, "there is no '%.80s'; 'hoodoo --help' lists what there is", word);
+        return fail(E_USAGE, "unknown verb '%.80s'; did you mean 'hoodoo %s'?", word, near);
+    return fail(E_USAGE, "unknown verb '%.80s'; 'hoodoo --help' lists the verbs", word);
 }
 
 static status run_verb(int argc, char **argv)
@@ -74,7 +74,7 @@ int main(int argc, char **argv)
 {
     process_begin();
     status st = run_verb(argc, argv);
-    /* A full disk behind stdout shows when the last of it is written. */
+    /* Write errors, such as a full disk, may only show when buffered output is flushed. */
     if ((fflush(stdout) != 0 || ferror(stdout)) && st == OK)
         st = fail(E_OUTPUT, "standard output cannot be written: %s", strerror(errno));
     if (st != OK)

@@ -1,4 +1,4 @@
-/* hoodoo-read: one OpenVDB or OpenEXR file for hoodoo (reader/reader.h). */
+/* hoodoo-read: reads one OpenVDB or OpenEXR file in a sandbox, on behalf of hoodoo (reader/reader.h). */
 #include "base/begin.h"
 #include "exr/serve.h"
 #include "reader/serve.h"

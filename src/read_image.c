@@ -1,4 +1,4 @@
-/* hoodoo-read-image: one image for hoodoo (image/image.h). */
+/* hoodoo-read-image: reads one image in a sandbox, on behalf of hoodoo (image/image.h). */
 #include <string.h>
 
 #include "base/begin.h"

@@ -1,4 +1,4 @@
-/* hoodoo-read-mesh: one glTF mesh for hoodoo (meshinput/serve.h). */
+/* hoodoo-read-mesh: reads one glTF mesh in a sandbox, on behalf of hoodoo (meshinput/serve.h). */
 #include "base/begin.h"
 #include "meshinput/serve.h"
 

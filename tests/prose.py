@@ -119,7 +119,7 @@ for key in output(HOODOO, "keys", "--list").split():
 KEYS |= {key.replace("deposition.", "arches.") for key in KEYS if key.startswith("deposition.piles")}
 SECTIONS = {key.split(".")[0] for key in KEYS if "." in key}
 # Names with a dot that are not keys: the layers of pictures, and members of structures.
-OTHER = set(re.findall(r"`([a-z_]+\.[A-Za-z_]+)`", read("jobs/README.md").split("## What frames show")[-1]))
+OTHER = set(re.findall(r"`([a-z_]+\.[A-Za-z_]+)`", read("jobs/README.md").split("## Values")[-1]))
 OTHER.add("erosion.intensity")
 FILE_ENDINGS = (".yaml", ".png", ".vdb", ".exr", ".usda", ".json")
 KEY = r"[a-z_]+(?:\[\])?(?:\.[A-Za-z0-9_]+(?:\[\])?)+"

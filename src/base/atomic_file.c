@@ -38,8 +38,7 @@ static status fsync_folder_of(const char *path)
     int fd = open(folder.text, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (fd < 0)
         return fail(E_OUTPUT, "%s: cannot open the folder: %s", folder.text, strerror(errno));
-    /* Some network file systems refuse fsync on folders (EINVAL); there is nothing more to be had from those.
-     * */
+    /* Some network file systems do not support fsync on folders (EINVAL), which has to be accepted. */
     int bad = fsync(fd) != 0 && errno != EINVAL ? errno : 0;
     close(fd);
     return bad ? fail(E_OUTPUT, "%s: cannot fsync the folder: %s", folder.text, strerror(bad)) : OK;
@@ -84,7 +83,7 @@ status atomic_file_adopt(const char *temporary, const char *path)
     status st = OK;
     int fd = open(temporary, O_RDWR | O_CLOEXEC);
     if (fd < 0)
-        return fail(E_OUTPUT, "%s: could not be made: %s", path, strerror(errno));
+        return fail(E_OUTPUT, "%s: cannot open the temporary file: %s", path, strerror(errno));
     if (fsync(fd) != 0)
         st = fail(E_OUTPUT, "%s: cannot fsync: %s", path, strerror(errno));
     if (close(fd) != 0 && st == OK)
@@ -107,7 +106,7 @@ status folder_make(const char *path)
     char *part = whole.text;
     const size_t n = strlen(part);
     if (n == 0)
-        return fail(E_OUTPUT, "'': not a usable folder name");
+        return fail(E_OUTPUT, "the name of a folder is empty");
     for (size_t i = 1; i <= n; i++) {
         if (part[i] != '/' && part[i] != '\0')
             continue;
@@ -115,22 +114,22 @@ status folder_make(const char *path)
         part[i] = '\0';
         struct stat info;
         if (mkdir(part, 0777) != 0 && (errno != EEXIST || stat(part, &info) != 0 || !S_ISDIR(info.st_mode)))
-            return fail(E_OUTPUT, "%s: cannot make the folder: %s", part,
+            return fail(E_OUTPUT, "%s: cannot create the folder: %s", part,
                         strerror(errno == EEXIST ? ENOTDIR : errno));
         part[i] = keep;
     }
     return OK;
 }
 
-/* Whose temporary file that is. */
+/* The place and process that a temporary file belongs to. */
 static bool temporary_of(const char *name, unsigned *whose, long *pid)
 {
     const char *tail = strstr(name, TEMPORARY);
     return tail && sscanf(tail + strlen(TEMPORARY), "%8x-%ld-", whose, pid) == 2;
 }
 
-/* Left behind: by a process of this machine that is no more, or by any a day ago. The process numbers of another
- * container or boot say nothing here, so those wait for a day. */
+/* Whether a temporary file was left behind: its process on this machine has ended, or it is a day old. Process numbers of another
+ * container or boot have no meaning here, so their files are only removed after a day. */
 static bool abandoned(const char *name, int folder)
 {
     enum { DAY_S = 24 * 60 * 60 };
@@ -179,8 +178,7 @@ status file_read(const char *path, size_t limit, void *bytes, size_t *n)
     char *data = NULL;
     struct stat info;
     size_t size = 0;
-    int fd =
-        open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe without a writer is no file to wait for */
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* does not block on a pipe */
     if (fd < 0 || fstat(fd, &info) != 0) {
         st = fail(E_INPUT, "%s: %s", path, strerror(errno));
         goto done;
@@ -202,7 +200,7 @@ status file_read(const char *path, size_t limit, void *bytes, size_t *n)
             continue;
         if (k <= 0) {
             st = fail(E_INPUT, "%s: read %zu of %zu bytes: %s", path, got, size,
-                      k < 0 ? strerror(errno) : "it shrank");
+                      k < 0 ? strerror(errno) : "the file shrank");
             goto done;
         }
         got += (size_t)k;

@@ -12,7 +12,7 @@ void process_begin(void)
     for (int fd = 0; fd < 3; fd++) {
         if (fcntl(fd, F_GETFD) >= 0 || errno != EBADF)
             continue;
-        /* The lowest free one, which this is. */
+        /* open() returns the lowest free descriptor, which is fd. */
         if (open("/dev/null", fd == STDOUT_FILENO ? O_RDONLY : O_RDWR) != fd)
             _exit(E_OUTPUT);
     }

@@ -1,10 +1,9 @@
-/* The first thing in main() of each of our programs. */
+/* Setup at the start of main() of each program. */
 #ifndef HOODOO_BEGIN_H
 #define HOODOO_BEGIN_H
 
-/* What whoever starts us may have left undone: descriptors 0 to 2 are open from here on, so that no file of ours becomes
- * standard output or error; those that were closed are /dev/null, the second so that writing fails. A write past `ulimit -f`
- * fails instead of ending the process. */
+/* Opens descriptors 0 to 2 on /dev/null if the parent process closed them, so that no other file takes their place; standard output is
+ * then opened for reading, so that writes to it fail. A write beyond `ulimit -f` fails instead of killing the process. */
 void process_begin(void);
 
 #endif

@@ -1,5 +1,5 @@
-/* Programs and libraries of ours that are installed with this one: beside it, in ../libexec/hoodoo, or in the folder that
- * HOODOO_LIBEXEC names. */
+/* Finds helper programs and libraries of hoodoo: beside the program, in ../libexec/hoodoo, or in the folder given by
+ * HOODOO_LIBEXEC. */
 #ifndef HOODOO_BESIDE_H
 #define HOODOO_BESIDE_H
 
@@ -7,12 +7,12 @@
 
 enum { BESIDE_PATH = 4096 };
 
-/* For a sentence, with the file's name as its argument. */
+/* Message for a file that was not found; the argument is its name. */
 #define BESIDE_HINT                                                                                          \
-    "%s stands neither beside hoodoo nor in ../libexec/hoodoo; install it there, or name its folder in "     \
-    "HOODOO_LIBEXEC"
+    "%s is neither beside hoodoo nor in ../libexec/hoodoo; install it there, or set HOODOO_LIBEXEC to its folder"
 
-/* HOODOO_LIBEXEC alone, if it is set. False if there is no such file. */
+/* Sets `out` to the path of the file `name`; returns false if it is not found. If HOODOO_LIBEXEC is set, only that folder is
+ * searched. */
 bool beside_find(const char *name, char out[BESIDE_PATH]);
 
 #endif

@@ -1,4 +1,4 @@
-/* Where hoodoo keeps what it can make anew: HOODOO_CACHE, or hoodoo in XDG_CACHE_HOME, or ~/.cache/hoodoo. */
+/* The folder for cached data: HOODOO_CACHE, or hoodoo in XDG_CACHE_HOME, or ~/.cache/hoodoo. */
 #ifndef HOODOO_CACHE_H
 #define HOODOO_CACHE_H
 
@@ -6,7 +6,7 @@
 
 #include "base/path.h"
 
-/* False: no variable says where. The folder need not be there. */
+/* Returns false if none of the environment variables is set. The folder may not exist yet. */
 bool cache_folder(struct path *out);
 
 #endif

@@ -20,7 +20,8 @@ enum { BLIND_MS = 10, HIGH = 64 };
 
 /* ---- start */
 
-/* Puts descriptors in their places; each is moved out of the others' way first. False if that fails. */
+/* Moves descriptors to their final numbers, after copying all to high numbers so that they do not overwrite each other. Returns false on
+ * failure. */
 static bool place_descriptors(const struct child_options *o)
 {
     int in = open("/dev/null", O_RDWR | O_CLOEXEC);
@@ -34,19 +35,19 @@ static bool place_descriptors(const struct child_options *o)
         if (dup2(HIGH + i, i) < 0)
             return false;
     close_range((unsigned)n, ~0U,
-                CLOSE_RANGE_CLOEXEC); /* what a library has opened without asking for that */
+                CLOSE_RANGE_CLOEXEC); /* for descriptors that libraries opened without O_CLOEXEC */
     return true;
 }
 
-/* In the child, which shares our memory until it has become another program: it changes none of it. */
-static _Noreturn void become(const struct child_options *o, char *const *environment, pid_t parent)
+/* Runs in the child, which shares the memory of this process until exec and therefore must not change it. */
+static _Noreturn void exec_child(const struct child_options *o, char *const *environment, pid_t parent)
 {
     sigset_t none;
     signals_reset();
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, o->at_our_end ? o->at_our_end : SIGKILL);
+    prctl(PR_SET_PDEATHSIG, o->death_signal ? o->death_signal : SIGKILL);
     if (getppid() != parent)
         _exit(CHILD_NOT_SET_UP);
     if ((o->folder && chdir(o->folder) != 0) || !place_descriptors(o))
@@ -55,8 +56,8 @@ static _Noreturn void become(const struct child_options *o, char *const *environ
     _exit(CHILD_NO_PROGRAM);
 }
 
-/* A function of its own: none of its caller's variables may change between the two returns. No handler of ours may run in
- * the child before it has its own. */
+/* A separate function, because no variable of its caller may change between the two returns of vfork(). Signals are blocked so that no
+ * handler of this process runs in the child. */
 static __attribute__((noinline)) pid_t launch(const struct child_options *o, char *const *environment)
 {
     sigset_t all, before;
@@ -65,12 +66,12 @@ static __attribute__((noinline)) pid_t launch(const struct child_options *o, cha
     pthread_sigmask(SIG_SETMASK, &all, &before);
     pid_t pid = vfork();
     if (pid == 0)
-        become(o, environment, parent);
+        exec_child(o, environment, parent);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return pid;
 }
 
-/* Our environment and the variables that it lacks, as "NAME=value" behind the array. */
+/* The environment of this process with those of the variables that it lacks; their "NAME=value" strings follow the array. */
 static status make_environment(const struct child_options *o, char ***out)
 {
     size_t n = 0, bytes = 0;
@@ -103,21 +104,21 @@ status child_start(const struct child_options *o, struct child *out)
     status st = make_environment(o, &environment);
     if (st != OK)
         return st;
-    /* Where it is ignored, as whoever started us may have left it, nobody is told how a child ended. */
+    /* If the parent process left it ignored, waitpid() would not report how a child ended. */
     signal(SIGCHLD, SIG_DFL);
-    fflush(NULL); /* what we have said stands before what it says */
+    fflush(NULL); /* so that earlier output precedes the child's */
     pid_t pid = launch(o, environment);
     int error = errno;
     free(environment);
     if (pid < 0)
-        return fail(E_MEMORY, "%s: no new process: %s", o->argv[0], strerror(error));
+        return fail(E_MEMORY, "%s: cannot start a process: %s", o->argv[0], strerror(error));
     *out = (struct child){.pid = pid, .fd = pidfd_open(pid, 0)};
     return OK;
 }
 
 /* ---- end */
 
-static void forget(struct child *child)
+static void clear_child(struct child *child)
 {
     if (child->fd >= 0)
         close(child->fd);
@@ -132,9 +133,9 @@ static size_t reap(struct child *child, size_t n, int *how)
         pid_t pid = waitpid(child[i].pid, how, WNOHANG);
         if (pid == 0 || (pid < 0 && errno == EINTR))
             continue;
-        if (pid < 0) /* someone else has reaped it: whatever it did, nobody knows */
+        if (pid < 0) /* already reaped elsewhere: its exit code is unknown */
             *how = CHILD_NOT_SET_UP << 8;
-        forget(&child[i]);
+        clear_child(&child[i]);
         return i;
     }
     return n;
@@ -170,5 +171,5 @@ void child_kill(struct child *child)
     kill(child->pid, SIGKILL);
     while (waitpid(child->pid, NULL, 0) < 0 && errno == EINTR)
         ;
-    forget(child);
+    clear_child(child);
 }

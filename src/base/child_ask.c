@@ -1,4 +1,4 @@
-/* What a child has to say: its answer, and why it failed. */
+/* The output of a child, and the reason of its failure. */
 #include <errno.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -13,8 +13,8 @@
 
 enum { TAIL = 4000, ANSWER_MAX = 16 << 20 };
 
-/* The last line that hoodoo said, from the end of a log. */
-static void last_words(const char *log, char *out, size_t size)
+/* The last message of hoodoo in a log. */
+static void last_message(const char *log, char *out, size_t size)
 {
     char tail[TAIL + 1];
     out[0] = '\0';
@@ -40,41 +40,41 @@ static void last_words(const char *log, char *out, size_t size)
 
 void child_reason(int how, const char *log, char *out, size_t size)
 {
-    char words[500];
-    last_words(log, words, sizeof words);
+    char message[500];
+    last_message(log, message, sizeof message);
     if (WIFEXITED(how))
-        snprintf(out, size, "exit %d: %s", WEXITSTATUS(how), words);
+        snprintf(out, size, "exit %d: %s", WEXITSTATUS(how), message);
     else
         snprintf(out, size, "killed by signal %d (%s)", WTERMSIG(how), strsignal(WTERMSIG(how)));
 }
 
-/* The last 500 bytes stay. */
-static void keep_end(char said[512], const char *bytes, size_t n)
+/* Appends bytes to `errors`, which keeps the last 500. */
+static void keep_end(char errors[512], const char *bytes, size_t n)
 {
-    size_t have = strlen(said), add = n < 500 ? n : 500;
+    size_t have = strlen(errors), add = n < 500 ? n : 500;
     if (have + add > 500) {
         size_t drop = have + add - 500;
-        memmove(said, said + drop, have - drop);
+        memmove(errors, errors + drop, have - drop);
         have -= drop;
     }
-    memcpy(said + have, bytes + n - add, add);
-    said[have + add] = '\0';
+    memcpy(errors + have, bytes + n - add, add);
+    errors[have + add] = '\0';
 }
 
-/* Reads what has come; false at the end. */
-static bool drain(int fd, struct text *out, char *said)
+/* Reads the available bytes; false at the end. */
+static bool drain(int fd, struct text *out, char *errors)
 {
     char bytes[4096];
     ssize_t n = read(fd, bytes, sizeof bytes);
     if (n > 0 && out && out->size < ANSWER_MAX)
         text_add_bytes(out, bytes, (size_t)n);
-    else if (n > 0 && said)
-        keep_end(said, bytes, (size_t)n);
+    else if (n > 0 && errors)
+        keep_end(errors, bytes, (size_t)n);
     return n > 0 || (n < 0 && errno == EINTR);
 }
 
-/* Reads both ends until they are closed; false if that takes longer than `until`. */
-static bool listen_to(const int end[2], struct text *out, char said[512], double until)
+/* Reads both pipes until they are closed; false if the time `until` passes before. */
+static bool listen_to(const int end[2], struct text *out, char errors[512], double until)
 {
     bool open[2] = {true, true};
     while (open[0] || open[1]) {
@@ -88,30 +88,31 @@ static bool listen_to(const int end[2], struct text *out, char said[512], double
         if (wait[0].revents)
             open[0] = drain(end[0], out, NULL);
         if (wait[1].revents)
-            open[1] = drain(end[1], NULL, said);
+            open[1] = drain(end[1], NULL, errors);
     }
     return true;
 }
 
-status child_ask(const char *const *argv, double seconds, struct text *out, char said[512], int *code)
+status child_ask(const char *const *argv, double seconds, struct text *out, char errors[512], int *code)
 {
-    int one[2], two[2], how = 0;
+    int out_pipe[2], err_pipe[2], how = 0;
     struct child child = {0};
     const double until = clock_seconds() + seconds;
-    said[0] = '\0';
-    if (pipe2(one, O_CLOEXEC) != 0)
+    errors[0] = '\0';
+    if (pipe2(out_pipe, O_CLOEXEC) != 0)
         return fail(E_MEMORY, "%s: no pipe: %s", argv[0], strerror(errno));
-    if (pipe2(two, O_CLOEXEC) != 0) {
-        close(one[0]);
-        close(one[1]);
+    if (pipe2(err_pipe, O_CLOEXEC) != 0) {
+        close(out_pipe[0]);
+        close(out_pipe[1]);
         return fail(E_MEMORY, "%s: no pipe: %s", argv[0], strerror(errno));
     }
-    status st = child_start(&(struct child_options){.argv = argv, .out = one[1], .err = two[1]}, &child);
-    close(one[1]);
-    close(two[1]);
-    bool in_time = st == OK && listen_to((const int[]){one[0], two[0]}, out, said, until);
-    close(one[0]);
-    close(two[0]);
+    status st =
+        child_start(&(struct child_options){.argv = argv, .out = out_pipe[1], .err = err_pipe[1]}, &child);
+    close(out_pipe[1]);
+    close(err_pipe[1]);
+    bool in_time = st == OK && listen_to((const int[]){out_pipe[0], err_pipe[0]}, out, errors, until);
+    close(out_pipe[0]);
+    close(err_pipe[0]);
     while (in_time && child.pid && clock_seconds() < until)
         child_wait(&child, 1, until - clock_seconds(), &how);
     if (child.pid) {
@@ -121,7 +122,7 @@ status child_ask(const char *const *argv, double seconds, struct text *out, char
     if (st != OK)
         return st;
     *code = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
-    for (char *s = said; *s; s++)
+    for (char *s = errors; *s; s++)
         if ((unsigned char)*s < 0x20)
             *s = ' ';
     return text_status(out);

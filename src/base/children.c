@@ -1,12 +1,12 @@
-/* Children side by side. */
+/* Several children in parallel. */
 #include <string.h>
 #include <sys/wait.h>
 
 #include "base/child.h"
 #include "base/signals.h"
 
-/* How long a stop may go unnoticed where its signal came to another thread. */
-static const double LOOK_S = 0.05;
+/* Interval at which a stop is noticed whose signal went to another thread. */
+static const double POLL_S = 0.05;
 
 void children_begin(struct children *c, const char *folder, const char *log, const char *packages,
                     int at_once)
@@ -16,8 +16,8 @@ void children_begin(struct children *c, const char *folder, const char *log, con
         c->at_once = CHILDREN_MAX;
 }
 
-/* Child i has ended: takes it out of the list. */
-static status take_out(struct children *c, size_t i, int how)
+/* Removes child i, which has ended, from the list, and reports its failure or calls `done`. */
+static status finish_child(struct children *c, size_t i, int how)
 {
     const struct children_job job = c->job[i];
     c->n--;
@@ -26,7 +26,7 @@ static status take_out(struct children *c, size_t i, int how)
     if (WIFEXITED(how) && WEXITSTATUS(how) == CHILD_NO_PROGRAM)
         return fail(E_INPUT, "%s: a program is missing; install %s", job.what, c->packages);
     if (!WIFEXITED(how) || WEXITSTATUS(how) != 0)
-        return fail(E_OUTPUT, "%s could not be made (%s %d); what the program said is in %s/%s", job.what,
+        return fail(E_OUTPUT, "%s could not be made (%s %d); see the program's output in %s/%s", job.what,
                     WIFEXITED(how) ? "exit" : "signal", WIFEXITED(how) ? WEXITSTATUS(how) : WTERMSIG(how),
                     c->folder, c->log);
     return job.done ? job.done(job.user) : OK;
@@ -39,9 +39,9 @@ static status wait_below(struct children *c, int limit)
         int how = 0;
         if (stop_requested())
             return fail(STOPPED, "stopped; run the same command again to go on");
-        size_t i = child_wait(c->child, (size_t)c->n, LOOK_S, &how);
+        size_t i = child_wait(c->child, (size_t)c->n, POLL_S, &how);
         if (i < (size_t)c->n)
-            st = take_out(c, i, how);
+            st = finish_child(c, i, how);
     }
     return st;
 }

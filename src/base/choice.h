@@ -1,4 +1,4 @@
-/* A choice's constants and words from one list, so that neither can have another order or number than the other:
+/* Generates the constants and the names of a choice from one list, so that their order and number always agree:
  *
  *     #define EDGES_CHOICE (EDGES_CLOSED, "closed")(EDGES_OPEN, "open")
  *     enum { CHOICE_CONSTANTS(EDGES_CHOICE) };                           EDGES_CLOSED, EDGES_OPEN,
@@ -8,8 +8,8 @@
 #ifndef HOODOO_CHOICE_H
 #define HOODOO_CHOICE_H
 
-/* Each macro takes one pair and leaves the name of the other one before the next; the last name gets _END, which is
- * nothing. */
+/* Each macro consumes one pair and expands to the name of its partner, which consumes the next pair. _END is appended to the
+ * last name, and that name expands to nothing. */
 #define CHOICE_CONSTANTS(list) CHOICE_END(CHOICE_CONSTANT_A list)
 #define CHOICE_CONSTANT_A(constant, word) constant, CHOICE_CONSTANT_B
 #define CHOICE_CONSTANT_B(constant, word) constant, CHOICE_CONSTANT_A
@@ -22,7 +22,7 @@
 #define CHOICE_LIST_A_END
 #define CHOICE_LIST_B_END
 
-/* Without the first bar. */
+/* Skips the leading bar. */
 #define CHOICE_TEXT(list) (&(CHOICE_END(CHOICE_TEXT_A list))[1])
 #define CHOICE_TEXT_A(constant, word) "|" word CHOICE_TEXT_B
 #define CHOICE_TEXT_B(constant, word) "|" word CHOICE_TEXT_A

@@ -1,10 +1,10 @@
-/* Time that passes, whatever is done to the wall clock. */
+/* Clocks that do not depend on the time of day. */
 #ifndef HOODOO_CLOCK_H
 #define HOODOO_CLOCK_H
 
 #include <time.h>
 
-/* s, from some beginning. */
+/* Monotonic time in seconds, from an arbitrary origin. */
 static inline double clock_seconds(void)
 {
     struct timespec t;
@@ -12,7 +12,7 @@ static inline double clock_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* s of the processors' time that this process has had, in all of its threads: what a busy machine leaves alone. */
+/* CPU time in seconds that all threads of this process have used; other load on the machine does not count. */
 static inline double clock_cpu_seconds(void)
 {
     struct timespec t;

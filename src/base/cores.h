@@ -1,10 +1,10 @@
-/* How much work is worth starting side by side. */
+/* The number of cores that this process may use. */
 #ifndef HOODOO_CORES_H
 #define HOODOO_CORES_H
 
 #include <sched.h>
 
-/* The cores this process may use, at least 1: a scheduler gives a job fewer than the machine has. */
+/* From the CPU affinity, at least 1: a scheduler may assign a job fewer cores than the machine has. */
 static inline int cores(void)
 {
     cpu_set_t set;

@@ -1,4 +1,4 @@
-/* Content hashes: XXH3, as manifests and checkpoints store them. */
+/* Content hashes: XXH3-64, as stored in manifests and checkpoints. */
 #ifndef HOODOO_HASH_H
 #define HOODOO_HASH_H
 
@@ -9,7 +9,7 @@
 
 uint64_t hash_bytes(const void *bytes, size_t n);
 
-/* XXH3-64 of a file's content, and its size. E_INPUT if it cannot be read. */
+/* The hash of a file's content, and the file's size in bytes. E_INPUT if it cannot be read. */
 MUST_USE status hash_file(const char *path, uint64_t *hash, uint64_t *size);
 
 /* 16 lower-case hex digits in `out`; returns out. */

@@ -29,7 +29,7 @@ done:
     return st;
 }
 
-bool idset_take(struct idset *s, uint32_t id)
+bool idset_remove(struct idset *s, uint32_t id)
 {
     uint64_t *leaf = s->leaf ? s->leaf[id >> 16] : NULL, bit = UINT64_C(1) << id % 64;
     if (!leaf || !(leaf[(id & 0xffff) / 64] & bit))

@@ -1,4 +1,4 @@
-/* A set of 32-bit numbers: a bit for each, 65,536 to a leaf; leaves that hold none take no memory. */
+/* A set of 32-bit numbers, stored as a bitmap in leaves of 65,536 bits; empty leaves are not allocated until needed. */
 #ifndef HOODOO_IDSET_H
 #define HOODOO_IDSET_H
 
@@ -11,13 +11,13 @@ struct idset {
     uint64_t **leaf; /* [65536] */
 };
 
-/* {0} is the empty set, and idset_free() makes it that. */
+/* Frees the memory and leaves the empty set, which is {0}. */
 void idset_free(struct idset *s);
 
-/* *added: it was not in the set before. E_MEMORY. */
+/* Sets *added to true if `id` was not in the set before. E_MEMORY. */
 MUST_USE status idset_add(struct idset *s, uint32_t id, bool *added);
 
-/* Takes it out; false if it was not in the set. */
-bool idset_take(struct idset *s, uint32_t id);
+/* Removes `id`; returns false if it was not in the set. */
+bool idset_remove(struct idset *s, uint32_t id);
 
 #endif

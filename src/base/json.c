@@ -8,7 +8,7 @@
 
 enum { DEEPEST = 32 };
 
-/* Nodes and texts come from blocks that live and die together; the first block starts with the root. */
+/* Nodes and texts are allocated from blocks that are freed together. */
 struct block {
     struct block *older;
     size_t used, size;
@@ -16,7 +16,7 @@ struct block {
 };
 
 struct document {
-    struct json root; /* first: what json_free() is given */
+    struct json root; /* must be first: json_free() is passed its address */
     struct block *blocks;
 };
 
@@ -26,7 +26,7 @@ struct reader {
     int depth;
 };
 
-static status wrong(const struct reader *r, const char *what)
+static status syntax_error(const struct reader *r, const char *what)
 {
     size_t line = 1, column = 1;
     for (const char *c = r->begin; c < r->at; c++) {
@@ -42,7 +42,7 @@ static const char *name(const struct reader *r)
     return r->path ? r->path : "a JSON text";
 }
 
-static status take(struct reader *r, size_t n, void *out)
+static status allocate(struct reader *r, size_t n, void *out)
 {
     struct block *b = r->document->blocks;
     n = (n + sizeof(max_align_t) - 1) / sizeof(max_align_t) * sizeof(max_align_t);
@@ -80,17 +80,17 @@ static status read_text(struct reader *r, const char **out)
     char *text = NULL;
     const char *end = r->at + 1;
     if (!skip(r, "\""))
-        return wrong(r, "a key in quotes is missing");
+        return syntax_error(r, "expected a key in quotes");
     while (end < r->end && *end != '"')
         end += *end == '\\' && r->end - end > 1 ? 2 : 1;
     if (end >= r->end)
-        return wrong(r, "a text does not end");
-    status st = take(r, (size_t)(end - r->at) + 1, &text);
+        return syntax_error(r, "unterminated text");
+    status st = allocate(r, (size_t)(end - r->at) + 1, &text);
     if (st != OK)
         return st;
     const char *bad = json_unescape(&r->at, end, text);
     if (bad)
-        return wrong(r, bad);
+        return syntax_error(r, bad);
     r->at = end + 1;
     *out = text;
     return OK;
@@ -118,9 +118,9 @@ static status read_number(struct reader *r, struct json *json)
         good = skip_digits(r) > 0;
     }
     if (!good)
-        return wrong(r, "a bad number");
+        return syntax_error(r, "invalid number");
     const size_t n = (size_t)(r->at - start);
-    status st = take(r, n + 1, &text);
+    status st = allocate(r, n + 1, &text);
     if (st != OK)
         return st;
     memcpy(text, start, n);
@@ -138,8 +138,8 @@ static int by_key(const void *a, const void *b)
     return strcmp((*(const struct json *const *)a)->key, (*(const struct json *const *)b)->key);
 }
 
-/* Sorts: an object of a hostile file may have millions of members. */
-static status refuse_twins(const struct reader *r, const struct json *object)
+/* Sorts the keys, because an object of a hostile file may have millions of members. */
+static status refuse_duplicates(const struct reader *r, const struct json *object)
 {
     status st = OK;
     const struct json **item = NULL;
@@ -152,7 +152,7 @@ static status refuse_twins(const struct reader *r, const struct json *object)
     qsort(item, n, sizeof *item, by_key);
     for (size_t i = 1; i < n && st == OK; i++)
         if (by_key(&item[i - 1], &item[i]) == 0)
-            st = wrong(r, "a key stands twice in the object that ends here");
+            st = syntax_error(r, "duplicate key in the object that ends here");
 done:
     free(item);
     return st;
@@ -164,7 +164,7 @@ static status read_key(struct reader *r, struct json *item)
     if (st != OK)
         return st;
     skip_space(r);
-    return skip(r, ":") ? OK : wrong(r, "':' is missing");
+    return skip(r, ":") ? OK : syntax_error(r, "expected ':'");
 }
 
 static status read_items(struct reader *r, struct json *json, enum json_kind kind)
@@ -174,13 +174,13 @@ static status read_items(struct reader *r, struct json *json, enum json_kind kin
     struct json **link = &json->first;
     json->kind = kind;
     if (++r->depth > DEEPEST)
-        return wrong(r, "nested too deeply");
+        return syntax_error(r, "nested too deeply");
     skip_space(r);
     if (skip(r, close))
         goto done;
     do {
         struct json *item = NULL;
-        TRY(take(r, sizeof *item, &item));
+        TRY(allocate(r, sizeof *item, &item));
         *item = (struct json){0};
         skip_space(r);
         if (kind == JSON_OBJECT)
@@ -192,9 +192,9 @@ static status read_items(struct reader *r, struct json *json, enum json_kind kin
         skip_space(r);
     } while (skip(r, ","));
     if (!skip(r, close))
-        return wrong(r, kind == JSON_OBJECT ? "',' or '}' is missing" : "',' or ']' is missing");
+        return syntax_error(r, kind == JSON_OBJECT ? "expected ',' or '}'" : "expected ',' or ']'");
     if (kind == JSON_OBJECT)
-        TRY(refuse_twins(r, json));
+        TRY(refuse_duplicates(r, json));
 done:
     r->depth--;
     return st;
@@ -221,9 +221,9 @@ static status read_value(struct reader *r, struct json *json)
     if (skip(r, "false"))
         return OK;
     if (r->at == r->end)
-        return wrong(r, "it ends too early");
+        return syntax_error(r, "unexpected end");
     if (!strchr("-0123456789", *r->at) || !*r->at)
-        return wrong(r, "neither a value nor an end");
+        return syntax_error(r, "expected a value");
     return read_number(r, json);
 }
 
@@ -237,7 +237,7 @@ status json_read(const char *path, const char *bytes, size_t n, struct json **ou
     TRY(read_value(&r, &document->root));
     skip_space(&r);
     if (r.at != r.end) {
-        st = wrong(&r, "more follows after the end");
+        st = syntax_error(&r, "unexpected text after the end of the document");
         goto done;
     }
     *out = &document->root;

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The four digits behind \u, which *at is at. */
+/* Reads 'u' and four hex digits at *at. */
 static bool read_hex(const char **at, const char *end, unsigned *out)
 {
     char digits[5] = {0};
@@ -32,7 +32,7 @@ static char *put_utf8(char *to, unsigned c)
     return to;
 }
 
-/* *at is behind the backslash. */
+/* Decodes one escape; *at points behind the backslash. */
 static const char *read_escape(const char **at, const char *end, char **to)
 {
     static const char from[] = "\"\\/bfnrt", as[] = "\"\\/\b\f\n\r\t";
@@ -44,13 +44,13 @@ static const char *read_escape(const char **at, const char *end, char **to)
         return NULL;
     }
     if (!read_hex(at, end, &c))
-        return "an unknown escape";
+        return "unknown escape";
     if (c >= 0xd800 && c < 0xdc00) {
         if (*at == end || *(*at)++ != '\\' || !read_hex(at, end, &low) || low < 0xdc00 || low > 0xdfff)
-            return "half a surrogate pair in a text";
+            return "unpaired surrogate in a text";
         c = 0x10000 + ((c & 0x3ff) << 10 | (low & 0x3ff));
     } else if (c == 0 || (c >= 0xdc00 && c < 0xe000)) {
-        return "half a surrogate pair or a NUL in a text";
+        return "unpaired surrogate or NUL in a text";
     }
     *to = put_utf8(*to, c);
     return NULL;
@@ -61,7 +61,7 @@ const char *json_unescape(const char **at, const char *end, char *to)
     const char *bad = NULL;
     while (*at < end && !bad) {
         if ((unsigned char)**at < 0x20)
-            return "a control character in a text";
+            return "control character in a text";
         if (**at == '\\') {
             ++*at;
             bad = read_escape(at, end, &to);

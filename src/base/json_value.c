@@ -1,4 +1,4 @@
-/* Values of JSON that was read: finding them, and taking them as C values. */
+/* Access to parsed JSON: members by key, and conversion to C types. */
 #include <errno.h>
 #include <limits.h>
 #include <stdlib.h>

@@ -19,11 +19,11 @@ static void *find(const char *name)
 {
     void *at = dlsym(library, name);
     if (!at)
-        snprintf(why, sizeof why, "it has no %s", name);
+        snprintf(why, sizeof why, "the library has no function %s", name);
     return at;
 }
 
-/* Another build's functions would take other structs. */
+/* The build must match, because the structs of another build may differ. */
 static void load(void)
 {
     char path[BESIDE_PATH];
@@ -39,7 +39,8 @@ static void load(void)
     const char *build = find("hoodoo_build");
     void *said = find("status_message");
     if (build && said && strcmp(build, hoodoo_build) != 0)
-        snprintf(why, sizeof why, "%s is of another build (%s)", path, build);
+        snprintf(why, sizeof why, "%s belongs to another build (%s); install both from the same build", path,
+                 build);
     memcpy(&message, &said, sizeof message);
 }
 
@@ -48,12 +49,12 @@ status library_find(const char *name, void *function)
     pthread_once(&once, load);
     void *at = *why ? NULL : dlsym(library, name);
     if (!at)
-        return fail(E_OUTPUT, "OpenVDB files cannot be made: %s", *why ? why : name);
+        return fail(E_OUTPUT, "OpenVDB files cannot be written: %s", *why ? why : name);
     memcpy(function, &at, sizeof at);
     return OK;
 }
 
-status library_said(status st)
+status library_status(status st)
 {
     return st == OK ? OK : fail(st, "%s", message());
 }

@@ -20,12 +20,12 @@
 #include "base/text.h"
 
 enum { LOCK_BYTES = 4096, COUNT_DIGITS = 12, WATCH_US = 100000 };
-static const double BEAT_S = 5, WATCH_S = 30;
+static const double HEARTBEAT_S = 5, WATCH_S = 30;
 
 struct lock {
     struct path path;
     char token[96];
-    double beat_s;
+    double heartbeat_s;
     pthread_t thread;
     pthread_mutex_t guard;
     pthread_cond_t wake;
@@ -36,7 +36,7 @@ struct lock {
 
 /* ---- the file */
 
-/* The count stands first and has a fixed width, so that it can be written in place. */
+/* The counter comes first and has a fixed width, so that it can be overwritten in place. */
 static status compose(const struct lock *lock, const char *what, struct text *t)
 {
     struct process me;
@@ -61,19 +61,19 @@ static status compose(const struct lock *lock, const char *what, struct text *t)
 }
 
 struct seen {
-    bool there, unread; /* unread: the system could not read it now */
+    bool there, unread; /* unread: it exists but cannot be read at the moment */
     char count[COUNT_DIGITS + 1], token[96], since[40], what[256];
     struct process holder;
 };
 
-static void take_text(const struct json *json, const char *key, char *out, size_t size)
+static void copy_text(const struct json *json, const char *key, char *out, size_t size)
 {
     const char *text = json_to_text(json_member(json, key));
     snprintf(out, size, "%s", text ? text : "");
 }
 
-/* A file that cannot be understood counts as there, of an unknown holder. */
-static status look(const char *path, struct seen *s)
+/* Reads the lock file. A file with unknown content counts as a lock of an unknown holder. */
+static status read_lock(const char *path, struct seen *s)
 {
     char *bytes = NULL;
     size_t n = 0;
@@ -93,12 +93,12 @@ static status look(const char *path, struct seen *s)
         memcpy(s->count, bytes, COUNT_DIGITS);
         st = json_read(path, bytes + COUNT_DIGITS, n - COUNT_DIGITS, &json);
         if (st == OK) {
-            take_text(json, "token", s->token, sizeof s->token);
-            take_text(json, "host", s->holder.host, sizeof s->holder.host);
-            take_text(json, "boot", s->holder.boot, sizeof s->holder.boot);
-            take_text(json, "pid_space", s->holder.space, sizeof s->holder.space);
-            take_text(json, "since", s->since, sizeof s->since);
-            take_text(json, "what", s->what, sizeof s->what);
+            copy_text(json, "token", s->token, sizeof s->token);
+            copy_text(json, "host", s->holder.host, sizeof s->holder.host);
+            copy_text(json, "boot", s->holder.boot, sizeof s->holder.boot);
+            copy_text(json, "pid_space", s->holder.space, sizeof s->holder.space);
+            copy_text(json, "since", s->since, sizeof s->since);
+            copy_text(json, "what", s->what, sizeof s->what);
             if (json_to_integer(json_member(json, "pid"), 0, INT32_MAX, &pid))
                 s->holder.pid = (long)pid;
             if (json_to_uint64(json_member(json, "began"), &began))
@@ -110,10 +110,10 @@ static status look(const char *path, struct seen *s)
     return st == E_MEMORY ? st : OK;
 }
 
-enum whose { MINE, ANOTHERS, UNREAD };
+enum owner { MINE, ANOTHERS, UNREAD };
 
-/* Takes no memory: the heart beats, and the lock is removed, when there is none too. */
-static enum whose whose(const struct lock *lock)
+/* Determines whose lock it is. Allocates no memory, because heartbeat and release must also work without any. */
+static enum owner owner_of(const struct lock *lock)
 {
     char bytes[LOCK_BYTES];
     int fd = open(lock->path.text, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
@@ -128,12 +128,12 @@ static enum whose whose(const struct lock *lock)
 
 /* ---- the heartbeat */
 
-static void beat(struct lock *lock)
+static void write_heartbeat(struct lock *lock)
 {
     char count[32];
-    const enum whose now = whose(lock);
+    const enum owner now = owner_of(lock);
     if (now == UNREAD)
-        return; /* the disk is away for a moment; the next beat will tell */
+        return; /* the disk is temporarily unavailable; the next heartbeat tries again */
     if (now == ANOTHERS) {
         atomic_store(&lock->lost, true);
         return;
@@ -147,7 +147,7 @@ static void beat(struct lock *lock)
     close(fd);
 }
 
-/* Its waits are by the clock that nobody sets: one set back would hold the next beat for as long. */
+/* Waits use the monotonic clock: if the wall clock were set back, the next heartbeat would be delayed by as much. */
 static void init_wake(pthread_cond_t *wake)
 {
     pthread_condattr_t monotonic;
@@ -157,20 +157,20 @@ static void init_wake(pthread_cond_t *wake)
     pthread_condattr_destroy(&monotonic);
 }
 
-static void *keep_beating(void *argument)
+static void *heartbeat_thread(void *argument)
 {
     struct lock *lock = argument;
     pthread_mutex_lock(&lock->guard);
     while (!lock->ending) {
         struct timespec until;
         clock_gettime(CLOCK_MONOTONIC, &until);
-        until.tv_sec += (time_t)lock->beat_s;
-        until.tv_nsec += (long)((lock->beat_s - (double)(time_t)lock->beat_s) * 1e9);
+        until.tv_sec += (time_t)lock->heartbeat_s;
+        until.tv_nsec += (long)((lock->heartbeat_s - (double)(time_t)lock->heartbeat_s) * 1e9);
         until.tv_sec += until.tv_nsec / 1000000000;
         until.tv_nsec %= 1000000000;
         if (pthread_cond_timedwait(&lock->wake, &lock->guard, &until) == ETIMEDOUT && !lock->ending) {
             pthread_mutex_unlock(&lock->guard);
-            beat(lock);
+            write_heartbeat(lock);
             pthread_mutex_lock(&lock->guard);
         }
     }
@@ -180,42 +180,42 @@ static void *keep_beating(void *argument)
 
 /* ---- taking */
 
-static status held(const char *path, const struct seen *s)
+static status fail_held(const char *path, const struct seen *s)
 {
     return fail(
         E_OUTPUT,
-        "%s: process %ld on %s %s, since %s; wait for it or stop it. If it is no more, remove that file",
+        "%s: process %ld on %s %s, since %s; wait for it or stop it. If it no longer exists, remove this file",
         path, s->holder.pid, *s->holder.host ? s->holder.host : "an unknown machine",
         *s->what ? s->what : "writes here", *s->since ? s->since : "an unknown time");
 }
 
-/* Is the holder gone? E_OUTPUT if it lives. */
-static status judge(const char *path, const struct seen *first, double watch_s, bool (*stop)(void))
+/* Returns OK if the holder is gone, E_OUTPUT if it is alive. */
+static status check_holder(const char *path, const struct seen *first, double watch_s, bool (*stop)(void))
 {
     struct seen now;
     const struct process *h = &first->holder;
     const enum process_fate fate = process_fate(h);
     if (fate != PROCESS_UNKNOWN)
-        return fate == PROCESS_LIVES ? held(path, first) : OK;
-    log_info("%s is held by process %ld on %s; watching for %.0f s whether that one lives", path, h->pid,
+        return fate == PROCESS_LIVES ? fail_held(path, first) : OK;
+    log_info("%s is held by process %ld on %s; watching its heartbeat for %.0f s", path, h->pid,
              *h->host ? h->host : "an unknown machine", watch_s);
     for (double waited = 0; waited < watch_s; waited += WATCH_US * 1e-6) {
         if (stop && stop())
             return fail(STOPPED, "stopped before anything was written; run the same command again");
         usleep(WATCH_US);
-        status st = look(path, &now);
+        status st = read_lock(path, &now);
         if (st != OK)
             return st;
         if (!now.there)
             return OK;
         if (strcmp(now.token, first->token) != 0 || strcmp(now.count, first->count) != 0)
-            return held(path, &now);
+            return fail_held(path, &now);
     }
     return OK;
 }
 
-/* Moves a lock that was left behind out of the way. Of several who try, one succeeds; and if what was moved
- * is not what was judged (someone else was quicker, and holds it now), it is put back. */
+/* Renames a stale lock away and removes it. Of several processes that try, one succeeds. If the renamed file turns out not to be the stale
+ * lock, because another process has already replaced it, it is put back. */
 static status remove_stale(const char *path, const struct seen *stale)
 {
     struct path aside;
@@ -223,12 +223,14 @@ static status remove_stale(const char *path, const struct seen *stale)
     status st = OK;
     TRY(atomic_file_temporary(path, "", &aside));
     if (rename(path, aside.text) != 0)
-        return errno == ENOENT ? OK : fail(E_OUTPUT, "%s: cannot be moved: %s", path, strerror(errno));
-    st = look(aside.text, &moved);
-    const bool judged = st == OK && strcmp(moved.token, stale->token) == 0;
-    if (!judged && link(aside.text, path) != 0 && errno != EEXIST)
-        st = fail(E_OUTPUT, "%s: cannot be put back: %s", path, strerror(errno));
-    else if (judged)
+        return errno == ENOENT
+                   ? OK
+                   : fail(E_OUTPUT, "%s: cannot rename the stale lock: %s", path, strerror(errno));
+    st = read_lock(aside.text, &moved);
+    const bool is_stale = st == OK && strcmp(moved.token, stale->token) == 0;
+    if (!is_stale && link(aside.text, path) != 0 && errno != EEXIST)
+        st = fail(E_OUTPUT, "%s: cannot restore the lock of another process: %s", path, strerror(errno));
+    else if (is_stale)
         log_warn("%s was left behind by process %ld on %s (%s, since %s); taking over", path,
                  stale->holder.pid, *stale->holder.host ? stale->holder.host : "an unknown machine",
                  *stale->what ? stale->what : "unknown", *stale->since ? stale->since : "an unknown time");
@@ -237,7 +239,7 @@ done:
     return st;
 }
 
-/* link() fails if the name is taken, on NFS too; its answer may be lost there, so the count of links decides. */
+/* link() fails if the name exists, on NFS too. The reply may be lost there, so the number of links decides. */
 static status put_in_place(struct lock *lock, const char *what, bool *mine)
 {
     status st = OK;
@@ -252,7 +254,7 @@ static status put_in_place(struct lock *lock, const char *what, bool *mine)
     *mine = linked == 0 || (stat(own.text, &info) == 0 && info.st_nlink == 2);
     unlink(own.text);
     if (!*mine && why != EEXIST)
-        st = fail(E_OUTPUT, "%s: cannot be made: %s", lock->path.text, strerror(why));
+        st = fail(E_OUTPUT, "%s: cannot create the lock: %s", lock->path.text, strerror(why));
 done:
     text_free(&t);
     return st;
@@ -269,26 +271,26 @@ status lock_take(const char *path, const char *what, struct lock_patience patien
     *out = NULL;
     TRY(memory_alloc(1, sizeof *lock, "a lock", &lock));
     TRY(path_format(&lock->path, "%s", path));
-    lock->beat_s = patience.beat_s > 0 ? patience.beat_s : BEAT_S;
+    lock->heartbeat_s = patience.heartbeat_s > 0 ? patience.heartbeat_s : HEARTBEAT_S;
     for (int i = 0; i < TRIES && !mine; i++) {
         TRY(put_in_place(lock, what, &mine));
         if (mine)
             break;
-        TRY(look(path, &seen));
+        TRY(read_lock(path, &seen));
         if (!seen.there)
             continue;
-        TRY(judge(path, &seen, patience.watch_s > 0 ? patience.watch_s : WATCH_S, stop));
+        TRY(check_holder(path, &seen, patience.watch_s > 0 ? patience.watch_s : WATCH_S, stop));
         TRY(remove_stale(path, &seen));
     }
     if (!mine) {
-        st = fail(E_OUTPUT, "%s: others take this lock again and again", path);
+        st = fail(E_OUTPUT, "%s: other processes keep taking this lock; try again later", path);
         goto done;
     }
     pthread_mutex_init(&lock->guard, NULL);
     init_wake(&lock->wake);
-    if (pthread_create(&lock->thread, NULL, keep_beating, lock) != 0) {
+    if (pthread_create(&lock->thread, NULL, heartbeat_thread, lock) != 0) {
         unlink(path);
-        st = fail(E_MEMORY, "no thread for the lock");
+        st = fail(E_MEMORY, "cannot start a thread for the lock");
         goto done;
     }
     *out = lock;
@@ -301,7 +303,7 @@ done:
 status lock_check(const struct lock *lock)
 {
     if (lock && atomic_load(&lock->lost))
-        return fail(E_OUTPUT, "%s: another process took this folder over while this one stood still",
+        return fail(E_OUTPUT, "%s: another process took over this folder while this one was suspended",
                     lock->path.text);
     return OK;
 }
@@ -309,7 +311,7 @@ status lock_check(const struct lock *lock)
 void lock_sweep(const char *path)
 {
     struct seen s;
-    status st = look(path, &s);
+    status st = read_lock(path, &s);
     if (st == OK && s.there && process_fate(&s.holder) == PROCESS_GONE)
         st = remove_stale(path, &s);
     if (st != OK)
@@ -328,7 +330,7 @@ void lock_release(struct lock **handle)
     pthread_join(lock->thread, NULL);
     pthread_cond_destroy(&lock->wake);
     pthread_mutex_destroy(&lock->guard);
-    if (whose(lock) == MINE)
+    if (owner_of(lock) == MINE)
         unlink(lock->path.text);
     free(lock);
     *handle = NULL;

@@ -1,15 +1,13 @@
-/* One writer at a time: a lock file that outlives crashes, machines and NFS.
+/* A lock file that admits one writer at a time, also across machines on NFS, and that recovers from crashes.
  *
- * The file says who holds it (host, boot, process, when that process began) and holds a count that moves
- * every few seconds while its holder lives. It is made under another name and linked into place, which is
- * atomic on NFS too.
+ * The file identifies its holder (host, boot, process, start time of the process) and contains a counter, the heartbeat, that
+ * the holder increments every few seconds. It is created under another name and linked into place, which is atomic on NFS
+ * too.
  *
- * Left behind   A holder on this machine is gone when its process is. One elsewhere, or one that this machine
- *               hides from us (/proc under hidepid), is gone when its count has not moved while we watched: no
- *               clocks are compared, and one that is set does not matter. A lock left behind is taken over,
- *               and the log says so.
- * Taken away    A holder that was frozen for long (a suspended machine) may find its lock taken over when it
- *               wakes: lock_check() then fails.
+ * Stale locks   The lock of a holder on this machine is stale when its process has ended. The lock of a holder elsewhere, or of
+ *               one that this machine hides (/proc with hidepid), is stale when its heartbeat stops while it is watched. Clocks
+ *               of machines are never compared. A stale lock is taken over, with a warning in the log.
+ * Lost locks    A holder that was suspended for a long time may find that its lock was taken over; lock_check() then fails.
  */
 #ifndef HOODOO_LOCK_H
 #define HOODOO_LOCK_H
@@ -20,22 +18,22 @@
 struct lock;
 
 struct lock_patience {
-    double beat_s;  /* how often the count moves; 0: 5 s */
-    double watch_s; /* how long a lock from elsewhere is watched; 0: 30 s */
+    double heartbeat_s; /* interval of the heartbeat; 0: 5 s */
+    double watch_s;     /* how long a lock from elsewhere is watched; 0: 30 s */
 };
 
-/* Takes the lock `path` for `what` ("simulates frames 1001-1050"), a sentence others are shown. E_OUTPUT
- * names the holder: it lives. `stop`, or NULL: gives up waiting when it returns true (STOPPED). */
+/* Takes the lock `path`. `what` describes the holder in messages of others, such as "simulates frames 1001-1050". E_OUTPUT: another
+ * process holds it; the message names it. STOPPED: `stop` (or NULL) returned true while waiting. */
 MUST_USE status lock_take(const char *path, const char *what, struct lock_patience patience,
                           bool (*stop)(void), struct lock **out);
 
-/* E_OUTPUT: another process took it over. */
+/* E_OUTPUT if another process took the lock over. */
 MUST_USE status lock_check(const struct lock *lock);
 
-/* Removes a lock that a process of this machine left behind; any other stays. */
+/* Removes the lock if it was left behind by a process of this machine. */
 void lock_sweep(const char *path);
 
-/* Removes it, if it is still ours. NULL is fine. */
+/* Removes the lock if this process still holds it, and sets *lock to NULL. No effect if *lock is NULL. */
 void lock_release(struct lock **lock);
 
 #endif

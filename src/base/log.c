@@ -10,7 +10,7 @@
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static FILE *file;
 static void (*guard)(bool before);
-static _Thread_local bool hushed;
+static _Thread_local bool silenced;
 
 status log_open(const char *path)
 {
@@ -32,17 +32,17 @@ void log_set_guard(void (*g)(bool before))
     guard = g;
 }
 
-bool log_hush(bool on)
+bool log_silence(bool silent)
 {
-    const bool before = hushed;
-    hushed = on;
+    const bool before = silenced;
+    silenced = silent;
     return before;
 }
 
-static void say(bool to_stderr, const char *prefix, const char *format, va_list args)
+static void write_line(bool to_stderr, const char *prefix, const char *format, va_list args)
 {
     char line[2300];
-    if (hushed)
+    if (silenced)
         return;
     vsnprintf(line, sizeof line, format, args);
     for (char *c = line; *c; c++)
@@ -70,7 +70,7 @@ void log_info(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    say(true, "", format, args);
+    write_line(true, "", format, args);
     va_end(args);
 }
 
@@ -78,7 +78,7 @@ void log_note(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    say(false, "", format, args);
+    write_line(false, "", format, args);
     va_end(args);
 }
 
@@ -86,19 +86,11 @@ void log_warn(const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    say(true, "warning: ", format, args);
-    va_end(args);
-}
-
-static void say_plain(const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    say(true, "", format, args);
+    write_line(true, "warning: ", format, args);
     va_end(args);
 }
 
 void log_error(const char *message)
 {
-    say_plain("%s", message);
+    log_info("%s", message);
 }

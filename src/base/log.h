@@ -1,8 +1,8 @@
-/* What a wrangler reads: one line an event, on stderr and in the run's log file.
+/* The log: one line per event, on stderr and in the run's log file.
  *
- * Control characters in arguments become spaces, and stdout is never used: there, farm managers obey what a
- * line says.
- * Threads   safe; lines do not mix.
+ * Control characters in a line are replaced by spaces. Nothing is written to stdout, because farm managers interpret
+ * lines there as commands.
+ * Threads   All functions except log_set_guard() may be called from any thread; lines are not interleaved.
  */
 #ifndef HOODOO_LOG_H
 #define HOODOO_LOG_H
@@ -11,23 +11,25 @@
 
 #include "base/status.h"
 
-/* Also append every line (with the time of day) to `path`; NULL closes. E_OUTPUT if it cannot be opened. */
+/* Appends every further line, with date and time, to the file `path` as well; NULL closes the file. E_OUTPUT if it cannot be
+ * opened. */
 MUST_USE status log_open(const char *path);
 
-/* Called with true just before and false just after a line goes to stderr, so that a progress bar can step
- * aside. */
+/* `guard` is called with true just before and with false just after a line is written to stderr, so that a progress bar can
+ * be erased and redrawn. */
 void log_set_guard(void (*guard)(bool before));
 
 void log_info(const char *format, ...) PRINTF_LIKE(1, 2);
 
-/* For the file alone: what one looks up later. */
+/* Writes to the log file only: details for later reference. */
 void log_note(const char *format, ...) PRINTF_LIKE(1, 2);
 void log_warn(const char *format, ...) PRINTF_LIKE(1, 2);
 
-/* Whether this thread's lines are dropped: for who reads again what is read, and said, elsewhere. Returns what was so before. */
-bool log_hush(bool hushed);
+/* Discards this thread's lines while `silent` is true, for code that repeats work whose messages were logged already. Returns
+ * the previous setting. */
+bool log_silence(bool silent);
 
-/* The line of a failure: "hoodoo: MESSAGE". */
+/* Logs the message of a failure. */
 void log_error(const char *message);
 
 #endif

@@ -1,4 +1,4 @@
-/* Heap memory that reports failure as a status, and never multiplies past SIZE_MAX. */
+/* Heap allocation that reports failure as a status and checks the size for overflow. */
 #ifndef HOODOO_MEMORY_H
 #define HOODOO_MEMORY_H
 
@@ -6,18 +6,19 @@
 
 #include "base/status.h"
 
-/* n zeroed items of `size` bytes in *out (a pointer to a pointer). E_MEMORY names `what` and the bytes asked
- * for. n = 0 gives a valid pointer. Freed with free(). */
+/* Allocates n zeroed items of `size` bytes; *out (a pointer to a pointer) receives the address, to be released with free().
+ * n = 0 gives a valid pointer. E_MEMORY: the message names `what` and the size; *out is NULL. */
 MUST_USE status memory_alloc(size_t n, size_t size, const char *what, void *out);
 
-/* Room for at least `want` items in *array, growing by doubling; *capacity is kept. New items are zeroed. */
+/* Grows *array by doubling until it holds at least `want` items, and updates *capacity. New items are zeroed. On E_MEMORY the
+ * array is unchanged. */
 MUST_USE status memory_grow(void *array, size_t *capacity, size_t want, size_t size, const char *what);
 
-/* A copy of `text`, freed with free(). */
+/* Copies `text`; the copy is released with free(). */
 MUST_USE status memory_strdup(const char *text, char **out);
 
-/* Host memory this process may still use, in bytes: MemAvailable, or the control group's limit if that is
- * lower. */
+/* Host memory in bytes that this process may still use: the least that MemAvailable, control groups and resource limits leave
+ * (base/memory_limits.h). */
 size_t memory_available(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* memory_available(), from what the kernel says in /proc and in the folders of control groups. */
+/* memory_available(), from /proc and the folders of control groups. */
 #include <ctype.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -9,13 +9,13 @@
 #include "base/memory.h"
 #include "base/memory_limits.h"
 
-/* A number in a group's folder: in a file, after a key or at its beginning. */
+/* A number in a file of a group's folder, after a key or at the beginning of a line. */
 struct place {
     const char *file, *key;
 };
 
-/* The two versions of control groups say the same under other names. What the page cache holds is the kernel's to
- * take back, and so are entries of folders and files that it remembers. */
+/* The same numbers in the two versions of control groups. The kernel can reclaim the page cache and the caches of directory entries and
+ * inodes. */
 struct version {
     struct place limit[2], usage, reclaimable[3];
 };
@@ -31,11 +31,11 @@ static const struct version two = {{{"/memory.max", ""}, {"/memory.high", ""}},
                                     {"/memory.stat", "active_file "},
                                     {"/memory.stat", "slab_reclaimable "}}};
 
-/* One look at the machine. */
+/* One evaluation of all limits. */
 struct look {
-    const char *root; /* before every path */
-    size_t least;     /* so far */
-    bool grouped;     /* some group has said its limit, be it none */
+    const char *root; /* prefix of every path */
+    size_t least;     /* smallest limit so far */
+    bool grouped;     /* a control group with a limit file was found, even if it sets no limit */
 };
 
 static FILE *open_below(const char *root, const char *folder, const char *file)
@@ -48,7 +48,7 @@ static FILE *open_below(const char *root, const char *folder, const char *file)
     return f;
 }
 
-/* The number after `key` at the beginning of a line; SIZE_MAX if it says "max" or "unlimited". Is there any? */
+/* Reads the number after `key` at the beginning of a line; SIZE_MAX for "max" or "unlimited". Returns false if there is none. */
 static bool read_number(const struct look *l, const char *folder, struct place at, size_t *out)
 {
     FILE *f = open_below(l->root, folder, at.file);
@@ -75,7 +75,7 @@ static bool read_number(const struct look *l, const char *folder, struct place a
     return found;
 }
 
-static void leave(struct look *l, size_t limit, size_t used)
+static void apply_limit(struct look *l, size_t limit, size_t used)
 {
     size_t left = limit > used ? limit - used : 0;
     if (limit != SIZE_MAX && left < l->least)
@@ -97,10 +97,10 @@ static void look_at_group(struct look *l, const struct version *v, const char *f
     for (int i = 0; i < 3 && used > 0; i++)
         if (v->reclaimable[i].file && read_number(l, folder, v->reclaimable[i], &number))
             used -= number < used ? number : used;
-    leave(l, limit, used);
+    apply_limit(l, limit, used);
 }
 
-/* A group and those it is in, up to the one that is mounted. */
+/* Evaluates a group and its parents, up to the root of the mount. */
 static void look_upwards(struct look *l, const struct version *v, const char *mount, const char *group)
 {
     char *folder = NULL, *slash;
@@ -129,7 +129,7 @@ static bool lists(const char *words, const char *word)
     return false;
 }
 
-/* Which group of this version the process is in: a path from the hierarchy's root, freed with free(); or NULL. */
+/* The process's group in this version, as a path from the root of the hierarchy, released with free(); or NULL. */
 static char *group_of(const struct look *l, const struct version *v)
 {
     FILE *f = open_below(l->root, "/proc/self/cgroup", "");
@@ -149,7 +149,7 @@ static char *group_of(const struct look *l, const struct version *v)
     return group;
 }
 
-/* Spaces and the like are written as \040 there. */
+/* Decodes octal escapes such as \040, which mountinfo uses for spaces. */
 static void unescape(char *s)
 {
     char *to = s;
@@ -162,7 +162,7 @@ static void unescape(char *s)
     *to = '\0';
 }
 
-/* A line of mountinfo: numbers, root, place, options..., "-", type, source, options. */
+/* A line of mountinfo: numbers, root, mount point, options..., "-", type, source, options. */
 struct mount {
     char *root, *place, *type, *options;
 };
@@ -187,7 +187,7 @@ static bool parse_mount(char *line, struct mount *m)
     return true;
 }
 
-/* `group` as seen from a mount's root: the rest of its path, or NULL if it is not below it. */
+/* The path of `group` relative to the root of a mount, or NULL if it is not below that. */
 static const char *below(const char *group, const char *root)
 {
     size_t n = strcmp(root, "/") == 0 ? 0 : strlen(root);
@@ -213,7 +213,7 @@ static void look_at_groups(struct look *l, const struct version *v)
     free(line);
     if (f)
         fclose(f);
-    /* Where the list of mounts is hidden or out of date, the usual place is as good as any. */
+    /* If mountinfo is hidden or outdated, try the usual mount points. */
     if (!l->grouped) {
         const char *rest = group ? below(group, "/") : NULL;
         look_upwards(l, v, v == &two ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory", rest ? rest : "");
@@ -221,14 +221,14 @@ static void look_at_groups(struct look *l, const struct version *v)
     free(group);
 }
 
-/* ---- all */
+/* ---- all limits */
 
 size_t memory_available_below(const char *root)
 {
     struct look l = {.root = root, .least = SIZE_MAX};
     size_t kib, limit, used;
     if (read_number(&l, "/proc/meminfo", (struct place){"", "MemAvailable:"}, &kib))
-        leave(&l, kib > SIZE_MAX / 1024 ? SIZE_MAX : kib * 1024, 0);
+        apply_limit(&l, kib > SIZE_MAX / 1024 ? SIZE_MAX : kib * 1024, 0);
     look_at_groups(&l, &two);
     look_at_groups(&l, &one);
     static const struct {
@@ -237,7 +237,7 @@ size_t memory_available_below(const char *root)
     for (int i = 0; i < 2; i++)
         if (read_number(&l, "/proc/self/limits", (struct place){"", own[i].limit}, &limit) &&
             read_number(&l, "/proc/self/status", (struct place){"", own[i].used}, &used))
-            leave(&l, limit, used * 1024);
+            apply_limit(&l, limit, used * 1024);
     return l.least;
 }
 

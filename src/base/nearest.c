@@ -10,7 +10,7 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Insertions, deletions, replacements, and swaps of neighbours (optimal string alignment). */
+/* Edit distance with insertions, deletions, replacements and swaps of adjacent characters (optimal string alignment). */
 static size_t distance(const char *a, const char *b)
 {
     size_t row[3][WORD_MAX + 1], n = strlen(a), m = strlen(b);
@@ -37,7 +37,7 @@ const char *nearest_word(const char *word, const char *const *known, size_t n)
     size_t length = strlen(word), best_distance = SIZE_MAX;
     for (size_t i = 0; i < n; i++) {
         size_t d = distance(word, known[i]);
-        /* The beginning of a word is a fair guess at it: size for size_m, insp for inspect. */
+        /* An abbreviation counts as one edit: size for size_m, insp for inspect. */
         if (length >= 2 && strncmp(word, known[i], length) == 0)
             d = 1;
         if (d < best_distance) {

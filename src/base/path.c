@@ -7,16 +7,16 @@
 
 status path_format(struct path *out, const char *format, ...)
 {
-    struct path made; /* aside first: an argument may be out->text */
+    struct path made; /* formatted here first, because an argument may be out->text */
     va_list args;
     va_start(args, format);
     const int n = vsnprintf(made.text, sizeof made.text, format, args);
     va_end(args);
     out->text[0] = '\0';
     if (n < 0)
-        return fail(E_OUTPUT, "a path cannot be written as text");
+        return fail(E_OUTPUT, "a path cannot be formatted");
     if (n >= PATH_BYTES)
-        return fail(E_OUTPUT, "%.100s...: the path is %d bytes long; at most %d are possible", made.text, n,
+        return fail(E_OUTPUT, "%.100s...: the path is %d bytes long; the limit is %d", made.text, n,
                     PATH_BYTES - 1);
     memcpy(out->text, made.text, (size_t)n + 1);
     return OK;

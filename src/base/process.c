@@ -10,7 +10,7 @@
 
 #include "base/hash.h"
 
-/* Is /proc that of our process space? A container may see its machine's, where our numbers are others'. */
+/* Whether /proc belongs to the PID namespace of this process. In a container it may be that of the machine, with other numbers. */
 static bool proc_is_ours(void)
 {
     char self[32] = "";
@@ -18,7 +18,7 @@ static bool proc_is_ours(void)
     return n > 0 && strtol(self, NULL, 10) == (long)getpid();
 }
 
-/* When a process began; 0 if /proc does not tell. */
+/* The start time of a process; 0 if /proc does not have it. */
 static unsigned long long process_began(long pid)
 {
     char path[64], line[1024];
@@ -32,7 +32,7 @@ static unsigned long long process_began(long pid)
     size_t n = fread(line, 1, sizeof line - 1, f);
     fclose(f);
     line[n] = '\0';
-    /* Fields follow the name, which may hold spaces and brackets; the state comes first, this is 20th. */
+    /* The name may contain spaces and parentheses. The start time is the 20th field behind it. */
     char *s = strrchr(line, ')');
     for (int field = 0; s && field < 20; field++)
         s = strchr(s + 1, ' ');
@@ -77,7 +77,7 @@ enum process_fate process_fate(const struct process *p)
         return PROCESS_GONE;
     const unsigned long long began = process_began(p->pid);
     if (!began || !p->began)
-        return PROCESS_UNKNOWN; /* some process has that number */
+        return PROCESS_UNKNOWN; /* the number is in use, possibly by another process */
     return began == p->began ? PROCESS_LIVES : PROCESS_GONE;
 }
 

@@ -1,14 +1,14 @@
-/* Who a process is, and whether it still lives. Process numbers come again, on this machine and on others, and mean
- * nothing in another container: a process is named by its machine, boot, process space and beginning too. */
+/* The identity of a process, and whether it is still alive. Process numbers are reused, and have no meaning on other machines or in
+ * other containers, so a process is identified by its machine, boot, PID namespace and start time as well. */
 #ifndef HOODOO_PROCESS_H
 #define HOODOO_PROCESS_H
 
 #include <stdint.h>
 
 struct process {
-    char host[128], boot[64], space[64]; /* "" where the system does not tell */
+    char host[128], boot[64], space[64]; /* host name, boot id, PID namespace; "" if unknown */
     long pid;
-    unsigned long long began; /* in ticks since boot; 0: not known */
+    unsigned long long began; /* start time, in ticks since boot; 0: unknown */
 };
 
 void process_self(struct process *out);
@@ -16,11 +16,11 @@ void process_self(struct process *out);
 enum process_fate {
     PROCESS_LIVES,
     PROCESS_GONE,
-    PROCESS_UNKNOWN, /* it is elsewhere, or /proc hides other users' processes (hidepid) or is another container's */
+    PROCESS_UNKNOWN, /* on another machine or in another container, or /proc hides other users' processes (hidepid) */
 };
 enum process_fate process_fate(const struct process *p);
 
-/* A number for the place whose process numbers this process understands: machine, boot and process space. */
+/* A hash of machine, boot and PID namespace, within which process numbers are unique. */
 uint32_t process_place(void);
 
 #endif

@@ -11,7 +11,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 
-/* The bar on screen. Log lines come from any thread, hence the lock: held while a log line passes. */
+/* The bar on screen. Log lines come from any thread, so the lock is held while one is printed. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct progress *shown;
 
@@ -43,7 +43,7 @@ static int terminal_width(void)
 static void draw(const struct progress *p)
 {
     char line[512], meter[21];
-    /* One short of the width: a full line would wrap on some terminals, and redrawing would climb. */
+    /* One column less than the width, because a full line wraps on some terminals. */
     int width = terminal_width() - 1;
     size_t filled = p->total ? p->done * (sizeof meter - 1) / p->total : 0;
     memset(meter, '.', sizeof meter - 1);
@@ -57,7 +57,7 @@ static void draw(const struct progress *p)
 
 static void step_aside(bool before)
 {
-    /* The guard may be set while another thread is between its two calls. */
+    /* The guard may have been set between the two calls of another thread. */
     static _Thread_local bool held;
     if (before) {
         pthread_mutex_lock(&lock);
@@ -72,7 +72,7 @@ static void step_aside(bool before)
     }
 }
 
-/* ---- the line all styles share */
+/* ---- the line that all styles share */
 
 static void compose(struct progress *p, const char *note)
 {
@@ -88,17 +88,17 @@ static void compose(struct progress *p, const char *note)
     }
     if (note && *note && n > 0 && (size_t)n < size)
         snprintf(p->line + n, size - (size_t)n, ", %s", note);
-    /* A farm manager obeys lines of stdout: whatever is in a note must not begin one. */
+    /* Farm managers interpret lines of stdout, so a note must not be able to start a new line. */
     for (char *c = p->line; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f)
             *c = ' ';
 }
 
-static void say_openjd(struct progress *p)
+static void print_openjd(struct progress *p)
 {
     double percent = p->total ? 100 * (double)p->done / (double)p->total : 100;
-    p->percent_said = fmax(p->percent_said, fmin(percent, 100));
-    printf("openjd_progress: %.1f\nopenjd_status: %s\n", p->percent_said, p->line);
+    p->percent_reported = fmax(p->percent_reported, fmin(percent, 100));
+    printf("openjd_progress: %.1f\nopenjd_status: %s\n", p->percent_reported, p->line);
     fflush(stdout);
 }
 
@@ -109,13 +109,13 @@ static void show(struct progress *p)
         draw(p);
         pthread_mutex_unlock(&lock);
     } else if (p->style == PROGRESS_OPENJD) {
-        say_openjd(p);
+        print_openjd(p);
     } else if (p->style == PROGRESS_PLAIN) {
         log_info("%s", p->line);
     }
 }
 
-/* Settles the style, and takes the terminal's last line if it is a bar. */
+/* Resolves `auto`, and starts the bar if that is the style. */
 static void attach(struct progress *p, enum progress_style style)
 {
     const char *terminal = getenv("TERM");
@@ -161,8 +161,7 @@ void progress_stage(struct progress *p, int frame, const char *stage)
 
 void progress_frame(struct progress *p, int frame, double volume_share, const char *note)
 {
-    /* The first frame builds pipelines and caches, so early frames weigh more than a fixed factor would let
-     * them. */
+    /* Exponential smoothing with a factor of 0.2, started with the first frame. */
     double now = clock_seconds(), took = now - p->last_s;
     p->seconds_per_frame =
         p->seconds_per_frame > 0 ? 0.8 * p->seconds_per_frame + 0.2 * took : fmax(took, 1e-6);
@@ -192,7 +191,7 @@ void progress_end(struct progress *p)
 {
     if (p->style != PROGRESS_BAR || shown != p)
         return;
-    /* The guard stays: with nothing shown it does nothing. */
+    /* The guard stays set; without a bar it has no effect. */
     pthread_mutex_lock(&lock);
     shown = NULL;
     pthread_mutex_unlock(&lock);

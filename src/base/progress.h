@@ -1,14 +1,14 @@
-/* How far a run is, for whoever watches: a person at a terminal, a log, or an OpenJD worker.
+/* Progress of a run, shown on a terminal, in a log, or to an OpenJD worker.
  *
- *   bar      one line of stderr, redrawn; log lines pass above it
- *   plain    a log line a frame
- *   openjd   stdout, whole flushed lines: "openjd_progress: 12.5" (never falling) and "openjd_status: ..."
+ *   bar      one line on stderr that is redrawn; log lines scroll above it
+ *   plain    one log line per frame
+ *   openjd   flushed lines on stdout: "openjd_progress: 12.5", which never decreases, and "openjd_status: ..."
  *   none     nothing
  *   auto     bar if stderr is a terminal, else plain
  *
- * Calling sequence   progress_begin(), any of progress_stage() and progress_frame(), progress_end(). One at a
- *                    time.
- * Threads            one thread calls these; log lines may come from any.
+ * Calling sequence   progress_begin(), any number of progress_stage() and progress_frame(), progress_end(). Only one progress may be
+ *                    active.
+ * Threads            All functions are called from one thread; log lines may come from any thread.
  */
 #ifndef HOODOO_PROGRESS_H
 #define HOODOO_PROGRESS_H
@@ -27,29 +27,28 @@ struct progress {
     enum progress_style style;
     struct frame_range frames;
     size_t done, total;
-    int frame;                        /* the one finished last */
-    double share;                     /* of the rock's volume left, 0..1 */
-    double last_s, seconds_per_frame; /* smoothed; 0 until the first frame */
-    double percent_said;
+    int frame;                        /* the frame that was finished last */
+    double share;                     /* share of the rock's volume that is left, 0..1; negative: unknown */
+    double last_s, seconds_per_frame; /* seconds_per_frame is smoothed; 0 until the first frame */
+    double percent_reported;
     char stage[48], line[320];
 };
 
-/* `done` frames of `frames` are there already. */
+/* Begins, with `done` of the frames already complete. */
 void progress_begin(struct progress *p, enum progress_style style, struct frame_range frames, size_t done);
 
-/* What is being done now, for the bar alone: "1013 wind". */
+/* Shows the current stage of a frame in the bar, such as "1013 wind"; no effect in other styles. */
 void progress_stage(struct progress *p, int frame, const char *stage);
 
-/* `frame` is done. `note` adds to the line ("stress 14 iterations"), or is NULL; a
- * negative share says nothing. */
+/* Reports that `frame` is done. `note` (or NULL) is appended to the line, such as "stress 14 iterations"; a negative share is not
+ * shown. */
 void progress_frame(struct progress *p, int frame, double volume_share, const char *note);
 
-/* A farm's progress, in the caller's own words: `done` of `total`. Plain says nothing: the caller logs what
- * happens. */
+/* Progress with the caller's own text: `done` of `total`. In style plain nothing is printed, because the caller logs its events. */
 void progress_begin_notes(struct progress *p, enum progress_style style);
 void progress_note(struct progress *p, size_t done, size_t total, const char *line);
 
-/* Leaves the terminal as it should be found. Harmless on {0} and twice. */
+/* Ends the bar's line. May be called on {0} and repeatedly. */
 void progress_end(struct progress *p);
 
 /* "3 h 12 min", "2 min 6 s", "41 s" in out; returns out. */

@@ -1,7 +1,7 @@
-/* Randomness without a generator: a hash of what the number is for.
+/* Random numbers without a generator: each is a hash of its purpose and indices.
  *
- * Equal arguments give equal bits on every machine and in every thread order; there is no state to save.
- * Kernels have the same numbers (shaders/shared/random.glsl; integers wrap in both languages).
+ * Equal arguments give equal bits on every machine and in every thread order, and there is no state to save.
+ * Kernels compute the same numbers (shaders/shared/random.glsl; unsigned integers wrap in both languages).
  * Source   pcg4d, Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020.
  */
 #ifndef HOODOO_RANDOM_H
@@ -9,7 +9,7 @@
 
 #include <stdint.h>
 
-/* What a number is for, so that two uses never share one. Never renumber: frames would change. */
+/* The purpose of a number, which keeps the numbers of different uses independent. Do not renumber: results would change. */
 enum random_purpose {
     RANDOM_JITTER = 1,
     RANDOM_NOISE = 2,
@@ -26,7 +26,7 @@ enum random_purpose {
     RANDOM_SHEETS = 24
 };
 
-/* 32 random bits; every argument moves all of them. Nest calls for more than four arguments. */
+/* 32 random bits, each of which depends on every argument. Nest calls for more than four arguments. */
 static inline uint32_t random_hash(uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 {
     a = a * 1664525u + 1013904223u;
@@ -48,7 +48,7 @@ static inline uint32_t random_hash(uint32_t a, uint32_t b, uint32_t c, uint32_t 
     return d;
 }
 
-/* Uniform in [0, 1): the top 24 bits, which a float holds exactly. */
+/* Uniform in [0, 1), from the top 24 bits, which a float represents exactly. */
 static inline float random_float(uint32_t hash)
 {
     return (float)(hash >> 8) * (1.0f / 16777216.0f);

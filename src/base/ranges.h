@@ -1,4 +1,4 @@
-/* Frame ranges as a job or --frames gives them: "1001", "1001-1110", "1001-1110x2", "1001-1110:2". */
+/* Frame ranges as written in jobs and after --frames: "1001", "1001-1110", "1001-1110x2", "1001-1110:2". */
 #ifndef HOODOO_RANGES_H
 #define HOODOO_RANGES_H
 
@@ -8,12 +8,12 @@
 #include "base/status.h"
 
 struct frame_range {
-    int first, last; /* inclusive; first <= last, and last is one of the range's own frames */
+    int first, last; /* inclusive; first <= last, and last is a multiple of step from first */
     int step;        /* >= 1 */
 };
 
-/* E_USAGE says what is wrong with `text`; the caller's message should add where it stands. Frames are
- * -999999..9999999. */
+/* Parses a range of frames within -999999..9999999. E_USAGE describes what is wrong with `text`; the caller should add its
+ * place. */
 MUST_USE status range_parse(const char *text, struct frame_range *out);
 
 /* "1001-1110x2" in `out`; returns out. */

@@ -10,7 +10,7 @@ static const struct {
 } stops[] = {{SIGTERM, "SIGTERM"}, {SIGINT, "SIGINT"},   {SIGHUP, "SIGHUP"},
              {SIGUSR1, "SIGUSR1"}, {SIGUSR2, "SIGUSR2"}, {SIGXCPU, "SIGXCPU"}};
 
-/* The first signal that came, or 0. Atomic, for the threads; lock-free, for the handler. */
+/* The first signal received, or 0. Atomic because threads read it, and lock-free because a signal handler sets it. */
 static atomic_int stop;
 
 static void on_stop(int number)
@@ -19,7 +19,7 @@ static void on_stop(int number)
     atomic_compare_exchange_strong(&stop, &none, number);
 }
 
-/* Whoever starts us ignores it so that we outlive a terminal. */
+/* Whether the parent process ignores SIGHUP, so that the program survives the end of a terminal session. */
 static bool hangup_is_ignored(void)
 {
     struct sigaction now;

@@ -1,8 +1,8 @@
-/* SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2 and SIGXCPU ask for a stop at the next safe point; any number of them, at any
- * time, means the same. A SIGHUP that is ignored, as nohup has it, stays so. SIGPIPE is ignored from then on: a closed pipe is
- * an error of the write.
+/* Graceful stop: SIGTERM, SIGINT, SIGHUP, SIGUSR1, SIGUSR2 and SIGXCPU request a stop at the next safe point; further signals have
+ * no additional effect. A SIGHUP that is ignored, as under nohup, stays ignored. SIGPIPE is ignored, so that a closed pipe is
+ * an error of write().
  *
- * For verbs that save work before they end. Others keep the default: at once.
+ * For verbs that save work before they end. All others keep the default of ending immediately.
  */
 #ifndef HOODOO_SIGNALS_H
 #define HOODOO_SIGNALS_H
@@ -12,10 +12,10 @@
 void signals_install(void);
 bool stop_requested(void);
 
-/* "SIGTERM", or NULL while no stop was requested. */
+/* The name of the first signal, such as "SIGTERM"; NULL if no stop was requested. */
 const char *stop_reason(void);
 
-/* In a child between fork and exec: the defaults back, for a program that knows nothing of ours. */
+/* Restores the default handlers, in a child between fork and exec. */
 void signals_reset(void);
 
 #endif

@@ -7,13 +7,13 @@ static _Thread_local char message[2048] = "no error";
 
 status fail(status st, const char *format, ...)
 {
-    /* Formatted aside first: an argument may be status_message() itself. */
+    /* Formatted into a buffer first, because an argument may be status_message() itself. */
     char text[sizeof message];
     va_list args;
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    /* One line, and nothing a terminal or a log reader would obey. */
+    /* A single line without control characters, which a terminal or a log parser might interpret. */
     size_t n = 0;
     for (const char *c = text; *c; c++)
         message[n++] = (unsigned char)*c < 0x20 || *c == 0x7f ? ' ' : *c;

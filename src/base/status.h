@@ -1,11 +1,11 @@
-/* Error codes, and the one sentence that explains the last one.
+/* Error codes, and the message that explains the last error.
  *
- * Whoever detects an error describes it with fail(): what, where (file, key path, frame), with numbers, and
- * what to do. Everyone above only forwards the code with TRY(). main() prints the sentence once; a status's
- * value is the exit code.
+ * The function that detects an error describes it with fail(): what is wrong, where (file, key path, frame), the numbers
+ * involved, and what to do. All callers forward the code with TRY(). main() prints the message once; the value of a status
+ * is the exit code.
  *
- * Threads   The sentence is per thread. A worker that hands its status to another thread must carry the
- *           sentence with it: copy status_message(), and say it again there with fail(st, "%s", text).
+ * Threads   Each thread has its own message. A thread that passes a status to another one must pass the message too: copy
+ *           status_message(), and record it there with fail(st, "%s", text).
  */
 #ifndef HOODOO_STATUS_H
 #define HOODOO_STATUS_H
@@ -22,8 +22,8 @@ extern "C" {
     X(E_OUTPUT, 4, "output cannot be written")                                                               \
     X(E_MEMORY, 5, "out of memory")                                                                          \
     X(E_DEVICE, 6, "no such device, or device lost")                                                         \
-    X(E_CHECKPOINT, 7, "checkpoint unusable, or of another job, build or device")                            \
-    X(E_NUMERIC, 8, "numbers blew up")                                                                       \
+    X(E_CHECKPOINT, 7, "checkpoint unusable, or from another job, build or device")                          \
+    X(E_NUMERIC, 8, "the computation became unstable")                                                       \
     X(STOPPED, 85, "stopped after saving a checkpoint: run the same command again")
 
 typedef enum status {
@@ -40,13 +40,13 @@ typedef enum status {
 #define PRINTF_LIKE(fmt, args)
 #endif
 
-/* Records the sentence and returns `st`, so that a detector can `return fail(E_INPUT, "...")`. */
+/* Records the message and returns `st`, for `return fail(E_INPUT, "...")`. Control characters are replaced by spaces. */
 status fail(status st, const char *format, ...) PRINTF_LIKE(2, 3);
 
-/* The sentence of the last fail() on this thread; never NULL. */
+/* The message of the last fail() on this thread; never NULL. */
 const char *status_message(void);
 
-/* Forward any error to the function's `done:` label. Needs a local `status st`. */
+/* On an error, jumps to the label `done:` of the enclosing function with the code in its local `status st`. */
 #define TRY(call)                                                                                            \
     do {                                                                                                     \
         if ((st = (call)) != OK)                                                                             \

@@ -51,9 +51,9 @@ status text_status(const struct text *t)
 const char *number_text(double value, char out[32])
 {
     int low = 1, high = 17, exponent;
-    /* What reads back still does with more digits, so the number of digits is searched by halves. Powers of two are
-     * apart: their neighbour below is nearer than the one above, and a nearer text below may miss where a farther
-     * one above does not. */
+    /* A decimal that reads back exactly also does so with more digits, hence the binary search for the number of digits.
+     * Powers of two are searched linearly: their lower neighbour is closer than their upper one, so that a closer decimal
+     * below may fail where a more distant one above succeeds. */
     const bool power = fabs(frexp(value, &exponent)) == 0.5;
     while (low < high) {
         const int digits = power ? low : (low + high) / 2;
@@ -136,6 +136,7 @@ void json_end_array(struct text *t)
 
 void json_one_line(struct text *t)
 {
+    /* Texts are escaped, so newlines occur only between members. */
     for (size_t i = 0; i + 1 < t->size; i++)
         if (t->data[i] == '\n')
             t->data[i] = ' ';
@@ -168,7 +169,7 @@ void json_bool(struct text *t, const char *key, bool value)
 
 void text_add_wrapped(struct text *t, const char *words, int at, int indent, int width)
 {
-    bool begun = at > 0; /* something is in this line */
+    bool begun = at > 0; /* the current line is not empty */
     while (*words) {
         const int n = (int)strcspn(words, " \n");
         if (n > 0 && begun && at + 1 + n > width) {

@@ -1,12 +1,12 @@
-/* Text from outside: is it UTF-8? */
+/* Validation of UTF-8. */
 #ifndef HOODOO_UTF8_H
 #define HOODOO_UTF8_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Bytes of the character at `text`, of which n >= 1 bytes are there; 0 if it is none: a stray or missing continuation,
- * an overlong form, half a surrogate pair, or beyond the last character. A NUL in the middle ends it. */
+/* The length in bytes of the character at `text`, of which n >= 1 bytes are readable; 0 if it is invalid: a stray or missing
+ * continuation byte, an overlong form, a surrogate, or beyond U+10FFFF. Reading stops at a NUL. */
 static inline size_t utf8_length(const void *text, size_t n)
 {
     const unsigned char *s = (const unsigned char *)text;

@@ -1,4 +1,4 @@
-/* Three numbers as a vector. */
+/* Vectors of three numbers. */
 #ifndef HOODOO_VECTOR_H
 #define HOODOO_VECTOR_H
 
@@ -20,7 +20,7 @@ static inline void cross3(const double a[3], const double b[3], double out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Of linear Rec. 709. */
+/* Luminance of a linear Rec. 709 colour. */
 static inline double luminance3(const double rgb[3])
 {
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];

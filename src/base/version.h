@@ -1,4 +1,4 @@
-/* Which hoodoo this is. */
+/* Version and commit of this build. */
 #ifndef HOODOO_VERSION_H
 #define HOODOO_VERSION_H
 

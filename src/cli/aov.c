@@ -1,4 +1,4 @@
-/* hoodoo aov OUT: pictures of frames that are done, from any camera, out of their VDBs. */
+/* hoodoo aov OUT: renders pictures of completed frames from their VDBs, for any camera. */
 #include "field/aov.h"
 
 #include <math.h>
@@ -20,23 +20,23 @@
 #include "scene/scene.h"
 #include "vdb/vdb.h"
 
-/* The command that makes a picture; it points into itself. */
-struct shot_recipe {
+/* The command recorded with a picture. It points into itself and must not be copied. */
+struct picture_recipe {
     struct recipe recipe;
     struct path camera;
     const char *word[PRODUCT_WORDS];
 };
 
-struct shot {
+struct pictures {
     struct path root;
     char name[256];
-    bool missing; /* only what is not there */
+    bool missing; /* --missing */
     struct job *job;
     uint64_t job_hash;
     const struct job_camera **camera;
     size_t n_cameras;
-    bool no_wind; /* it was a flow, and is in no file */
-    const struct words *sets;
+    bool no_wind; /* the wind was a flow and is not in any file */
+    const struct arguments *sets;
     int voxels[3];
     struct gpu *gpu;
     struct gpu_work *work;
@@ -44,7 +44,7 @@ struct shot {
     struct aov aov;
 };
 
-/* ---- a frame, back on the device */
+/* ---- loading a frame onto the device */
 
 struct loaded {
     struct frame_grids grids, wind;
@@ -53,7 +53,7 @@ struct loaded {
     struct aov_air air;
 };
 
-static void unload(struct shot *s, struct loaded *l)
+static void unload(struct pictures *s, struct loaded *l)
 {
     frame_grids_free(&l->grids);
     frame_grids_free(&l->wind);
@@ -62,7 +62,7 @@ static void unload(struct shot *s, struct loaded *l)
     gpu_buffer_destroy(s->gpu, &l->air.velocity);
 }
 
-static status load(struct shot *s, int frame, struct loaded *l)
+static status load(struct pictures *s, int frame, struct loaded *l)
 {
     status st = OK;
     struct path volumes, points, wind;
@@ -73,12 +73,13 @@ static status load(struct shot *s, int frame, struct loaded *l)
     if (access(wind.text, F_OK) == 0)
         TRY(vdb_volumes_read(wind.text, &l->wind));
     if (access(points.text, F_OK) != 0) {
-        st = fail(E_INPUT, "%s is not there: pictures need the particles (output.vdb.points)", points.text);
+        st = fail(E_INPUT, "%s is missing: pictures need the particles; write them with output.vdb.points",
+                  points.text);
         goto done;
     }
     TRY(vdb_points_read(points.text, &l->rock));
     if (l->rock.n == 0) {
-        st = fail(E_INPUT, "frame %d: no rock is left, there is nothing to show", frame);
+        st = fail(E_INPUT, "frame %d has no rock left to render", frame);
         goto done;
     }
     st = field_upload(s->gpu, &s->field, &l->grids);
@@ -99,8 +100,8 @@ done:
 
 /* ---- its pictures */
 
-/* The run's own pictures stay as its manifests know them. */
-static status check_unlisted(const struct shot *s, int frame, const char *path)
+/* Refuses to overwrite a picture that a manifest of the run lists. */
+static status check_unlisted(const struct pictures *s, int frame, const char *path)
 {
     struct manifest manifest = {0};
     status st = manifest_read(s->root.text, s->name, frame, &manifest);
@@ -108,16 +109,16 @@ static status check_unlisted(const struct shot *s, int frame, const char *path)
         if (strcmp(manifest.file[i].path, path) == 0)
             st = fail(
                 E_OUTPUT,
-                "%s is the run's own picture, which its manifest vouches for; give the camera another name (--set 'cameras.NAME={...}' --camera NAME)",
+                "%s belongs to the run and is listed in its manifest; give the camera another name: --set 'cameras.NAME={...}' --camera NAME",
                 path);
     manifest_free(&manifest);
-    return st == E_INPUT ? OK : st; /* a frame without a manifest vouches for nothing */
+    return st == E_INPUT ? OK : st; /* the frame has no manifest */
 }
 
-/* What makes the picture of this camera. */
-static status recipe_of(const struct shot *s, int frame, const char *camera, struct shot_recipe *out)
+/* The command that renders the picture of this camera. */
+static status recipe_of(const struct pictures *s, int frame, const char *camera, struct picture_recipe *out)
 {
-    *out = (struct shot_recipe){
+    *out = (struct picture_recipe){
         .recipe = {.root = s->root.text, .word = out->word, .n_words = 3 + 2 * s->sets->n}};
     status st = path_format(&out->camera, "--camera=%s", camera);
     out->word[0] = "aov";
@@ -125,16 +126,16 @@ static status recipe_of(const struct shot *s, int frame, const char *camera, str
     out->word[2] = out->camera.text;
     for (size_t i = 0; i < s->sets->n; i++) {
         out->word[3 + 2 * i] = "--set";
-        out->word[4 + 2 * i] = s->sets->word[i];
+        out->word[4 + 2 * i] = s->sets->item[i];
     }
     return st == OK ? recipe_of_frame(&out->recipe, s->name, frame) : st;
 }
 
-static status write_picture(const struct shot *s, int frame, const struct aov_image *image)
+static status write_picture(const struct pictures *s, int frame, const struct aov_image *image)
 {
     status st = OK;
     struct path path;
-    struct shot_recipe made;
+    struct picture_recipe made;
     void *bytes = NULL;
     size_t size;
     const struct exr_options options = {
@@ -156,12 +157,12 @@ done:
     return st;
 }
 
-/* Is the camera's picture there, whole, made by this command of the frame that is there? */
-static status picture_done(const struct shot *s, int frame, const char *camera, bool *out)
+/* Whether the camera's picture exists, is undamaged, and was made by this command from the current frame. */
+static status picture_done(const struct pictures *s, int frame, const char *camera, bool *out)
 {
     status st = OK;
     struct path path;
-    struct shot_recipe made;
+    struct picture_recipe made;
     TRY(folder_name(&path, s->name, FILE_AOV, frame, camera));
     TRY(recipe_of(s, frame, camera, &made));
     TRY(product_done(&made.recipe, path.text, true, out));
@@ -169,7 +170,7 @@ done:
     return st;
 }
 
-static status shoot(struct shot *s, int frame)
+static status render_frame(struct pictures *s, int frame)
 {
     status st = OK;
     struct loaded l = {0};
@@ -196,38 +197,38 @@ done:
 
 /* ---- the verb */
 
-/* Those asked for, else the farm's, else all. */
-static status choose_cameras(struct shot *s, const struct words *given)
+/* The cameras given by --camera, else farm.cameras, else all. */
+static status choose_cameras(struct pictures *s, const struct arguments *given)
 {
     status st = OK;
-    struct words asked_here = {(const char **)s->job->farm.cameras, s->job->farm.n_cameras, 0};
-    const struct words *asked = given->n ? given : &asked_here;
+    struct arguments asked_here = {(const char **)s->job->farm.cameras, s->job->farm.n_cameras, 0};
+    const struct arguments *asked = given->n ? given : &asked_here;
     TRY(memory_alloc(s->job->n_cameras, sizeof *s->camera, "cameras", &s->camera));
     for (size_t i = 0; i < s->job->n_cameras; i++) {
         bool wanted = asked->n == 0;
         for (size_t k = 0; k < asked->n; k++)
-            wanted |= strcmp(asked->word[k], s->job->cameras[i].name) == 0;
+            wanted |= strcmp(asked->item[k], s->job->cameras[i].name) == 0;
         if (wanted)
             s->camera[s->n_cameras++] = &s->job->cameras[i];
     }
     for (size_t k = 0; k < asked->n; k++) {
         bool found = false;
         for (size_t i = 0; i < s->n_cameras; i++)
-            found |= strcmp(asked->word[k], s->camera[i]->name) == 0;
+            found |= strcmp(asked->item[k], s->camera[i]->name) == 0;
         if (!found) {
-            st = fail(E_USAGE, "--camera %.64s: the job has no camera of that name", asked->word[k]);
+            st = fail(E_USAGE, "--camera %.64s: the job has no camera of that name", asked->item[k]);
             goto done;
         }
     }
     if (s->n_cameras == 0)
-        st = fail(E_USAGE, "the job has no cameras; make one: --set 'cameras.NAME={orbit: {...}}'");
+        st = fail(E_USAGE, "the job has no cameras; add one with --set 'cameras.NAME={orbit: {...}}'");
 done:
     return st;
 }
 
-/* Of a wind that flowed and was not written nothing is known: its place is left out of the pictures rather than taken by the wind
- * of the job, which knows no rock. */
-static status look_for_wind(struct shot *s)
+/* If the wind was a flow but was not written, it is unknown: the pictures then have no wind layer, because the job's uniform
+ * wind ignores the rock. */
+static status look_for_wind(struct pictures *s)
 {
     status st = OK;
     int *frames = NULL;
@@ -238,14 +239,15 @@ static status look_for_wind(struct shot *s)
         return OK;
     s->no_wind = n == 0;
     if (s->no_wind && job_wants_layer(s->job, value_table[VALUE_wind].layer))
-        log_info("no layer wind.speed: the run wrote no wind/; output.vdb.wind: true has it written");
+        log_info(
+            "the layer wind.speed is left out: the run has no wind/; write it with output.vdb.wind: true");
 done:
     free(frames);
     return st;
 }
 
-/* aov_create() sizes its buffers by the cameras the job renders: those that are wanted now. */
-static status prepare(struct shot *s, const char *device)
+/* Creates the device objects, with buffers for the largest of the chosen cameras. */
+static status prepare(struct pictures *s, const char *device)
 {
     status st = OK;
     size_t most = 0;
@@ -264,7 +266,7 @@ done:
     return st;
 }
 
-static void finish(struct shot *s)
+static void finish(struct pictures *s)
 {
     if (s->gpu) {
         aov_destroy(s->gpu, &s->aov);
@@ -276,7 +278,7 @@ static void finish(struct shot *s)
     job_destroy(&s->job);
 }
 
-/* For the progress line: as many frames as there are to do. */
+/* A range with the right number of frames, for the progress line. */
 static struct frame_range frames_shown(const int *frames, size_t n)
 {
     int step = n > 1 ? frames[1] - frames[0] : 1;
@@ -287,8 +289,8 @@ status cli_aov(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0}, cameras = {0};
-    struct shot s = {0};
+    struct arguments operands = {0}, cameras = {0};
+    struct pictures s = {0};
     struct progress progress = {0};
     struct path path;
     int *frames = NULL;
@@ -300,17 +302,17 @@ status cli_aov(int argc, char **argv)
         OPTION_DEVICE(&c),
         OPTION_SET(&c),
         OPTION_PROGRESS(&c),
-        {"camera", "NAME", OPTION_WORDS, &cameras,
-         "of the job, or of --set 'cameras.NAME={...}'; repeatable (default: farm.cameras, or all)"},
+        {"camera", "NAME", OPTION_LIST, &cameras,
+         "a camera of the job or of --set 'cameras.NAME={...}'; repeatable (default: farm.cameras, or all)"},
         {"missing", NULL, OPTION_FLAG, &s.missing,
-         "only pictures that are not there, are damaged, or were made otherwise or of another frame"},
-        {"allow-none", NULL, OPTION_FLAG, &allow_none, "frames without volumes are no error"},
+         "only pictures that are missing, damaged or out of date, or were made with other options"},
+        {"allow-none", NULL, OPTION_FLAG, &allow_none, "do not fail if no frame has volumes"},
         OPTION_WEDGE(&wedge),
     };
     TRY(options_parse(&usage_aov, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(wedge_folder(operands.word[0], wedge, &s.root));
+    TRY(wedge_folder(operands.item[0], wedge, &s.root));
     TRY(folder_open(s.root.text, s.name));
     folder_sweep(s.root.text);
     TRY(path_join(&path, s.root.text, "job.yaml"));
@@ -318,10 +320,10 @@ status cli_aov(int argc, char **argv)
     TRY(branch_prepare_own(s.job, s.root.text));
     TRY(job_hash(s.job, &s.job_hash));
     job_destroy(&s.job);
-    TRY(job_load(path.text, c.sets.word, c.sets.n, &s.job));
+    TRY(job_load(path.text, c.sets.item, c.sets.n, &s.job));
     TRY(choose_cameras(&s, &cameras));
     if (2 * c.sets.n + 3 > PRODUCT_WORDS) {
-        st = fail(E_USAGE, "--set is given %zu times; at most %d are recorded with a picture", c.sets.n,
+        st = fail(E_USAGE, "--set is given %zu times; at most %d can be recorded with a picture", c.sets.n,
                   (PRODUCT_WORDS - 3) / 2);
         goto done;
     }
@@ -338,19 +340,19 @@ status cli_aov(int argc, char **argv)
     for (size_t i = 0; i < n; i++) {
         if (stop_requested()) {
             st = fail(STOPPED,
-                      "stopped before frame %d; run the same command with --frames %d-%d for the rest",
+                      "stopped before frame %d; to continue, run the same command with --frames %d-%d",
                       frames[i], frames[i], frames[n - 1]);
             goto done;
         }
-        TRY(shoot(&s, frames[i]));
+        TRY(render_frame(&s, frames[i]));
         progress_frame(&progress, frames[i], -1, "");
     }
 done:
     progress_end(&progress);
     finish(&s);
     free(frames);
-    words_free(&operands);
-    words_free(&cameras);
+    arguments_free(&operands);
+    arguments_free(&cameras);
     common_free(&c);
     return st;
 }

@@ -1,4 +1,4 @@
-/* hoodoo check JOB: what is wrong with it, and what would surprise; no device, nothing written. */
+/* hoodoo check JOB: reports errors and settings with surprising effects. Needs no device and writes nothing. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -45,17 +45,17 @@ done:
     return st;
 }
 
-/* A job without wedges, or each of them: their values may be out of range, too. */
+/* Checks the job, or each of its wedges, whose values may be out of range too. */
 static status check_all(struct found *f, const struct common *c)
 {
     status st = OK;
     struct job *base = NULL, *wedge = NULL;
-    TRY(job_load(f->path, c->sets.word, c->sets.n, &base));
+    TRY(job_load(f->path, c->sets.item, c->sets.n, &base));
     const size_t n = job_wedges(base);
     if (n == 0)
         TRY(check_one(f, base));
     for (size_t i = 1; i <= n; i++) {
-        TRY(job_load_wedge(f->path, c->sets.word, c->sets.n, base, (int)i, &wedge));
+        TRY(job_load_wedge(f->path, c->sets.item, c->sets.n, base, (int)i, &wedge));
         TRY(check_one(f, wedge));
         job_destroy(&wedge);
     }
@@ -69,17 +69,17 @@ status cli_check(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct found f = {0};
     bool help = false, strict = false;
     const struct option options[] = {
         OPTION_SET(&c),
         OPTION_JSON(&c),
-        {"strict", NULL, OPTION_FLAG, &strict, "a warning is an error: exit code 2"}};
+        {"strict", NULL, OPTION_FLAG, &strict, "treat warnings as errors: exit code 2"}};
     TRY(options_parse(&usage_check, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    f.path = operands.word[0];
+    f.path = operands.item[0];
     f.json = c.json;
     if (f.json)
         json_array(&f.json_text, NULL);
@@ -89,13 +89,13 @@ status cli_check(int argc, char **argv)
         TRY(text_status(&f.json_text));
         printf("%s\n", f.json_text.data);
     } else if (f.n == 0) {
-        printf("%s: nothing to say\n", f.path);
+        printf("%s: no problems found\n", f.path);
     }
     if (strict && f.n)
         st = fail(E_USAGE, "%s: %zu warning%s", f.path, f.n, f.n == 1 ? "" : "s");
 done:
     text_free(&f.json_text);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&c);
     return st;
 }

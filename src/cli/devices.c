@@ -1,4 +1,4 @@
-/* hoodoo devices: what --device can name. */
+/* hoodoo devices: lists the devices that --device accepts. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -6,7 +6,7 @@
 #include "cli/cli.h"
 #include "gpu/gpu.h"
 
-static void print_words(const struct gpu_info *d, size_t n)
+static void print_text(const struct gpu_info *d, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         printf("%d  %s%s\n", d[i].index, d[i].name,
@@ -46,7 +46,7 @@ status cli_devices(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct gpu_info *devices = NULL;
     size_t n;
     bool help = false;
@@ -59,10 +59,10 @@ status cli_devices(int argc, char **argv)
     if (c.json)
         TRY(print_json(devices, n));
     else
-        print_words(devices, n);
+        print_text(devices, n);
 done:
     free(devices);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&c);
     return st;
 }

@@ -1,4 +1,4 @@
-/* The jobs of jobs/ that need no other file, embedded. */
+/* The self-contained jobs of the folder jobs/, embedded in the program. */
 #ifndef HOODOO_EXAMPLES_H
 #define HOODOO_EXAMPLES_H
 
@@ -6,10 +6,10 @@
 
 struct job_example {
     const char *name;        /* "demo" */
-    const char *const *line; /* each with its end, the last NULL */
+    const char *const *line; /* lines including their newlines, ended by NULL */
 };
 
-/* By name; the last has none. */
+/* Sorted by name; an entry with name NULL ends the list. */
 extern const struct job_example job_examples[];
 
 #endif

@@ -1,4 +1,4 @@
-/* hoodoo inspect FILE: what a file holds. Which kind it is, its first bytes say, not its name. */
+/* hoodoo inspect FILE: describes the content of a file, whose kind is detected from its first bytes. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,14 +9,14 @@
 #include "base/atomic_file.h"
 #include "base/json.h"
 #include "checkpoint/checkpoint.h"
+#include "cli/answer.h"
 #include "cli/cli.h"
-#include "cli/words.h"
 #include "exr/exr.h"
 #include "vdb/vdb.h"
 
 enum { JSON_FILE_MAX = 64 << 20, HEAD_SIZE = 16 };
 
-/* Writes `v` and all it holds into `out`. */
+/* Writes `v`, including nested values, into `out`. */
 static void copy_value(const struct json *v, const char *key, struct text *out)
 {
     int64_t whole;
@@ -89,7 +89,7 @@ static status describe(const char *path, struct text *out)
     if (stat(path, &info) != 0)
         return fail(E_INPUT, "%s: %s", path, strerror(errno));
     if (S_ISDIR(info.st_mode))
-        return fail(E_INPUT, "%s: a folder; 'hoodoo status %s' tells about an output folder", path, path);
+        return fail(E_INPUT, "%s is a folder; 'hoodoo status %s' describes an output folder", path, path);
     if (!S_ISREG(info.st_mode))
         return fail(E_INPUT, "%s: not a regular file", path);
     FILE *f = fopen(path, "rb");
@@ -102,15 +102,15 @@ static status describe(const char *path, struct text *out)
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (n >= kinds[i].size && memcmp(head, kinds[i].magic, kinds[i].size) == 0)
             return kinds[i].describe(path, out);
-    return fail(E_INPUT,
-                "%s: neither a checkpoint, VDB, EXR, manifest nor run.json, going by its first bytes", path);
+    return fail(E_INPUT, "%s: the first bytes are not those of a checkpoint, VDB, EXR, manifest or run.json",
+                path);
 }
 
 status cli_inspect(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct text answer = {0};
     bool help;
     const struct option options[] = {OPTION_JSON(&c)};
@@ -119,11 +119,11 @@ status cli_inspect(int argc, char **argv)
     if (help)
         goto done;
     json_object(&answer, NULL);
-    TRY(describe(operands.word[0], &answer));
+    TRY(describe(operands.item[0], &answer));
     json_end_object(&answer);
-    TRY(words_print(&answer, c.json));
+    TRY(answer_print(&answer, c.json));
 done:
     text_free(&answer);
-    words_free(&operands);
+    arguments_free(&operands);
     return st;
 }

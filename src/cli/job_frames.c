@@ -22,7 +22,7 @@ done:
 status wedge_folder(const char *root, int wedge, struct path *out)
 {
     if (wedge < 0 || wedge > WEDGE_MAX)
-        return fail(E_USAGE, "--wedge %d: 1 to %d", wedge, WEDGE_MAX);
+        return fail(E_USAGE, "--wedge %d: must be 1 to %d", wedge, WEDGE_MAX);
     return path_wedge(out, root, wedge) == OK ? OK : fail(E_USAGE, "%s", status_message());
 }
 
@@ -43,7 +43,7 @@ status volume_frames(const char *root, const char *name, struct frame_range rang
             frames[(*n)++] = frames[i];
     }
     if (*n == 0) {
-        st = fail(E_INPUT, "%s holds no volumes of %s; run the job first", root,
+        st = fail(E_INPUT, "%s: no volumes of %s; run the job first", root,
                   range.step ? range_text(range, asked) : "any frame");
         goto done;
     }

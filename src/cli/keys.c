@@ -1,4 +1,4 @@
-/* hoodoo keys: what may stand in a job, for people and for editors. */
+/* hoodoo keys: describes the keys of jobs, for people and for editors. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
@@ -10,8 +10,8 @@
 
 enum { NARROW = 40, USUAL = 80, WIDE = 120 };
 
-/* Of the terminal, as far as lines can be read well. */
-static int width_here(void)
+/* Width of the terminal, limited to a range in which lines read well. */
+static int terminal_width(void)
 {
     struct winsize w;
     if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_col == 0)
@@ -22,13 +22,13 @@ static int width_here(void)
 status cli_keys(int argc, char **argv)
 {
     status st = OK;
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct text t = {0};
     bool help = false, schema = false, list = false;
     const struct option options[] = {
-        {"list", NULL, OPTION_FLAG, &list, "print the path of every key, a line each, for completion"},
+        {"list", NULL, OPTION_FLAG, &list, "print the path of every key, one per line, for completion"},
         {"schema", NULL, OPTION_FLAG, &schema,
-         "print all keys as a JSON Schema, with which editors complete and check jobs"},
+         "print a JSON Schema, with which editors complete and check jobs"},
     };
     TRY(options_parse(&usage_keys, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
@@ -38,10 +38,10 @@ status cli_keys(int argc, char **argv)
     else if (list)
         TRY(job_keys_list(&t));
     else
-        TRY(job_keys(operands.n ? operands.word[0] : NULL, width_here(), &t));
+        TRY(job_keys(operands.n ? operands.item[0] : NULL, terminal_width(), &t));
     fwrite(t.data, 1, t.size, stdout);
 done:
     text_free(&t);
-    words_free(&operands);
+    arguments_free(&operands);
     return st;
 }

@@ -1,4 +1,4 @@
-/* hoodoo look JOB: a picture of one frame in seconds, and again whenever the job is saved. */
+/* hoodoo look JOB: renders one frame in seconds; with --watch again whenever the job is saved. */
 #include "look/look.h"
 
 #include <math.h>
@@ -19,13 +19,13 @@
 #define QUALITY_CHOICE (QUALITY_SKETCH, "sketch")(QUALITY_DRAFT, "draft")(QUALITY_FULL, "full")
 enum { CHOICE_CONSTANTS(QUALITY_CHOICE) };
 
-/* Of a quality: how long simulating may take, how wide the picture is, and its rays a pixel. */
+/* Limits of a quality: seconds of simulation, width of the picture, and rays per pixel. */
 static const struct quality {
     double seconds;
     int width, samples;
 } qualities[] = {{2, 640, 4}, {20, 960, 9}, {HUGE_VAL, 1280, 16}};
 
-/* A file, as it was when it was looked at. */
+/* The state of a file when it was last examined. */
 struct watched {
     struct path path;
     struct timespec modified;
@@ -36,15 +36,15 @@ struct watched {
 struct looking {
     struct common common;
     const char *job, *out;
-    struct path folder; /* of the picture */
+    struct path folder; /* the picture's */
     struct look_options options;
     struct progress progress;
     bool watch, serves, abandoned;
-    struct watched *file; /* the job, and what it reads */
+    struct watched *file; /* the job and its input files */
     size_t n_files, capacity;
 };
 
-/* ---- files that are watched */
+/* ---- watched files */
 
 static struct watched stat_of(const char *path)
 {
@@ -66,15 +66,15 @@ static status watch_file(struct looking *l, const char *path)
     return st;
 }
 
-/* What the job reads, if it can be read: else it is known from before. */
+/* Records the state of the job and its input files. If the job cannot be read, the inputs known from before are kept. */
 static status watch_all(struct looking *l)
 {
     status st = OK;
     struct job *job = NULL;
     struct job_input *inputs = NULL;
     size_t n = 0;
-    const bool hushed = log_hush(true);
-    if (job_load(l->job, l->common.sets.word, l->common.sets.n, &job) != OK ||
+    const bool hushed = log_silence(true);
+    if (job_load(l->job, l->common.sets.item, l->common.sets.n, &job) != OK ||
         job_inputs(job, &inputs, &n) != OK) {
         for (size_t i = 0; i < l->n_files; i++)
             l->file[i] = stat_of(l->file[i].path.text);
@@ -87,7 +87,7 @@ static status watch_all(struct looking *l)
     for (size_t i = 0; i < n; i++)
         TRY(watch_file(l, inputs[i].path));
 done:
-    log_hush(hushed);
+    log_silence(hushed);
     free(inputs);
     job_destroy(&job);
     return st;
@@ -110,7 +110,7 @@ static void pause_seconds(double seconds)
     nanosleep(&t, NULL);
 }
 
-/* ---- a look */
+/* ---- one picture */
 
 static bool should_stop(void *user)
 {
@@ -131,7 +131,7 @@ static void frame_done(void *user, int frame)
     progress_frame(&l->progress, frame, -1, "");
 }
 
-static void print_words(const char *path, const struct look_made *m)
+static void print_text(const char *path, const struct look_made *m)
 {
     printf("%s: %s, frame %d, at %.4g m", path, m->name, m->frame, m->spacing_m);
     if (m->spacing_m != m->own_spacing_m)
@@ -144,9 +144,8 @@ static void print_words(const char *path, const struct look_made *m)
     printf("; load %.1f s, simulate %.1f s, picture %.1f s\n", m->load_seconds, m->step_seconds,
            m->picture_seconds);
     if (m->spacing_m != m->own_spacing_m)
-        printf(
-            "as the job is written: about %zu particles for the %zu here; hoodoo plan says what it takes\n",
-            m->own_particles, m->n_particles);
+        printf("the job itself has about %zu particles, this picture %zu; 'hoodoo plan' estimates its cost\n",
+               m->own_particles, m->n_particles);
     if (m->coarse.size)
         printf("too fine for this spacing:\n%s", m->coarse.data);
     printf("%s", m->gizmos.data ? m->gizmos.data : "");
@@ -193,21 +192,21 @@ static status look_once(struct looking *l, struct look *look)
     if (l->common.json)
         TRY(print_json(path.text, &made));
     else
-        print_words(path.text, &made);
+        print_text(path.text, &made);
 done:
     fflush(stdout);
     look_made_free(&made);
     return st;
 }
 
-/* What the user can mend in the job, so that it is worth waiting for. */
-static bool is_theirs(status st)
+/* Errors that the user can correct in the job, so that watching continues. */
+static bool user_can_fix(status st)
 {
     return st == E_USAGE || st == E_INPUT || st == E_NUMERIC || st == E_MEMORY;
 }
 
-/* Until a signal comes: then all is done that was asked for. */
-static status look_on(struct looking *l, struct look *look)
+/* Renders at each change until a signal arrives. */
+static status watch_loop(struct looking *l, struct look *look)
 {
     status st = OK;
     for (;;) {
@@ -215,7 +214,7 @@ static status look_on(struct looking *l, struct look *look)
         st = look_once(l, look);
         if (st == STOPPED && !l->abandoned)
             return OK;
-        if (is_theirs(st))
+        if (user_can_fix(st))
             log_error(status_message());
         else if (st != STOPPED)
             TRY(st);
@@ -225,13 +224,13 @@ static status look_on(struct looking *l, struct look *look)
                 return OK;
             pause_seconds(0.1);
         }
-        pause_seconds(0.05); /* whoever saves may write in pieces */
+        pause_seconds(0.05); /* an editor may write a file in several steps */
     }
 done:
     return st;
 }
 
-/* The page, until a signal comes. */
+/* Serves the page until a signal arrives. */
 static status serve(struct looking *l, struct look *look, int port)
 {
     status st = OK;
@@ -257,11 +256,11 @@ done:
 
 /* ---- the verb */
 
-static status take_options(struct looking *l, int quality, int show, double seconds, double spacing)
+static status apply_options(struct looking *l, int quality, int show, double seconds, double spacing)
 {
     struct sketch_options *s = &l->options.sketch;
     s->path = l->job;
-    s->sets = l->common.sets.word;
+    s->sets = l->common.sets.item;
     s->n_sets = l->common.sets.n;
     s->width = qualities[quality].width;
     s->samples = qualities[quality].samples;
@@ -269,14 +268,14 @@ static status take_options(struct looking *l, int quality, int show, double seco
     s->spacing_m = spacing;
     s->show = show_of_word(show);
     if (seconds < 0 || spacing < 0)
-        return fail(E_USAGE, "%s %g: a number above 0 is wanted", seconds < 0 ? "--seconds" : "--spacing",
+        return fail(E_USAGE, "%s %g: must be above 0", seconds < 0 ? "--seconds" : "--spacing",
                     seconds < 0 ? seconds : spacing);
     if (seconds > 0 && spacing > 0)
-        return fail(E_USAGE, "--seconds chooses a spacing, and --spacing is one: give either");
+        return fail(E_USAGE, "--seconds and --spacing exclude each other: --seconds chooses the spacing");
     if (l->options.range && s->show == VALUE_NONE)
-        return fail(E_USAGE, "--range %.40s: only values have one; say which with --show", l->options.range);
+        return fail(E_USAGE, "--range %.40s: choose a value with --show first", l->options.range);
     if (s->show != VALUE_NONE && !value_table[s->show].channel[0])
-        return fail(E_USAGE, "--show %s: pictures have no layer of it; 'hoodoo preview' shows it",
+        return fail(E_USAGE, "--show %s: not available in look; 'hoodoo preview --show' has it",
                     value_table[s->show].name);
     return OK;
 }
@@ -284,7 +283,7 @@ static status take_options(struct looking *l, int quality, int show, double seco
 status cli_look(int argc, char **argv)
 {
     status st = OK;
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct look *look = NULL;
     struct looking l = {0};
     char shown[SHOW_WORDS];
@@ -293,28 +292,29 @@ status cli_look(int argc, char **argv)
     bool help = false, page = false;
     int port = 0;
     const struct option options[] = {
-        {"frame", "N|last", OPTION_TEXT, &l.options.sketch.frame, "which frame (default last)"},
+        {"frame", "N|last", OPTION_TEXT, &l.options.sketch.frame, "the frame to show (default: last)"},
         {"camera", "NAME|AZ,EL", OPTION_TEXT, &l.options.sketch.camera,
-         "of the job, or a direction in degrees to see all of the domain from, such as -55,9 (default: the job's first camera)"},
+         "a camera of the job, or a direction in degrees from which to view the whole domain, such as -55,9 (default: the job's first camera)"},
         {"quality", CHOICE_TEXT(QUALITY_CHOICE), OPTION_CHOICE, &quality,
-         "sketch: simulated in about 2 seconds; draft: in 20, and a larger picture; full: at the job's own spacing (default sketch)"},
-        {"seconds", "S", OPTION_NUMBER, &seconds, "choose a spacing that takes about so long to simulate"},
-        {"spacing", "M", OPTION_NUMBER, &spacing, "this spacing, in metres"},
+         "sketch: about 2 seconds of simulation; draft: about 20, and a larger picture; full: at the job's own spacing (default: sketch)"},
+        {"seconds", "S", OPTION_NUMBER, &seconds,
+         "choose the spacing for about this many seconds of simulation"},
+        {"spacing", "M", OPTION_NUMBER, &spacing, "simulate at this spacing, in metres"},
         {"show", show_words(shown), OPTION_CHOICE, &show,
-         "a value of the surface as colours, with a legend (default rock: as it looks)"},
+         "a value of the surface in false colours, with a legend (default: rock, its natural colours)"},
         {"range", "LO:HI", OPTION_TEXT, &l.options.range,
-         "what the colours span, in the legend's unit (default: the range that previews of the job have)"},
-        {"figure", NULL, OPTION_FLAG, &l.options.figure, "a person of 1.75 m stands before the rock"},
+         "range of the colours, in the legend's unit (default: the same as in previews of the job)"},
+        {"figure", NULL, OPTION_FLAG, &l.options.figure, "add a person of 1.75 m in front of the rock"},
         {"gizmos", CHOICE_TEXT(GIZMOS_CHOICE), OPTION_CHOICE, &gizmos,
-         "lines over the picture: domain, wind, water's ways, paint, cameras, and edits and tools of the frame (now) or of any (default now)"},
+         "lines over the picture: domain, wind, water paths, paint, cameras, and edits and tools of this frame (now) or of all frames (all) (default: now)"},
         {"no-slate", NULL, OPTION_FLAG, &l.options.no_slate,
-         "without the scale bar and the strip that says name, frame and age"},
+         "omit the scale bar and the strip with name, frame and age"},
         {"watch", NULL, OPTION_FLAG, &l.watch,
-         "again whenever the job or a file that it reads is saved, until Ctrl-C; what is wrong with the job is said, and waited for"},
+         "render again whenever the job or one of its input files is saved, until Ctrl-C; errors in the job are reported and do not end it"},
         {"serve", NULL, OPTION_FLAG, &page,
-         "a page for a browser on this machine: turn it, go through the frames, click for places and values. Its address is printed; who has it can see the page. Until Ctrl-C"},
-        {"port", "N", OPTION_INT, &port, "of the page (default: one that is free)"},
-        {"out", "PNG", OPTION_TEXT, &l.out, "the picture (default NAME.look.png)"},
+         "serve a page for a browser on this machine, until Ctrl-C: orbit, step through frames, click for positions and values. The address is printed; anyone who knows it can see the page"},
+        {"port", "N", OPTION_INT, &port, "port of the page (default: any free one)"},
+        {"out", "PNG", OPTION_TEXT, &l.out, "the picture's file (default: NAME.look.png)"},
         OPTION_WEDGE(&l.options.sketch.wedge),
         OPTION_DEVICE(&l.common),
         OPTION_SET(&l.common),
@@ -323,14 +323,14 @@ status cli_look(int argc, char **argv)
     TRY(options_parse(&usage_look, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    l.job = operands.word[0];
-    TRY(take_options(&l, quality, show, seconds, spacing));
+    l.job = operands.item[0];
+    TRY(apply_options(&l, quality, show, seconds, spacing));
     TRY(path_folder(&l.folder, l.out ? l.out : ""));
     l.options.folder = l.folder.text;
     l.options.gizmos = (enum gizmos)gizmos;
     l.serves = page;
     if (page && l.watch) {
-        st = fail(E_USAGE, "--serve watches the job anyway: leave --watch out");
+        st = fail(E_USAGE, "--serve already watches the job; omit --watch");
         goto done;
     }
     if (page)
@@ -342,12 +342,12 @@ status cli_look(int argc, char **argv)
     signals_install();
     TRY(look_begin(l.common.device, &look));
     l.options.sketch.gpu = look_on_gpu(look);
-    TRY(page ? serve(&l, look, port) : l.watch ? look_on(&l, look) : look_once(&l, look));
+    TRY(page ? serve(&l, look, port) : l.watch ? watch_loop(&l, look) : look_once(&l, look));
 done:
     progress_end(&l.progress);
     look_end(&look);
     free(l.file);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&l.common);
     return st;
 }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# man.sh HOODOO: the manual page hoodoo(1), from what the program says of itself.
+# man.sh HOODOO: writes the manual page hoodoo(1), composed from the program's help texts.
 set -eu
 hoodoo=$1
 text() {
@@ -31,18 +31,17 @@ cat <<'EOF'
 .SH ENVIRONMENT
 .TP
 .B HOODOO_DEVICE
-what
+default of
 .B \-\-device
-is where it is left out
 .TP
 .B HOODOO_CACHE
-the folder where compiled shaders are kept
+folder for compiled shaders and the states of hoodoo look
 .TP
 .B HOODOO_LIBEXEC
-where the programs and libraries stand that read and write other formats
+folder of the helper programs and libraries for other file formats
 .SH JOB FILES
 .B hoodoo keys
-says what may stand in a job,
+describes the keys of a job,
 .B hoodoo new
-makes one to begin with.
+writes one to start from.
 EOF

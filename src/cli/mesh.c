@@ -1,4 +1,4 @@
-/* hoodoo mesh OUT: each frame's surface as triangles, in PLY (with its fields), OBJ and USD. */
+/* hoodoo mesh OUT: writes each frame's surface as a triangle mesh, in PLY (with vertex values), OBJ and USD. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include "job/job.h"
 #include "output/folder.h"
 
-/* Again while other tasks make meshes beside this one, so that whoever is the last has listed all. */
+/* Lists the meshes in the USD stage, and repeats this as long as other tasks add meshes, so that the last task lists them all. */
 static status list_in_stage(const struct job *job, const char *root)
 {
     status st = OK;
@@ -34,7 +34,7 @@ status cli_mesh(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct job *job = NULL;
     int *frames = NULL;
     size_t n, n_found = 0;
@@ -51,26 +51,26 @@ status cli_mesh(int argc, char **argv)
     const struct option options[] = {
         OPTION_FRAMES(&c),
         {"adaptivity", "VOXELS", OPTION_NUMBER, &meshes.adaptivity,
-         "0 to 1: how far the surface may move for fewer triangles (default 0)"},
+         "0 to 1: how far the surface may deviate to save triangles (default: 0)"},
         {"smooth", "N", OPTION_INT, &meshes.smooth,
-         "passes, 0 to 100, that even out the surface without shrinking it; layers and ledges keep their edges (default 0)"},
-        {"no-rocks", NULL, OPTION_FLAG, &no_rocks, "without NAME.rocks.FRAME, the rocks of piles"},
+         "smoothing passes, 0 to 100, that neither shrink the surface nor round the edges of layers and ledges (default: 0)"},
+        {"no-rocks", NULL, OPTION_FLAG, &no_rocks, "omit NAME.rocks.FRAME, the rocks of piles"},
         {"missing", NULL, OPTION_FLAG, &missing,
-         "only meshes that are not there, are damaged, or were made otherwise or of another frame"},
-        {"allow-none", NULL, OPTION_FLAG, &allow_none, "frames without volumes are no error"},
+         "only meshes that are missing, damaged or out of date, or were made with other options"},
+        {"allow-none", NULL, OPTION_FLAG, &allow_none, "do not fail if no frame has volumes"},
         OPTION_WEDGE(&wedge),
         OPTION_PROGRESS(&c),
     };
     TRY(options_parse(&usage_mesh, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
-    TRY(wedge_folder(operands.word[0], wedge, &root));
+    TRY(wedge_folder(operands.item[0], wedge, &root));
     if (!(meshes.adaptivity >= 0 && meshes.adaptivity <= 1)) {
-        st = fail(E_USAGE, "--adaptivity %g: 0 to 1", meshes.adaptivity);
+        st = fail(E_USAGE, "--adaptivity %g: must be 0 to 1", meshes.adaptivity);
         goto done;
     }
     if (meshes.smooth < 0 || meshes.smooth > 100) {
-        st = fail(E_USAGE, "--smooth %d: 0 to 100", meshes.smooth);
+        st = fail(E_USAGE, "--smooth %d: must be 0 to 100", meshes.smooth);
         goto done;
     }
     TRY(folder_open(root.text, name));
@@ -111,14 +111,14 @@ status cli_mesh(int argc, char **argv)
         progress_note(&progress, i + 1, n, line);
     }
     if (n_found == 0 && !allow_none)
-        st = fail(E_INPUT, "%s holds no volumes of the frames asked for; run the job first", root.text);
+        st = fail(E_INPUT, "%s: no volumes of the requested frames; run the job first", root.text);
     else if (n_found)
         st = list_in_stage(job, root.text);
 done:
     progress_end(&progress);
     free(frames);
     job_destroy(&job);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&c);
     return st;
 }

@@ -1,4 +1,4 @@
-/* hoodoo new NAME: a job to begin with. */
+/* hoodoo new NAME: writes a job to start from. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 
 enum { NAME_MOST = 64, EXAMPLES_MOST = 256 };
 
-/* What editors find the schema by, beside the examples alone. */
+/* Refers editors to the schema beside the examples; omitted from copies. */
 static const char MODELINE[] = "# yaml-language-server:";
 
 static bool good_name(const char *name)
@@ -23,7 +23,7 @@ static bool good_name(const char *name)
            strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == n;
 }
 
-/* The example's first comment line says what it is. */
+/* Prints the names and the first comment line of each example. */
 static void list_examples(void)
 {
     for (const struct job_example *e = job_examples; e->name; e++)
@@ -41,11 +41,11 @@ static status find_example(const char *like, const struct job_example **out)
             known[n++] = (*out)->name;
     }
     const char *near = nearest_word(like, known, n);
-    return fail(E_USAGE, "--like %.64s: there is no such example%s%s; hoodoo new --list names them", like,
-                near ? "; near it: " : "", near ? near : "");
+    return fail(E_USAGE, "--like %.64s: unknown example%s%s%s; 'hoodoo new --list' lists them", like,
+                near ? "; did you mean " : "", near ? near : "", near ? "?" : "");
 }
 
-/* The line, with the example's own name in its key, its paths and its folder replaced. */
+/* Adds a line of the example with its name replaced in the key `name`, in paths and in the output folder. */
 static void add_renamed(struct text *t, const char *line, const char *from, const char *to)
 {
     char key[NAME_MOST + 16], file[NAME_MOST + 16], folder[NAME_MOST + 16];
@@ -69,12 +69,12 @@ static void add_renamed(struct text *t, const char *line, const char *from, cons
     }
 }
 
-/* Never over a file that is there. */
+/* Writes a new file; an existing one is never overwritten. */
 static status write_new(const char *path, const struct text *t)
 {
     const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd < 0)
-        return errno == EEXIST ? fail(E_USAGE, "%s is there already", path)
+        return errno == EEXIST ? fail(E_USAGE, "%s already exists; choose another name", path)
                                : fail(E_OUTPUT, "%s: cannot be written: %s", path, strerror(errno));
     size_t at = 0;
     while (at < t->size) {
@@ -96,15 +96,15 @@ static status write_new(const char *path, const struct text *t)
 status cli_new(int argc, char **argv)
 {
     status st = OK;
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct text t = {0};
     struct path path;
     const struct job_example *example;
     const char *like = "demo", *name;
     bool help = false, list = false;
     const struct option options[] = {
-        {"like", "EXAMPLE", OPTION_TEXT, &like, "the example it is a copy of (default demo: an arch)"},
-        {"list", NULL, OPTION_FLAG, &list, "name the examples and end"},
+        {"like", "EXAMPLE", OPTION_TEXT, &like, "the example to copy (default: demo, an arch)"},
+        {"list", NULL, OPTION_FLAG, &list, "list the examples"},
     };
     TRY(options_parse(&usage_new, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
@@ -113,11 +113,11 @@ status cli_new(int argc, char **argv)
         list_examples();
         goto done;
     }
-    name = operands.n ? operands.word[0] : "";
+    name = operands.n ? operands.item[0] : "";
     if (!good_name(name)) {
         st = fail(E_USAGE,
-                  *name ? "'%.70s' is not a name (1 to 64 letters, digits, _ and -)"
-                        : "hoodoo new needs a name, such as %.70s",
+                  *name ? "'%.70s' is not a valid name; use 1 to 64 letters, digits, _ and -"
+                        : "new: NAME is missing; write 'hoodoo new %.70s', for example",
                   *name ? name : "cliff");
         goto done;
     }
@@ -128,10 +128,10 @@ status cli_new(int argc, char **argv)
     TRY(text_status(&t));
     TRY(path_format(&path, "%s.yaml", name));
     TRY(write_new(path.text, &t));
-    printf("%s: hoodoo plan %s says what it takes, hoodoo run %s makes it\n", path.text, path.text,
+    printf("%s: 'hoodoo plan %s' estimates its cost, 'hoodoo run %s' simulates it\n", path.text, path.text,
            path.text);
 done:
     text_free(&t);
-    words_free(&operands);
+    arguments_free(&operands);
     return st;
 }

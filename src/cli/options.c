@@ -12,28 +12,28 @@
 #include "base/nearest.h"
 #include "base/text.h"
 
-status words_add(struct words *w, const char *word)
+status arguments_add(struct arguments *a, const char *argument)
 {
-    status st = memory_grow(&w->word, &w->capacity, w->n + 1, sizeof *w->word, "the arguments");
+    status st = memory_grow(&a->item, &a->capacity, a->n + 1, sizeof *a->item, "the arguments");
     if (st == OK)
-        w->word[w->n++] = word;
+        a->item[a->n++] = argument;
     return st;
 }
 
-void words_free(struct words *w)
+void arguments_free(struct arguments *a)
 {
-    free(w->word);
-    *w = (struct words){0};
+    free(a->item);
+    *a = (struct arguments){0};
 }
 
 void common_free(struct common *c)
 {
-    words_free(&c->sets);
+    arguments_free(&c->sets);
 }
 
 /* ---- help */
 
-/* A term, and behind it in lines of its own column what it means. */
+/* A term, followed by its meaning in a column of its own. */
 static void add_help(struct text *t, const char *term, const char *meaning)
 {
     enum { COLUMN = 28, WIDTH = 80 };
@@ -55,8 +55,8 @@ static void print_help(const struct usage *usage, const struct option *options, 
         const struct option *o = &options[i];
         struct text meaning = {0};
         snprintf(term, sizeof term, "--%s%s%s", o->name, o->value ? " " : "", o->value ? o->value : "");
-        if (strlen(term) > LONGEST) { /* a long list of words goes with what it means */
-            snprintf(term, sizeof term, "--%s WORD", o->name);
+        if (strlen(term) > LONGEST) { /* a long list of choices is moved into the meaning */
+            snprintf(term, sizeof term, "--%s NAME", o->name);
             for (const char *s = o->value; *s; s++)
                 text_add(&meaning, "%.*s", *s == '|' ? 2 : 1, *s == '|' ? ", " : s);
             text_add(&meaning, ": ");
@@ -65,7 +65,7 @@ static void print_help(const struct usage *usage, const struct option *options, 
         add_help(&t, term, meaning.data ? meaning.data : "");
         text_free(&meaning);
     }
-    add_help(&t, "-h, --help", "this text");
+    add_help(&t, "-h, --help", "print this help");
     printf("%s", t.data ? t.data : "");
     text_free(&t);
 }
@@ -78,7 +78,7 @@ static status wrong_value(const struct usage *usage, const struct option *o, con
     return fail(E_USAGE, "%s: --%s %.80s: %s", usage->verb, o->name, value, what);
 }
 
-static status take_number(const struct usage *usage, const struct option *o, const char *value)
+static status parse_number(const struct usage *usage, const struct option *o, const char *value)
 {
     char *end;
     errno = 0;
@@ -96,7 +96,7 @@ static status take_number(const struct usage *usage, const struct option *o, con
     return OK;
 }
 
-static status take_choice(const struct usage *usage, const struct option *o, const char *value)
+static status parse_choice(const struct usage *usage, const struct option *o, const char *value)
 {
     size_t length = strlen(value);
     const char *word = o->value;
@@ -113,7 +113,7 @@ static status take_choice(const struct usage *usage, const struct option *o, con
     return fail(E_USAGE, "%s: --%s %.80s: must be one of %s", usage->verb, o->name, value, o->value);
 }
 
-static status take_value(const struct usage *usage, const struct option *o, const char *value)
+static status parse_value(const struct usage *usage, const struct option *o, const char *value)
 {
     switch (o->kind) {
     case OPTION_FLAG:
@@ -124,15 +124,15 @@ static status take_value(const struct usage *usage, const struct option *o, cons
         return *value ? OK : wrong_value(usage, o, "''", "is empty");
     case OPTION_INT:
     case OPTION_NUMBER:
-        return take_number(usage, o, value);
+        return parse_number(usage, o, value);
     case OPTION_RANGE:
         if (range_parse(value, o->target) != OK)
             return fail(E_USAGE, "%s: --%s: %s", usage->verb, o->name, status_message());
         return OK;
     case OPTION_CHOICE:
-        return take_choice(usage, o, value);
-    case OPTION_WORDS:
-        return words_add(o->target, value);
+        return parse_choice(usage, o, value);
+    case OPTION_LIST:
+        return arguments_add(o->target, value);
     }
     return OK;
 }
@@ -156,9 +156,9 @@ static status unknown_option(const struct usage *usage, const struct option *opt
                 usage->verb);
 }
 
-/* argv[*i] is an option; moves *i over its value if that is the next argument. */
-static status take_option(const struct usage *usage, const struct option *options, size_t n, int argc,
-                          char **argv, int *i)
+/* Parses the option argv[*i]; increments *i if the next argument is its value. */
+static status parse_option(const struct usage *usage, const struct option *options, size_t n, int argc,
+                           char **argv, int *i)
 {
     const char *argument = argv[*i];
     const struct option *o = NULL;
@@ -173,15 +173,16 @@ static status take_option(const struct usage *usage, const struct option *option
     if (o->kind == OPTION_FLAG && value)
         return fail(E_USAGE, "%s: --%s takes no value", usage->verb, o->name);
     if (o->kind != OPTION_FLAG && !value) {
-        /* The next option swallowed as a value would surprise later and elsewhere. */
+        /* An option is never taken as the value of the one before it: the mistake would surface much later. */
         if (*i + 1 >= argc || strncmp(argv[*i + 1], "--", 2) == 0)
-            return fail(E_USAGE, "%s: --%s needs a value: --%s %s", usage->verb, o->name, o->name, o->value);
+            return fail(E_USAGE, "%s: --%s requires a value: --%s %s", usage->verb, o->name, o->name,
+                        o->value);
         value = argv[++*i];
     }
-    return take_value(usage, o, value);
+    return parse_value(usage, o, value);
 }
 
-static status count_operands(const struct usage *usage, const struct words *operands)
+static status count_operands(const struct usage *usage, const struct arguments *operands)
 {
     size_t least = 0, most = 0;
     for (const char *p = usage->operands; *p; p += strspn(p, " ")) {
@@ -193,7 +194,7 @@ static status count_operands(const struct usage *usage, const struct words *oper
     }
     if (operands->n > most)
         return fail(E_USAGE, "%s: unexpected argument '%.80s'; usage: hoodoo %s [OPTIONS] %s", usage->verb,
-                    operands->word[most], usage->verb, usage->operands);
+                    operands->item[most], usage->verb, usage->operands);
     if (operands->n < least)
         return fail(E_USAGE, "%s: %s is missing; usage: hoodoo %s [OPTIONS] %s", usage->verb, usage->operands,
                     usage->verb, usage->operands);
@@ -201,7 +202,7 @@ static status count_operands(const struct usage *usage, const struct words *oper
 }
 
 status options_parse(const struct usage *usage, const struct option *options, size_t n, int argc, char **argv,
-                     struct words *operands, bool *help)
+                     struct arguments *operands, bool *help)
 {
     status st = OK;
     bool ended = false;
@@ -209,7 +210,7 @@ status options_parse(const struct usage *usage, const struct option *options, si
     for (int i = 1; i < argc; i++) {
         const char *a = argv[i];
         if (ended || a[0] != '-' || a[1] == '\0') {
-            TRY(words_add(operands, a));
+            TRY(arguments_add(operands, a));
         } else if (strcmp(a, "--") == 0) {
             ended = true;
         } else if (strcmp(a, "-h") == 0 || strcmp(a, "--help") == 0) {
@@ -217,7 +218,7 @@ status options_parse(const struct usage *usage, const struct option *options, si
             print_help(usage, options, n);
             return OK;
         } else {
-            TRY(take_option(usage, options, n, argc, argv, &i));
+            TRY(parse_option(usage, options, n, argc, argv, &i));
         }
     }
     TRY(count_operands(usage, operands));

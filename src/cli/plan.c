@@ -1,18 +1,18 @@
-/* hoodoo plan JOB: what a run would do and take, without doing it. */
+/* hoodoo plan JOB: estimates what a run would do and cost, without running it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "cli/answer.h"
 #include "cli/cli.h"
 #include "cli/plan_time.h"
-#include "cli/words.h"
 #include "farm/describe.h"
 #include "run/memory.h"
 
-/* Seconds of a frame: as the folder's frames came, or by a rehearsal (without a device nobody knows: 0). Other wedges than the first
- * are taken to grow with their particles. */
+/* Seconds per frame of each wedge: measured from existing frames, else by a rehearsal of the first wedge and in proportion to the
+ * number of particles for the others; 0, unknown, without a device. */
 static status time_frames(struct farm *f, struct gpu *gpu, const struct plan_asked *asked,
                           struct plan_time *t)
 {
@@ -26,7 +26,7 @@ static status time_frames(struct farm *f, struct gpu *gpu, const struct plan_ask
         w->frame_seconds = farm_frame_seconds(root.text, w->job->name);
         if (i == 0 && w->frame_seconds > 0) {
             t->job.wall = w->frame_seconds * n;
-            snprintf(t->from, sizeof t->from, "the frames there are");
+            snprintf(t->from, sizeof t->from, "existing frames");
         } else if (i == 0 && gpu && asked->patience > 0) {
             TRY(plan_rehearse(asked, gpu, f, t));
         }
@@ -38,10 +38,10 @@ done:
     return st;
 }
 
-/* Memory as it is before anything is rehearsed. */
+/* Memory before anything is rehearsed. */
 struct memory {
     uint64_t process;
-    struct run_memory there; /* where there is a device */
+    struct run_memory there; /* set if there is a device */
     uint64_t host_free;
     bool fits;
 };
@@ -60,7 +60,7 @@ static void describe_memory(const struct model_estimate *e, const struct gpu *gp
     json_integer(t, "host_free_bytes", (int64_t)m->host_free);
 }
 
-/* `gpu` may be NULL: what only a device knows is left out. */
+/* Without a device (`gpu` is NULL), what depends on the device is omitted. */
 static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *asked, bool words,
                      const char *device, struct text *t)
 {
@@ -123,7 +123,7 @@ status cli_plan(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct farm farm = {0};
     struct gpu *gpu = NULL;
     struct text t = {0};
@@ -138,26 +138,26 @@ status cli_plan(int argc, char **argv)
         OPTION_FROM(&c),
         OPTION_JSON(&c),
         {"rehearse", "SECONDS", OPTION_NUMBER, &asked.patience,
-         "about how long its first frames may be tried on the device, which is what its time rests on (default 10; 0: at once, and without a time)"}};
+         "time to spend on simulating the first frames on the device, from which the total time is estimated (default: 10; 0: no estimate)"}};
     TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
     if (asked.patience < 0) {
-        st = fail(E_USAGE, "--rehearse %g: seconds, 0 or more", asked.patience);
+        st = fail(E_USAGE, "--rehearse %g: must be 0 or more seconds", asked.patience);
         goto done;
     }
-    asked.path = operands.word[0];
-    TRY(farm_load(operands.word[0], c.sets.word, c.sets.n, c.from, wedge, c.out, &farm));
+    asked.path = operands.item[0];
+    TRY(farm_load(operands.item[0], c.sets.item, c.sets.n, c.from, wedge, c.out, &farm));
     const bool none = c.device && strcmp(c.device, "none") == 0;
     if (!none)
         TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
     TRY(answer(&farm, gpu, &asked, !c.json, none ? NULL : c.device, &t));
-    TRY(words_print(&t, c.json));
+    TRY(answer_print(&t, c.json));
 done:
     text_free(&t);
     gpu_destroy(&gpu);
     farm_free(&farm);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&c);
     return st;
 }

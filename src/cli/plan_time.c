@@ -6,35 +6,35 @@
 #include "base/log.h"
 #include "run/memory.h"
 
-/* Particles that any device steps in next to no time: of the first rehearsal, which says how far the next one may go. */
+/* Particles of the first rehearsal, which is quick on any device and shows how large the next one may be. */
 static const double FEW = 30000;
 
-/* And that no plan begins to step before it knows how fast the device is. */
+/* Particles above which the speed of the device must be known before a rehearsal. */
 static const double MANY = 300000;
 
-/* The first wedge at another spacing, unless it cannot be had: *f is empty then. */
+/* Loads the first wedge at another spacing; *f stays empty if that is not possible. */
 static status load_at(const struct plan_asked *asked, const struct farm *own, double spacing, struct farm *f)
 {
     status st = OK;
-    struct words sets = {0};
+    struct arguments sets = {0};
     const struct common *c = asked->common;
     const struct job *job = own->wedge[0].job;
     char set[64];
     snprintf(set, sizeof set, "domain.spacing_m=%.4g", spacing);
     for (size_t i = 0; i < c->sets.n; i++)
-        TRY(words_add(&sets, c->sets.word[i]));
-    TRY(words_add(&sets, set));
-    const bool hushed = log_hush(true);
-    st = farm_load(asked->path, sets.word, sets.n, NULL, (int)job->wedge.index, c->out, f);
-    log_hush(hushed);
-    /* A wedge may be of spacings, and a coarse scene may be no scene. */
+        TRY(arguments_add(&sets, c->sets.item[i]));
+    TRY(arguments_add(&sets, set));
+    const bool hushed = log_silence(true);
+    st = farm_load(asked->path, sets.item, sets.n, NULL, (int)job->wedge.index, c->out, f);
+    log_silence(hushed);
+    /* The wedges may vary the spacing itself, and a coarse scene may be empty. */
     if (st != OK || f->wedge[0].job->domain.spacing_m < 1.01 * job->domain.spacing_m) {
         farm_free(f);
         *f = (struct farm){0};
         st = st == E_MEMORY ? st : OK;
     }
 done:
-    words_free(&sets);
+    arguments_free(&sets);
     return st;
 }
 
@@ -50,7 +50,7 @@ static status rehearse_wedge(struct gpu *gpu, const struct farm *f, double patie
     return st;
 }
 
-/* The same at a spacing with so many particles. *out stays as it is where that cannot be had. */
+/* The same at a spacing with about n particles. *out is unchanged if that is not possible. */
 static status rehearse_coarse(const struct plan_asked *asked, struct gpu *gpu, const struct farm *own,
                               double n, double patience, struct rehearsal *out)
 {
@@ -62,7 +62,7 @@ static status rehearse_coarse(const struct plan_asked *asked, struct gpu *gpu, c
         goto done;
     st = rehearse_wedge(gpu, &f, patience, out);
     if (st != OK && st != E_DEVICE && st != E_MEMORY) {
-        rehearsal_free(out); /* not the job's own failure */
+        rehearsal_free(out); /* a failure of the coarse job need not be one of the job itself */
         st = OK;
     }
 done:
@@ -70,7 +70,7 @@ done:
     return st;
 }
 
-/* s that a rehearsal of two steps takes. */
+/* Seconds that a rehearsal of two steps takes. */
 static double shortest(const struct gpu *gpu, const struct rehearsal *r)
 {
     double sum =
@@ -107,7 +107,7 @@ status plan_rehearse(const struct plan_asked *asked, struct gpu *gpu, const stru
         rehearsal_correct_steps(&more, &few);
         rehearsal_scale(&few, last, n, &whole);
         snprintf(out->from, sizeof out->from,
-                 "frames %s, rehearsed with %.2g particles and drawn out from there: within a factor of two",
+                 "frames %s, rehearsed with %.2g particles and extrapolated, within a factor of two",
                  range_text(last->frames, range), last->n_particles);
     } else {
         goto done;

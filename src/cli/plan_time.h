@@ -1,4 +1,4 @@
-/* A plan's time: rehearsed. */
+/* Estimates the time of a plan by a rehearsal. */
 #ifndef HOODOO_CLI_PLAN_TIME_H
 #define HOODOO_CLI_PLAN_TIME_H
 
@@ -6,20 +6,20 @@
 #include "farm/farm.h"
 #include "run/rehearsal.h"
 
-/* What the plan was asked for: farm_load()'s words. */
+/* The arguments of the plan, as farm_load() takes them. */
 struct plan_asked {
     const char *path;
     const struct common *common;
-    double patience; /* s that rehearsals may take, about; 0: none is wanted */
+    double patience; /* approximate limit for rehearsals, s; 0: no rehearsal */
 };
 
 struct plan_time {
-    struct cost job; /* all frames of the farm's first wedge; 0: not known */
-    char from[160];  /* what it rests on, in words */
+    struct cost job; /* all frames of the farm's first wedge; 0: unknown */
+    char from[160];  /* the basis of the estimate, as text */
 };
 
-/* Rehearses the first wedge at its own spacing, or, where that would take more than patience or memory, at two coarser ones, from which it
- * is drawn out. E_*: what the job's own first frames end with. */
+/* Rehearses the first wedge at its own spacing or, if that would exceed the time limit or the memory, at two coarser spacings from
+ * which the cost is extrapolated. An error is one of the job's own first frames. */
 MUST_USE status plan_rehearse(const struct plan_asked *asked, struct gpu *gpu, const struct farm *f,
                               struct plan_time *out);
 

@@ -1,4 +1,4 @@
-/* hoodoo preview OUT: POV-Ray stills of frames, and the turntable of one. */
+/* hoodoo preview OUT: POV-Ray stills of frames, and a turntable of one frame. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,8 +30,8 @@ struct wanted {
     char word[5][128], views_word[32], frames_word[64];
 };
 
-/* Its words, which live in `w`, say what is made. */
-static void take_options(struct wanted *w, struct preview *p)
+/* The options to record with each picture; their strings are stored in `w`. */
+static void collect_options(struct wanted *w, struct preview *p)
 {
     static const char *const presets[] = {CHOICE_LIST(PRESET_CHOICE)};
     struct option_text {
@@ -69,7 +69,7 @@ static status check(struct wanted *w, struct preview *p)
         return fail(E_USAGE, "--resolution %.40s: write WIDTHxHEIGHT, such as 640x360 (8 to 16384)",
                     w->resolution);
     if (w->views < 1 || w->views > 1000)
-        return fail(E_USAGE, "--views %d: 1 to 1000", w->views);
+        return fail(E_USAGE, "--views %d: must be 1 to 1000", w->views);
     bool known = !w->camera;
     for (size_t i = 0; i < p->job->n_cameras; i++)
         known |= w->camera && strcmp(p->job->cameras[i].name, w->camera) == 0;
@@ -78,13 +78,13 @@ static status check(struct wanted *w, struct preview *p)
     if (!w->which.step)
         w->which = (struct frame_range){0, w->views - 1, 1};
     if (w->which.first < 0 || w->which.last >= w->views)
-        return fail(E_USAGE, "--view %d-%d: the views are 0 to %d (--views %d)", w->which.first,
+        return fail(E_USAGE, "--view %d-%d: must be within 0 to %d (--views %d)", w->which.first,
                     w->which.last, w->views - 1, w->views);
     if (w->range && w->show == 0)
-        return fail(E_USAGE, "--range %.40s: only values have one; say which with --show", w->range);
+        return fail(E_USAGE, "--range %.40s: choose a value with --show first", w->range);
     w->turntable |= w->only == ONLY_VIEWS || w->only == ONLY_VIDEO;
     if (w->turntable && (w->only == ONLY_STILLS || w->only == ONLY_SHEET))
-        return fail(E_USAGE, "--turntable has views and a video: --only views or video");
+        return fail(E_USAGE, "--turntable accepts only --only views or --only video");
     p->camera = w->camera;
     p->preset = (enum preset)w->preset;
     p->keep_scenes = w->keep_scenes;
@@ -92,14 +92,14 @@ static status check(struct wanted *w, struct preview *p)
     p->figure = w->figure;
     p->show = show_of_word(w->show);
     p->range = show_job_range(p->show, p->job);
-    take_options(w, p);
+    collect_options(w, p);
     if (w->range && strcmp(w->range, "job") != 0 && strcmp(w->range, "data") != 0)
         return show_parse_range(p->show, w->range, &p->range);
     return OK;
 }
 
-/* Leaves the frames whose stills are there, in place. */
-static status with_stills(const struct preview *p, int *frames, size_t *n)
+/* Keeps only the frames that have stills. */
+static status keep_those_with_stills(const struct preview *p, int *frames, size_t *n)
 {
     status st = OK;
     struct path path;
@@ -122,22 +122,23 @@ static status stills(struct preview *p, int *frames, size_t n, int only)
     for (size_t i = 0; i < n && only != ONLY_SHEET; i++) {
         TRY(picture_still(p, frames[i]));
         snprintf(line, sizeof line, "still of frame %d", frames[i]);
-        progress_note(p->progress, i, n, line); /* it is under way */
+        progress_note(p->progress, i, n, line); /* still running */
     }
     TRY(children_wait(&p->children));
     if (only == ONLY_STILLS)
         goto done;
-    TRY(with_stills(p, frames, &n));
+    TRY(keep_those_with_stills(p, frames, &n));
     if (n == 0)
-        st = fail(E_INPUT, "%s holds no stills of these frames; make those first", p->root);
+        st =
+            fail(E_INPUT, "%s: no stills of these frames; run 'hoodoo preview --only stills' first", p->root);
     else
         TRY(turntable_contact(p, frames, n, 0));
 done:
     return st;
 }
 
-/* Is there a sound sheet of stills? */
-static status is_stills_sheet(const struct preview *p, const char *path, bool *out)
+/* Whether an undamaged contact sheet of stills exists. */
+static status has_stills_sheet(const struct preview *p, const char *path, bool *out)
 {
     struct product sheet;
     status st = product_read(p->root, path, &sheet);
@@ -158,9 +159,9 @@ static status turntable(struct preview *p, const struct wanted *w, const int *fr
     if (w->only == ONLY_VIEWS)
         goto done;
     TRY(turntable_video(p, frames[n - 1], w->views));
-    /* A sheet of stills says more than one of views, if there is one. */
+    /* A sheet of stills is more informative than one of views and is not replaced by it. */
     TRY(folder_name(&path, p->job->name, FILE_SHEET, 0, picture_part(p)));
-    TRY(is_stills_sheet(p, path.text, &of_stills));
+    TRY(has_stills_sheet(p, path.text, &of_stills));
     if (!of_stills)
         TRY(turntable_contact(p, frames, n, w->views));
 done:
@@ -177,7 +178,7 @@ done:
     return st;
 }
 
-/* What programs left that failed, or were ended. */
+/* Removes temporary files of programs that failed or were killed. */
 static void sweep_all(const char *root)
 {
     static const char *const folders[] = {"", "preview", "turntable"};
@@ -225,7 +226,7 @@ status cli_preview(int argc, char **argv)
 {
     status st = OK;
     struct wanted w = {.views = 72, .preset = PRESET_PREVIEW, .jobs = cores()};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct job *job = NULL;
     struct preview p = {0};
     struct progress progress = {0};
@@ -238,37 +239,37 @@ status cli_preview(int argc, char **argv)
     const struct option options[] = {
         OPTION_FRAMES(&w.common),
         {"turntable", NULL, OPTION_FLAG, &w.turntable,
-         "a full orbit of the last frame, as pictures and video"},
-        {"views", "N", OPTION_INT, &w.views, "pictures in the orbit, which takes 6 seconds (default 72)"},
+         "a full orbit around the last frame, as pictures and a video"},
+        {"views", "N", OPTION_INT, &w.views, "pictures in the orbit, a video of 6 seconds (default: 72)"},
         {"view", "RANGE", OPTION_RANGE, &w.which,
-         "these of the views alone, such as 0-11 (default: all); with --only views, so that several machines can share an orbit"},
+         "render only these views, such as 0-11, with --only views, so that several machines can share an orbit (default: all)"},
         {"show", show_words(shown), OPTION_CHOICE, &w.show,
-         "a value of the surface as colours, with a legend (default rock: as it looks)"},
+         "a value of the surface in false colours, with a legend (default: rock, its natural colours)"},
         {"range", "job|data|LO:HI", OPTION_TEXT, &w.range,
-         "what the colours span: job (default), the same for all pictures of a job (stress from the weight of the rock, discharge from its water, erodibility from its strata, shares 0 to 1); data, all but the outermost hundredths of these frames' values; or LO:HI in the legend's unit"},
-        {"camera", "NAME", OPTION_TEXT, &w.camera, "of the job (default: its first)"},
+         "range of the colours. job: one range for all pictures of a job (stress from the weight of the rock, discharge from its water, erodibility from its strata, shares from 0 to 1); data: from the 1st to the 99th percentile of the values in these frames; LO:HI: given in the legend's unit (default: job)"},
+        {"camera", "NAME", OPTION_TEXT, &w.camera, "a camera of the job (default: the first)"},
         {"preset", CHOICE_TEXT(PRESET_CHOICE), OPTION_CHOICE, &w.preset,
-         "how much care is taken (default preview)"},
+         "rendering quality (default: preview)"},
         {"resolution", "WxH", OPTION_TEXT, &w.resolution,
-         "of the pictures (default: stills as the camera's, at most 960x540 unless final; views 640x360, 1280x720 or 1920x1080)"},
+         "size of the pictures (default: stills as the camera, at most 960x540 unless final; views 640x360, 1280x720 or 1920x1080 by preset)"},
         {"only", CHOICE_TEXT(ONLY_CHOICE), OPTION_CHOICE, &w.only,
-         "a part of it: stills without a sheet, the sheet of the stills there are, views of the turntable without a video, the video of the views there are, or the sheet across the wedges of a farm's folder"},
-        {"figure", NULL, OPTION_FLAG, &w.figure, "a person of 1.75 m stands before the rock"},
+         "make only a part. stills: without a contact sheet; sheet: of existing stills; views: of the turntable, without a video; video: of existing views; wedges: the sheet across the wedges of a farm's folder"},
+        {"figure", NULL, OPTION_FLAG, &w.figure, "add a person of 1.75 m in front of the rock"},
         {"no-slate", NULL, OPTION_FLAG, &w.no_slate,
-         "without the scale bar and the strip that says name, frame and age (pictures lower than 120 pixels never have one)"},
+         "omit the scale bar and the strip with name, frame and age (pictures lower than 120 pixels never have them)"},
         OPTION_WEDGE(&w.wedge),
         OPTION_PROGRESS(&w.common),
-        {"jobs", "N", OPTION_INT, &w.jobs, "pictures made side by side (default: the cores there are)"},
-        {"keep-scenes", NULL, OPTION_FLAG, &w.keep_scenes, "leave the POV-Ray scenes beside the pictures"},
+        {"jobs", "N", OPTION_INT, &w.jobs, "pictures rendered in parallel (default: one per core)"},
+        {"keep-scenes", NULL, OPTION_FLAG, &w.keep_scenes, "keep the POV-Ray scenes beside the pictures"},
     };
     TRY(options_parse(&usage_preview, options, sizeof options / sizeof *options, argc, argv, &operands,
                       &help));
     if (help)
         goto done;
-    TRY(wedge_folder(operands.word[0], w.wedge, &root));
+    TRY(wedge_folder(operands.item[0], w.wedge, &root));
     p.root = root.text;
     if (w.jobs < 1) {
-        st = fail(E_USAGE, "--jobs %d: 1 or more", w.jobs);
+        st = fail(E_USAGE, "--jobs %d: must be 1 or more", w.jobs);
         goto done;
     }
     if (w.only == ONLY_WEDGES) {
@@ -300,7 +301,7 @@ done:
         sweep_all(p.root);
     free(frames);
     job_destroy(&job);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&w.common);
     return st;
 }

@@ -1,4 +1,4 @@
-/* hoodoo report OUT: one static page of what is there. */
+/* hoodoo report OUT: writes one static page about an output folder. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 #include "render/report.h"
 #include "render/report_wedges.h"
 
-static status put_page(const char *root, bool pictures, const struct text *page)
+static status write_page(const char *root, bool pictures, const struct text *page)
 {
     static const char *const without[] = {"report", "--no-pictures"};
     struct path path;
@@ -25,19 +25,19 @@ done:
     return st;
 }
 
-static status of_wedges(const char *root, struct text *page)
+static status report_on_wedges(const char *root, struct text *page)
 {
     status st = OK;
     bool sound = false;
     TRY(report_wedges(root, page, &sound));
-    TRY(put_page(root, true, page));
+    TRY(write_page(root, true, page));
     if (!sound)
-        st = fail(E_INPUT, "%s: no wedge has a sound frame yet; the page says what each has", root);
+        st = fail(E_INPUT, "%s: no wedge has an undamaged frame yet; the page lists the state of each", root);
 done:
     return st;
 }
 
-static status of_run(const char *root, bool pictures, struct text *page)
+static status report_on_run(const char *root, bool pictures, struct text *page)
 {
     status st = OK;
     struct report r = {0};
@@ -49,11 +49,11 @@ static status of_run(const char *root, bool pictures, struct text *page)
     if (pictures)
         TRY(report_pictures(&r));
     TRY(report_page(&r, page));
-    TRY(put_page(root, pictures, page));
+    TRY(write_page(root, pictures, page));
     if (r.n_sound == 0)
         st = fail(
             E_INPUT,
-            "%s: none of its %zu frames is sound (%zu damaged, %zu missing); the page says what is wrong",
+            "%s: none of the %zu frames is complete and undamaged (%zu damaged, %zu missing); the page lists the problems",
             root, range_count(r.frames), r.n_damaged, r.n_missing);
 done:
     report_free(&r);
@@ -63,24 +63,24 @@ done:
 status cli_report(int argc, char **argv)
 {
     status st = OK;
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct text page = {0};
     bool help = false, no_pictures = false;
     const struct option options[] = {
         {"no-pictures", NULL, OPTION_FLAG, &no_pictures,
-         "numbers and curves alone: quick, and small enough to mail"},
+         "numbers and curves only: fast, and small enough to mail"},
     };
     TRY(options_parse(&usage_report, options, sizeof options / sizeof *options, argc, argv, &operands,
                       &help));
     if (help)
         goto done;
     signals_install();
-    if (report_has_wedges(operands.word[0]))
-        TRY(of_wedges(operands.word[0], &page));
+    if (report_has_wedges(operands.item[0]))
+        TRY(report_on_wedges(operands.item[0], &page));
     else
-        TRY(of_run(operands.word[0], !no_pictures, &page));
+        TRY(report_on_run(operands.item[0], !no_pictures, &page));
 done:
     text_free(&page);
-    words_free(&operands);
+    arguments_free(&operands);
     return st;
 }

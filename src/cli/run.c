@@ -1,4 +1,4 @@
-/* hoodoo run JOB: simulate, from wherever the output folder stands. */
+/* hoodoo run JOB: simulates, continuing from the state of the output folder. */
 #include "run/run.h"
 
 #include <stdio.h>
@@ -29,11 +29,11 @@ static void show_frame(void *user, int frame, double volume_share, int iteration
     progress_frame(&s->progress, frame, volume_share, note);
 }
 
-/* The job becomes one of its wedges. */
-static status take_wedge(const char *path, const struct common *c, int wedge, struct job **job)
+/* Replaces the job by one of its wedges. */
+static status load_wedge(const char *path, const struct common *c, int wedge, struct job **job)
 {
     struct job *base = *job;
-    status st = job_load_wedge(path, c->sets.word, c->sets.n, base, wedge, job);
+    status st = job_load_wedge(path, c->sets.item, c->sets.n, base, wedge, job);
     job_destroy(&base);
     return st;
 }
@@ -42,7 +42,7 @@ status cli_run(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct job *job = NULL;
     struct shown shown = {0};
     struct path root, path, folder;
@@ -58,23 +58,24 @@ status cli_run(int argc, char **argv)
         OPTION_RESUME(&c),
         OPTION_WEDGE(&wedge),
         OPTION_FROM(&c),
-        {"farm", "DIR", OPTION_TEXT, &farm, "the output folder, or with --wedge the wedge's folder in it"},
+        {"farm", "DIR", OPTION_TEXT, &farm,
+         "the farm's output folder; with --wedge, output goes to the wedge's folder in it"},
         {"path-map", "FILE", OPTION_TEXT, &path_map,
-         "where the job's input files are here: an OpenJD session's rules"},
+         "path mapping rules of an OpenJD session, applied to the job's input files"},
         {"repair", NULL, OPTION_FLAG, &repair,
-         "make damaged and missing checkpoints again, too, from the start if need be"}};
+         "also restore damaged and missing checkpoints, by simulating again, from the start if necessary"}};
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
     if (c.from)
-        TRY(words_add(&c.sets, BRANCH_SET));
-    TRY(job_load(operands.word[0], c.sets.word, c.sets.n, &job));
+        TRY(arguments_add(&c.sets, BRANCH_SET));
+    TRY(job_load(operands.item[0], c.sets.item, c.sets.n, &job));
     TRY(path_join(&folder, "out", job->name));
     if (wedge) {
-        TRY(take_wedge(operands.word[0], &c, wedge, &job));
+        TRY(load_wedge(operands.item[0], &c, wedge, &job));
     } else if (job_wedges(job)) {
         log_info(
-            "this job has %zu wedges; this run is the job itself (--wedge N is one of them, hoodoo submit runs all)",
+            "this job has %zu wedges; simulating the job itself (--wedge N selects one of them, hoodoo submit runs all)",
             job_wedges(job));
     }
     if (path_map)
@@ -102,7 +103,7 @@ status cli_run(int argc, char **argv)
 done:
     progress_end(&shown.progress);
     job_destroy(&job);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&c);
     return st;
 }

@@ -1,4 +1,4 @@
-/* hoodoo selftest: is this machine right, and how fast is it? */
+/* hoodoo selftest: checks that this machine computes correct results, and measures its speed. */
 #include "selftest/selftest.h"
 
 #include <stdio.h>
@@ -32,12 +32,12 @@ status cli_selftest(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct selftest t = {.demo = demo_lines(), .stop = stop_requested};
     bool help = false;
     const struct option options[] = {
         OPTION_DEVICE(&c),
-        {"quick", NULL, OPTION_FLAG, &t.quick, "coarser, in about a minute instead of five"},
+        {"quick", NULL, OPTION_FLAG, &t.quick, "coarser tests, about a minute instead of five"},
         OPTION_JSON(&c)};
     TRY(options_parse(&usage_selftest, options, sizeof options / sizeof *options, argc, argv, &operands,
                       &help));
@@ -49,11 +49,11 @@ status cli_selftest(int argc, char **argv)
     TRY(print(&t.findings, c.json));
     const struct row *wrong = findings_first_wrong(&t.findings);
     if (wrong)
-        st = fail(E_DEVICE, "%s is not to be trusted: %s, %s: %s", t.findings.device.name, wrong->group,
+        st = fail(E_DEVICE, "%s computes wrong results: %s, %s: %s", t.findings.device.name, wrong->group,
                   wrong->name, wrong->why);
 done:
     selftest_end(&t);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&c);
     return st;
 }

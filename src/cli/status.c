@@ -1,5 +1,4 @@
-/* hoodoo status OUT: what is there and how fast it comes, as far as the files tell. Reads no pixels and no
- * voxels. */
+/* hoodoo status OUT: reports the frames of an output folder and their rate, from manifests, sizes and times alone. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -8,21 +7,21 @@
 
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
+#include "cli/answer.h"
 #include "cli/cli.h"
-#include "cli/words.h"
 #include "farm/status.h"
 #include "output/folder.h"
 
 enum { STATE_MISSING, STATE_DONE, STATE_DAMAGED, N_STATES };
-enum { RECENT = 20 /* frames the rate is taken from */ };
+enum { RECENT = 20 /* number of frames that the rate is averaged over */ };
 
 struct survey {
     const char *root;
     char name[256];
     struct frame_range frames;
     unsigned char *state; /* [range_count(frames)] */
-    char (*bad)[512];     /* [n[STATE_DAMAGED]]: what is wrong, in order of frames */
-    double *written;      /* [n[STATE_DONE]]: when manifests were, s */
+    char (*bad)[512];     /* [n[STATE_DAMAGED]]: the problem of each damaged frame, in order of frames */
+    double *written;      /* [n[STATE_DONE]]: times at which manifests were written, s */
     size_t n[N_STATES], bad_capacity;
 };
 
@@ -119,7 +118,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The median time between recent frames: a night's pause among them does not count. */
+/* The rate is the median time between recent frames, so that a pause among them has no effect. */
 static void add_rate(struct survey *s, struct text *out)
 {
     double between[RECENT], now = (double)time(NULL);
@@ -179,14 +178,14 @@ done:
     return st;
 }
 
-/* Has any run been there? */
+/* Whether any run has started in this folder. */
 static bool begun(const char *root)
 {
     struct path path;
     return path_join(&path, root, "run.json") == OK && access(path.text, F_OK) == 0;
 }
 
-/* A farm's folder that holds no frames, or holds them in folders of its wedges. */
+/* A farm's folder without frames, or with frames in the folders of wedges. */
 static status answer_farm(const char *root, struct text *out)
 {
     json_object(out, NULL);
@@ -200,7 +199,7 @@ status cli_status(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct survey s = {0};
     struct text answer = {0};
     bool help, wedges;
@@ -209,11 +208,11 @@ status cli_status(int argc, char **argv)
                       &help));
     if (help)
         goto done;
-    s.root = operands.word[0];
+    s.root = operands.item[0];
     TRY(farm_has_wedges(s.root, &wedges));
     if (wedges || (farm_is(s.root) && !begun(s.root))) {
         TRY(answer_farm(s.root, &answer));
-        TRY(words_print(&answer, c.json));
+        TRY(answer_print(&answer, c.json));
         goto done;
     }
     TRY(folder_open(s.root, s.name));
@@ -222,12 +221,12 @@ status cli_status(int argc, char **argv)
         TRY(job_frames(s.root, &s.frames));
     TRY(survey_frames(&s));
     TRY(answer_status(&s, &answer));
-    TRY(words_print(&answer, c.json));
+    TRY(answer_print(&answer, c.json));
 done:
     text_free(&answer);
     free(s.state);
     free(s.bad);
     free(s.written);
-    words_free(&operands);
+    arguments_free(&operands);
     return st;
 }

@@ -1,4 +1,5 @@
-/* hoodoo submit JOB --to local|slurm|openjd|tasks: the job's tasks, to this machine's devices, to a scheduler, or as data. */
+/* hoodoo submit JOB --to local|slurm|openjd|tasks: runs the job's tasks on this machine, submits them to a scheduler, or prints
+ * them. */
 #include <stdio.h>
 
 #include "base/atomic_file.h"
@@ -6,8 +7,8 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/signals.h"
+#include "cli/answer.h"
 #include "cli/cli.h"
-#include "cli/words.h"
 #include "farm/describe.h"
 #include "farm/local.h"
 #include "farm/openjd.h"
@@ -15,7 +16,7 @@
 #include "run/advice.h"
 
 #define TO_CHOICE (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")(TO_TASKS, "tasks")
-/* Wedges that are looked at: one is much like the next. */
+/* Wedges whose warnings are logged; those of further wedges are mostly the same. */
 enum { WARNED = 3 };
 
 enum target { CHOICE_CONSTANTS(TO_CHOICE) };
@@ -27,13 +28,13 @@ struct wanted {
     const char *gpus;
 };
 
-/* ---- what is shown of a local farm */
+/* ---- progress of a local farm */
 
 struct view {
     const struct farm *farm;
     struct progress progress;
     double began;
-    size_t frames, frames_before; /* done now, and when it began */
+    size_t frames, frames_before; /* done now, and at the start */
 };
 
 static void show_news(void *user, enum local_news what, const struct farm_task *t, int worker, double seconds,
@@ -50,13 +51,13 @@ static void show_news(void *user, enum local_news what, const struct farm_task *
         log_info("%s: done in %s", t->name, took);
         break;
     case LOCAL_AGAIN:
-        log_warn("%s: %s; it will be tried again", t->name, why);
+        log_warn("%s: %s; it will be retried", t->name, why);
         break;
     case LOCAL_FAILED:
-        log_warn("%s: failed for good: %s (its log: log/farm/%s.log)", t->name, why, t->name);
+        log_warn("%s: failed permanently: %s (see log/farm/%s.log)", t->name, why, t->name);
         break;
     case LOCAL_LEFT_OUT:
-        log_warn("%s: left out, since it waits for %s", t->name, why);
+        log_warn("%s: skipped, because it depends on %s", t->name, why);
         break;
     case LOCAL_SAVED:
         log_info("%s: stopped after %s", t->name, took);
@@ -120,7 +121,7 @@ done:
 
 /* ---- Slurm */
 
-static status to_slurm(const struct wanted *w, const struct words *operands, struct farm *f)
+static status to_slurm(const struct wanted *w, const struct arguments *operands, struct farm *f)
 {
     status st = OK;
     struct text t = {0};
@@ -135,12 +136,12 @@ static status to_slurm(const struct wanted *w, const struct words *operands, str
     json_text(&t, "folder", f->root.text);
     TRY(slurm_submit(f,
                      &(struct slurm_options){.device = w->common.device,
-                                             .extra = operands->word + 1, /* after the job */
+                                             .extra = operands->item + 1, /* after the job */
                                              .n_extra = operands->n - 1,
                                              .dry_run = w->dry_run},
                      &t));
     json_end_object(&t);
-    TRY(words_print(&t, w->common.json));
+    TRY(answer_print(&t, w->common.json));
 done:
     text_free(&t);
     return st;
@@ -162,7 +163,7 @@ static status to_openjd(const struct wanted *w, struct farm *f)
     }
     TRY(path_format(&path, "%s/%s.openjd.json", f->root.text, f->base->name));
     TRY(atomic_file_write(path.text, t.data, t.size));
-    log_info("%s: submit it with your farm's client, or try it: openjd run %s --step ...", path.text,
+    log_info("%s: submit it with your farm's client, or try it with 'openjd run %s --step ...'", path.text,
              path.text);
 done:
     text_free(&t);
@@ -182,13 +183,13 @@ static status print_tasks(const struct wanted *w, const struct farm *f, bool as_
     json_text(&t, "folder", f->root.text);
     TRY(farm_describe(f, !as_json, w->common.device, &t));
     json_end_object(&t);
-    TRY(words_print(&t, as_json));
+    TRY(answer_print(&t, as_json));
 done:
     text_free(&t);
     return st;
 }
 
-/* ---- any other farm: what to run, in which order */
+/* ---- any other farm: the tasks as JSON */
 
 static status to_tasks(const struct wanted *w, struct farm *f)
 {
@@ -200,11 +201,12 @@ done:
     return st;
 }
 
-static status dispatch(const struct wanted *w, const struct words *operands, struct farm *f)
+static status dispatch(const struct wanted *w, const struct arguments *operands, struct farm *f)
 {
     if (w->to != TO_SLURM && operands->n > 1)
-        return fail(E_USAGE, "submit: '%.80s': only --to slurm takes more words, for sbatch",
-                    operands->word[1]);
+        return fail(E_USAGE,
+                    "submit: unexpected argument '%.80s'; only --to slurm passes arguments on, to sbatch",
+                    operands->item[1]);
     switch ((enum target)w->to) {
     case TO_LOCAL:
         return w->dry_run ? print_tasks(w, f, w->common.json) : to_local(w, f);
@@ -222,17 +224,17 @@ status cli_submit(int argc, char **argv)
 {
     status st = OK;
     struct wanted w = {.to = -1};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct farm farm = {0};
     struct path root;
     bool help = false;
     const struct option options[] = {
         {"to", CHOICE_TEXT(TO_CHOICE), OPTION_CHOICE, &w.to,
-         "this machine's devices; sbatch; a job template (jobtemplate-2023-09); or, for any other farm, the tasks as JSON on stdout: each with its command, what it waits for and what it takes"},
+         "local: run on this machine's devices; slurm: submit with sbatch; openjd: write a job template (jobtemplate-2023-09); tasks: print the tasks as JSON for any other farm, each with its command, dependencies and resources"},
         OPTION_OUT(&w.common),
-        {"dry-run", NULL, OPTION_FLAG, &w.dry_run, "print what would be submitted, and do nothing"},
-        {"gpus", "LIST", OPTION_TEXT, &w.gpus, "local: a worker for each of these devices, such as 0,1"},
-        {"workers", "N", OPTION_INT, &w.workers, "local: this many workers that share the CPU"},
+        {"dry-run", NULL, OPTION_FLAG, &w.dry_run, "print what would be submitted, without submitting it"},
+        {"gpus", "LIST", OPTION_TEXT, &w.gpus, "local: one worker per listed device, such as 0,1"},
+        {"workers", "N", OPTION_INT, &w.workers, "local: number of workers, which share the CPU"},
         OPTION_DEVICE(&w.common),
         OPTION_SET(&w.common),
         OPTION_FROM(&w.common),
@@ -245,10 +247,10 @@ status cli_submit(int argc, char **argv)
     if (help)
         goto done;
     if (w.to < 0) {
-        st = fail(E_USAGE, "submit: --to is missing: --to local, slurm, openjd or tasks");
+        st = fail(E_USAGE, "submit: --to is missing; give --to local, slurm, openjd or tasks");
         goto done;
     }
-    TRY(farm_load(operands.word[0], w.common.sets.word, w.common.sets.n, w.common.from, w.wedge, w.common.out,
+    TRY(farm_load(operands.item[0], w.common.sets.item, w.common.sets.n, w.common.from, w.wedge, w.common.out,
                   &farm));
     for (size_t i = 0; i < farm.n_wedges && i < WARNED; i++)
         TRY(advice_log(farm.wedge[i].job));
@@ -260,7 +262,7 @@ status cli_submit(int argc, char **argv)
     TRY(dispatch(&w, &operands, &farm));
 done:
     farm_free(&farm);
-    words_free(&operands);
+    arguments_free(&operands);
     common_free(&w.common);
     return st;
 }

@@ -1,5 +1,5 @@
-/* hoodoo verify OUT: reads every file there is, against its manifest or record and with the reader of its kind. All is
- * well only when every frame of the job (or of --frames) is there and whole, and so is all that was made of them. */
+/* hoodoo verify OUT: checks every file against its manifest or record and with the reader of its format. Succeeds only if every
+ * frame of the job (or of --frames) exists and is undamaged, and so are all products made from them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,27 +8,27 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "checkpoint/checkpoint.h"
+#include "cli/answer.h"
 #include "cli/cli.h"
 #include "cli/verify.h"
-#include "cli/words.h"
 #include "exr/exr.h"
 #include "run/branch.h"
 #include "vdb/vdb.h"
 
 static void print_line(const char *line)
 {
-    /* Paths are texts of a file that may be anyone's, and farm managers obey lines of stdout. */
+    /* Paths come from files of unknown origin, and farm managers interpret lines of stdout as commands. */
     for (const char *c = line; *c; c++)
         putchar((unsigned char)*c < 0x20 || *c == 0x7f ? ' ' : *c);
     putchar('\n');
     fflush(stdout);
 }
 
-void found(struct search *s, bool missing, const char *path, const char *what)
+void report_problem(struct search *s, bool missing, const char *path, const char *what)
 {
     *(missing ? &s->n_missing : &s->n_damaged) += 1;
     const char *kind = missing ? "missing" : "damaged";
-    /* The readers' sentences begin with the whole path. */
+    /* Messages of the readers begin with the full path, which is redundant here. */
     size_t root = strlen(s->root), relative = strlen(path);
     if (strncmp(what, s->root, root) == 0 && what[root] == '/' &&
         strncmp(what + root + 1, path, relative) == 0 && strncmp(what + root + 1 + relative, ": ", 2) == 0)
@@ -52,7 +52,7 @@ static bool ends_with(const char *path, const char *end)
     return n >= m && strcmp(path + n - m, end) == 0;
 }
 
-/* E_MEMORY alone ends the search; everything else is a finding. */
+/* Only E_MEMORY ends the search; all other errors are reported as problems of the file. */
 static status verify_file(struct search *s, const struct manifest_file *f)
 {
     struct path path;
@@ -63,15 +63,15 @@ static status verify_file(struct search *s, const struct manifest_file *f)
     if ((st = path_join(&path, s->root, f->path)) != OK)
         return st;
     if (access(path.text, F_OK) != 0) {
-        found(s, true, f->path, "");
+        report_problem(s, true, f->path, "");
         return OK;
     }
     st = hash_file(path.text, &hash, &size);
     if (st == OK && size != f->size)
-        snprintf(what, sizeof what, "%llu bytes, its manifest says %llu", (unsigned long long)size,
+        snprintf(what, sizeof what, "%llu bytes; the manifest has %llu", (unsigned long long)size,
                  (unsigned long long)f->size);
     else if (st == OK && hash != f->hash)
-        snprintf(what, sizeof what, "its content is not what its manifest says");
+        snprintf(what, sizeof what, "the content's hash differs from the manifest's");
     else if (st == OK && ends_with(path.text, ".vdb"))
         st = vdb_check(path.text);
     else if (st == OK && ends_with(path.text, ".exr"))
@@ -79,7 +79,7 @@ static status verify_file(struct search *s, const struct manifest_file *f)
     if (st == E_MEMORY)
         return st;
     if (st != OK || *what)
-        found(s, false, f->path, *what ? what : status_message());
+        report_problem(s, false, f->path, *what ? what : status_message());
     return OK;
 }
 
@@ -92,7 +92,7 @@ static status verify_frame(struct search *s, int frame)
     TRY(folder_path(&path, s->root, s->name, FILE_MANIFEST, frame, NULL));
     s->n_files++;
     if (access(path.text, F_OK) != 0) {
-        found(s, true, relative, "the frame is not done");
+        report_problem(s, true, relative, "the frame is not complete");
         goto done;
     }
     s->n_frames++;
@@ -100,18 +100,19 @@ static status verify_frame(struct search *s, int frame)
     if (st == E_MEMORY)
         goto done;
     if (st != OK || m.frame != frame) {
-        found(s, false, relative, st != OK ? status_message() : "it is another frame's");
+        report_problem(s, false, relative, st != OK ? status_message() : "it belongs to another frame");
         st = OK;
         goto done;
     }
     if (m.job_hash != s->job_hash)
-        found(s, false, relative, "it is a frame of another job");
+        report_problem(s, false, relative, "it belongs to another job");
     else if (s->files_hash && m.files_hash != s->files_hash)
-        found(s, false, relative,
-              "it was written with other settings of output, cameras, fps or colours than job.yaml has");
+        report_problem(
+            s, false, relative,
+            "it was written with settings of output, cameras, fps or colours that differ from job.yaml");
     const struct ledger *l = &m.ledger;
     if (l->start != l->rock + l->deposit + l->fallen + l->left)
-        found(s, false, relative, "its ledger does not add up");
+        report_problem(s, false, relative, "its ledger does not add up");
     for (size_t i = 0; i < m.n_files; i++)
         TRY(verify_file(s, &m.file[i]));
 done:
@@ -119,8 +120,8 @@ done:
     return st;
 }
 
-/* The folder's job, by which the frames that should be there are known unless they are asked for, is the one that made them.
- * Where its inputs are not at hand nobody can tell. */
+/* Checks that job.yaml is the job of the frames, and takes from it the frames to expect unless --frames gives them. The job
+ * cannot be compared if its input files are not available. */
 static status verify_job(struct search *s)
 {
     status st = OK;
@@ -131,7 +132,7 @@ static status verify_job(struct search *s)
     TRY(path_join(&path, s->root, "job.yaml"));
     st = job_load(path.text, NULL, 0, &job);
     if (st != OK && st != E_MEMORY) {
-        found(s, false, "job.yaml", status_message());
+        report_problem(s, false, "job.yaml", status_message());
         s->bad_job = true;
         st = OK;
         goto done;
@@ -142,10 +143,10 @@ static status verify_job(struct search *s)
     TRY(job_files_hash(job, &s->files_hash));
     st = job_hash(job, &hash);
     if (st == E_INPUT) {
-        log_info("%s cannot be compared with the frames' job: %s", path.text, status_message());
+        log_info("%s cannot be compared with the job of the frames: %s", path.text, status_message());
         st = OK;
     } else if (st == OK && hash != s->job_hash) {
-        found(s, false, "job.yaml", "it is not the frames' job");
+        report_problem(s, false, "job.yaml", "it is not the job of the frames");
         s->bad_job = true;
     }
 done:
@@ -153,7 +154,7 @@ done:
     return st;
 }
 
-/* Every frame asked for, and those there beyond them (a job whose range was shortened). */
+/* Checks every expected frame, and frames outside the job's range, as left by a job whose range was shortened. */
 static status verify_frames(struct search *s)
 {
     status st = OK;
@@ -182,11 +183,12 @@ static status verify_checkpoint(struct search *s, const char *path, const int *f
     if (st == OK && (!frame || c.frame == *frame))
         return OK;
     s->n_bad_checkpoints++;
-    found(s, false, path + strlen(s->root) + 1, st != OK ? status_message() : "it is another frame's");
+    report_problem(s, false, path + strlen(s->root) + 1,
+                   st != OK ? status_message() : "it belongs to another frame");
     return OK;
 }
 
-/* And the one a branch began with. */
+/* Checks all checkpoints, including the copy that a branch started from. */
 static status verify_checkpoints(struct search *s)
 {
     status st = OK;
@@ -224,7 +226,7 @@ static status report(struct search *s)
         json_integer(&s->answer, "damaged", (int64_t)s->n_damaged);
         json_integer(&s->answer, "missing", (int64_t)s->n_missing);
         json_end_object(&s->answer);
-        TRY(words_print(&s->answer, true));
+        TRY(answer_print(&s->answer, true));
     } else {
         char line[200];
         snprintf(line, sizeof line,
@@ -233,9 +235,8 @@ static status report(struct search *s)
         print_line(line);
     }
     if (s->n_damaged + s->n_missing)
-        st =
-            fail(E_INPUT, "%s: of %zu files %zu are damaged, %zu missing; %s what is damaged or missing anew",
-                 s->root, s->n_files, s->n_damaged, s->n_missing, how.data);
+        st = fail(E_INPUT, "%s: %zu of %zu files damaged, %zu missing; to make them again, run %s", s->root,
+                  s->n_damaged, s->n_files, s->n_missing, how.data);
 done:
     text_free(&how);
     return st;
@@ -245,7 +246,7 @@ status cli_verify(int argc, char **argv)
 {
     status st = OK;
     struct common c = {0};
-    struct words operands = {0};
+    struct arguments operands = {0};
     struct search s = {0};
     bool help;
     const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c)};
@@ -253,7 +254,7 @@ status cli_verify(int argc, char **argv)
                       &help));
     if (help)
         goto done;
-    s.root = operands.word[0];
+    s.root = operands.item[0];
     s.json = c.json;
     TRY(folder_open(s.root, s.name));
     s.frames = c.frames;
@@ -273,6 +274,6 @@ status cli_verify(int argc, char **argv)
 done:
     text_free(&s.answer);
     remakes_free(&s);
-    words_free(&operands);
+    arguments_free(&operands);
     return st;
 }

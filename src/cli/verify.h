@@ -1,44 +1,45 @@
-/* What `hoodoo verify` has found so far, and what would make it anew. */
+/* The state of `hoodoo verify`: problems found, and the commands that repair them. */
 #ifndef HOODOO_VERIFY_H
 #define HOODOO_VERIFY_H
 
 #include "base/text.h"
 #include "output/product.h"
 
-/* A command that makes damaged products anew. */
+/* A command that makes damaged or missing products again. */
 struct remake {
     size_t n_words;
     char **word;     /* owned */
-    int first, last; /* the frames it is to make; ALL_FRAMES: it takes none */
-    bool late;       /* it is made of other products */
+    int first, last; /* frames to make; ALL_FRAMES: the command takes no frames */
+    bool late;       /* its input are other products */
 };
 
 struct search {
     const char *root;
     char name[256];
-    struct frame_range frames; /* step 0: the job cannot be read, and they are not known */
-    bool json, only_frames;    /* --frames: checkpoints, and what is of all frames, are not asked for */
-    bool bad_job;              /* said of job.yaml already */
-    uint64_t job_hash;         /* of the frames' job */
-    uint64_t files_hash;       /* of what else of job.yaml is in the files of frames */
+    struct frame_range frames; /* step 0: unknown, because the job cannot be read */
+    bool json,
+        only_frames; /* only_frames: --frames is given, which excludes checkpoints and products of all frames */
+    bool bad_job;    /* a problem with job.yaml was already reported */
+    uint64_t job_hash;   /* of the job that made the frames */
+    uint64_t files_hash; /* of the keys of job.yaml that affect the files of frames only; 0: unknown */
     size_t n_frames, n_files, n_products, n_checkpoints, n_bad_checkpoints, n_damaged, n_missing;
-    size_t n_others; /* of the damaged and missing: those that `hoodoo run` does not make */
+    size_t n_others; /* damaged and missing files that `hoodoo run` does not make */
     struct remake *remake;
     size_t n_remakes, remake_capacity;
-    struct text answer; /* where json is set: so far up to the list of problems */
+    struct text answer; /* with json: the output so far, up to the list of problems */
 };
 
-/* Says it, and counts it. */
-void found(struct search *s, bool missing, const char *path, const char *what);
+/* Reports and counts a problem of the file `path`. */
+void report_problem(struct search *s, bool missing, const char *path, const char *what);
 
-/* Everything that has a record. E_MEMORY alone ends the search. */
+/* Checks every product that has a record. Only E_MEMORY ends the search. */
 MUST_USE status verify_products(struct search *s);
 
-/* `hoodoo run` is needed, for frames or checkpoints. */
+/* Adds the command `hoodoo run`, for frames or, with `repair`, checkpoints too. */
 MUST_USE status remake_run(struct search *s, bool repair);
 
-/* "'hoodoo run' and then 'hoodoo mesh OUT --missing' make", and the same as a list of a JSON object, in the order in which they are to be
- * given. */
+/* The commands in the order in which they are to be run: as text, such as "hoodoo run" and then "hoodoo mesh OUT --missing"; and as
+ * the JSON list `commands`. */
 MUST_USE status remake_text(const struct search *s, struct text *out);
 MUST_USE status remake_json(struct search *s);
 void remakes_free(struct search *s);

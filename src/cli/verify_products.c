@@ -1,4 +1,4 @@
-/* What was made of the frames is as its records say, or which command makes it anew. */
+/* Checks products against their records, and collects the commands that make damaged ones again. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,8 +51,9 @@ static bool is_run(const char *verb)
     return strcmp(verb, "run") == 0;
 }
 
-/* This command is to make a product of this frame, or of ALL_FRAMES. `run` is added once for all it makes (remake_run()). */
-static status note(struct search *s, size_t n, const char *const *word, int frame, const char *path)
+/* Adds the command that makes the product `path` of a frame, or of ALL_FRAMES. `run` is left to remake_run(). */
+static status add_product_command(struct search *s, size_t n, const char *const *word, int frame,
+                                  const char *path)
 {
     status st = OK;
     struct remake *r = NULL;
@@ -83,13 +84,13 @@ done:
     return st;
 }
 
-/* run before all that reads frames; pictures before sheets and videos of them; reports last. */
+/* Order of the commands: run first, since the others read frames; sheets and videos after pictures; reports last. */
 static int rank(const struct remake *r)
 {
     return is_run(r->word[0]) ? 0 : !r->late ? 1 : strcmp(r->word[0], "report") != 0 ? 2 : 3;
 }
 
-/* As a shell takes it. */
+/* Adds a word, quoted for a shell if necessary. */
 static void add_word(struct text *t, const char *word)
 {
     if (*word && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@") ==
@@ -126,7 +127,6 @@ status remake_text(const struct search *s, struct text *out)
                 add_command(s, &s->remake[i], out);
                 text_add(out, "\"");
             }
-    text_add(out, n == 1 ? " makes" : " make");
     return text_status(out);
 }
 
@@ -150,10 +150,10 @@ done:
     return st;
 }
 
-/* ---- products whose record is damaged: how it was made is known of one like it, or guessed */
+/* ---- products with a damaged record: the command is taken from a similar product, or guessed */
 
-/* The same path but for its numbers? */
-static bool alike(const char *a, const char *b)
+/* Whether two paths differ in numbers only. */
+static bool differ_in_numbers_only(const char *a, const char *b)
 {
     static const char digits[] = "0123456789";
     for (;;) {
@@ -180,7 +180,7 @@ static int frame_in(const char *path)
     return ALL_FRAMES;
 }
 
-static status note_unknown(struct search *s, const struct product_list *all, const char *path)
+static status guess_command(struct search *s, const struct product_list *all, const char *path)
 {
     static const struct {
         const char *begin;
@@ -196,7 +196,7 @@ static status note_unknown(struct search *s, const struct product_list *all, con
     const int frame = frame_in(path);
     bool known = false;
     for (size_t i = 0; i < all->n && !known; i++) {
-        if (strcmp(all->path[i], path) == 0 || !alike(all->path[i], path))
+        if (strcmp(all->path[i], path) == 0 || !differ_in_numbers_only(all->path[i], path))
             continue;
         product_free(&p);
         st = product_read(s->root, all->path[i], &p);
@@ -206,18 +206,18 @@ static status note_unknown(struct search *s, const struct product_list *all, con
     }
     st = OK;
     if (known) {
-        TRY(note(s, p.n_words, p.word, p.frame == ALL_FRAMES ? ALL_FRAMES : frame, path));
+        TRY(add_product_command(s, p.n_words, p.word, p.frame == ALL_FRAMES ? ALL_FRAMES : frame, path));
         goto done;
     }
     for (size_t i = 0; i < sizeof guess / sizeof *guess; i++)
         if (strncmp(path, guess[i].begin, strlen(guess[i].begin)) == 0) {
-            return note(s, guess[i].n, guess[i].word,
-                        strcmp(guess[i].begin, "report/") == 0 ? ALL_FRAMES : frame, path);
+            return add_product_command(s, guess[i].n, guess[i].word,
+                                       strcmp(guess[i].begin, "report/") == 0 ? ALL_FRAMES : frame, path);
         }
     if (strstr(path, ".png") || strstr(path, ".mp4")) {
         static const char *const sheet[] = {"preview", "--only=sheet"}, *const video[] = {"preview",
                                                                                           "--only=video"};
-        TRY(note(s, 2, strstr(path, ".png") ? sheet : video, ALL_FRAMES, path));
+        TRY(add_product_command(s, 2, strstr(path, ".png") ? sheet : video, ALL_FRAMES, path));
     }
 done:
     product_free(&p);
@@ -237,10 +237,10 @@ static status verify_product(struct search *s, const struct product_list *all, c
     s->n_products++;
     if (st != OK || p.n_words == 0) {
         char why[600];
-        snprintf(why, sizeof why, "%s", st != OK ? status_message() : "it names no command");
+        snprintf(why, sizeof why, "%s", st != OK ? status_message() : "the record names no command");
         TRY(product_record(&record, path));
-        found(s, false, record.text, why);
-        TRY(note_unknown(s, all, path));
+        report_problem(s, false, record.text, why);
+        TRY(guess_command(s, all, path));
         goto done;
     }
     if (s->only_frames && (p.frame == ALL_FRAMES || !range_holds(s->frames, p.frame)))
@@ -256,8 +256,8 @@ static status verify_product(struct search *s, const struct product_list *all, c
     snprintf(why, sizeof why, "%s", status_message());
     TRY(path_join(&full, s->root, path));
     const bool missing = access(full.text, F_OK) != 0;
-    found(s, missing, path, missing ? "" : why);
-    TRY(note(s, p.n_words, p.word, p.frame, path));
+    report_problem(s, missing, path, missing ? "" : why);
+    TRY(add_product_command(s, p.n_words, p.word, p.frame, path));
 done:
     product_free(&p);
     return st;

@@ -1,4 +1,4 @@
-/* What the table's ranges cannot say: values that must fit each other. */
+/* Checks that the ranges in keys.def cannot express: values that depend on each other. */
 #include <math.h>
 #include <string.h>
 #include <strings.h>
@@ -7,10 +7,10 @@
 #include "job/parse.h"
 #include "job/values.h"
 
-/* Each may be a job of its own. */
+/* A limit because each edit may require a copy of the job. */
 enum { EDITS = 256 };
 
-/* The place of `key` where it is given, else of the mapping that lacks it. */
+/* The value of `key` if it is given, else the mapping that lacks it. */
 static const struct yaml *place(const struct yaml *map, const char *key)
 {
     const struct yaml *v = yaml_get(map, key);
@@ -39,15 +39,16 @@ static status check_corners(const struct yaml *map, const double min[3], const d
 
 static status check_direction(const struct yaml *map, const char *key, const double v[3])
 {
-    return length(v) < 1e-6 ? yaml_fail(place(map, key), NULL, "has no length, so no direction") : OK;
+    return length(v) < 1e-6 ? yaml_fail(place(map, key), NULL, "is zero, so it gives no direction") : OK;
 }
 
 static status check_wind(const struct yaml *map, const struct job_wind *w)
 {
     const double *d = w->direction;
     if (length(d) >= 1e-6 && w->flow.solver == FLOW_SPH && hypot(d[0], d[1]) < 0.5 * length(d))
-        return yaml_fail(place(map, "direction"), NULL,
-                         "steeper than 60 degrees, which flow.solver: sph cannot lay flat (use uniform)");
+        return yaml_fail(
+            place(map, "direction"), NULL,
+            "steeper than 60 degrees; flow.solver: sph needs a flatter direction (or use uniform)");
     return check_direction(map, "direction", d);
 }
 
@@ -63,7 +64,7 @@ static status check_cylinder(const struct yaml *map, const struct job_cylinder *
 
 static status check_camera(const struct yaml *map, const struct job_camera *c)
 {
-    /* Where either has a key; between keys it is only a picture. */
+    /* Checked at the frames of either curve; if they meet between those, only a picture is affected. */
     const struct curve *keys[] = {&c->position_m, &c->target_m};
     for (size_t k = 0; k < 2; k++)
         for (size_t i = 0; i < keys[k]->n; i++) {
@@ -84,10 +85,11 @@ static status check_nodata(const struct yaml *map, const char *value)
     if (!*value || yaml_decimal(value, &number))
         return OK;
     return yaml_fail(place(map, "nodata_value"), NULL,
-                     "'%.40s' is not a number, which pixels could hold (NaN never counts as a value)", value);
+                     "'%.40s' is not a finite number (NaN always counts as no data)", value);
 }
 
-/* max_m left out, or its x and y 0: the file says how large it is. Heights of black and white are wanted unless values are metres. */
+/* The file determines the size if max_m is omitted or its x and y are 0. Heights of black and white are required unless the values are
+ * metres. */
 static status check_heightfield(const struct yaml *map, const struct job_heightfield *h)
 {
     status st = OK;
@@ -99,11 +101,11 @@ static status check_heightfield(const struct yaml *map, const struct job_heightf
                              h -> max_m[i], h -> min_m[i]);
     if ((h->origin_m[0] != 0 || h->origin_m[1] != 0) && job_sizes_heightfield(h))
         return yaml_fail(place(map, "origin_m"), NULL,
-                         "given beside max_m, which says where the picture lies: leave one of them out");
+                         "conflicts with max_m, which already places the picture: omit one of them");
     if (h->offset_m != 0 && heights)
         return yaml_fail(
             place(map, "offset_m"), NULL,
-            "given beside heights of black and white (min_m.z and max_m.z): it belongs to scale_m");
+            "has no effect with heights of black and white (min_m.z and max_m.z): give scale_m, or omit it");
 done:
     return st;
 }
@@ -118,7 +120,7 @@ static status check_image(const struct yaml *map, const struct job_image *i)
     for (int a = 0; a < 3; a++)
         along += i->right_m[a] * i->up_m[a];
     if (fabs(along) > 1e-6 * length(i->right_m) * length(i->up_m))
-        st = yaml_fail(place(map, "up_m"), NULL, "not at a right angle to right_m");
+        st = yaml_fail(place(map, "up_m"), NULL, "not perpendicular to right_m");
 done:
     return st;
 }
@@ -126,22 +128,22 @@ done:
 static status check_paint(const struct yaml *map, const struct job_paint *p)
 {
     if (!p->shape && !p->image && !p->noise)
-        return yaml_fail(map, NULL, "neither shape nor image nor noise says where to paint");
+        return yaml_fail(map, NULL, "gives no place to paint: add shape, image or noise");
     if (p->falloff_m > 0 && !p->shape)
-        return yaml_fail(place(map, "falloff_m"), NULL, "only a shape has a falloff, and there is none");
+        return yaml_fail(place(map, "falloff_m"), NULL, "applies to a shape, and none is given");
     if (p->vegetation < 0 && p->vegetation != -1)
-        return yaml_fail(place(map, "vegetation"), NULL, "negative (0 to 1, or -1 to leave it)");
+        return yaml_fail(place(map, "vegetation"), NULL, "negative (0 to 1, or -1 for unchanged)");
     return OK;
 }
 
 static status check_light(const struct yaml *map, const struct job_light *l)
 {
     if (l->sun && l->solar)
-        return yaml_fail_key(yaml_get(map, "solar"), "and sun both say where the sun stands: one of them");
+        return yaml_fail_key(yaml_get(map, "solar"), "and sun exclude each other: omit one of them");
     for (size_t i = 0; i < l->temperature_K.n; i++)
         if (l->temperature_K.value[i] > 0 && l->temperature_K.value[i] < 1667)
             return yaml_fail(place(map, "temperature_K"), NULL,
-                             "%g K is below 1667 (0: as the air leaves the sun's light)",
+                             "%g K is below 1667 (0: as the atmosphere filters it)",
                              l->temperature_K.value[i]);
     return OK;
 }
@@ -149,13 +151,13 @@ static status check_light(const struct yaml *map, const struct job_light *l)
 static status check_material(const struct yaml *map, const struct job_material *m)
 {
     if (m->repose_deg < 0 && m->repose_deg != -1)
-        return yaml_fail(place(map, "repose_deg"), NULL, "negative (0 to 90, or -1 for its own)");
+        return yaml_fail(place(map, "repose_deg"), NULL, "negative (0 to 90, or -1 for the default)");
     if (strcmp(m->name, "air") == 0)
-        return yaml_fail(map, NULL, "air is not a material to change");
+        return yaml_fail(map, NULL, "air is not a material that can be changed");
     return OK;
 }
 
-/* What each tool needs. */
+/* Checks what each tool requires. */
 static status check_operation(const struct yaml *map, const struct job_operation *op)
 {
     if (op->n_points_m == 0 && op->tool != TOOL_NOISE)
@@ -163,8 +165,8 @@ static status check_operation(const struct yaml *map, const struct job_operation
                          "this tool needs at least one point [x, y, z, radius]");
     for (size_t i = 0; i < op->n_points_m; i++)
         if (!(op->points_m[i][3] > 0))
-            return yaml_fail(yaml_item(yaml_get(map, "points_m"), i), NULL, "a radius of %g m (above 0)",
-                             op->points_m[i][3]);
+            return yaml_fail(yaml_item(yaml_get(map, "points_m"), i), NULL,
+                             "a radius of %g m (must be above 0)", op->points_m[i][3]);
     for (size_t i = 0; i < op->n_arcs; i++)
         for (int end = 0; end < 2; end++) {
             double at = op->arcs[i][end];
@@ -174,17 +176,17 @@ static status check_operation(const struct yaml *map, const struct job_operation
                                  op->arcs[i][0], op->arcs[i][1], op->n_points_m);
         }
     if (op->n_profile && op->n_profile < 3)
-        return yaml_fail(yaml_get(map, "profile"), NULL, "%zu points close no curve (at least 3)",
+        return yaml_fail(yaml_get(map, "profile"), NULL, "%zu points do not form a closed curve (at least 3)",
                          op->n_profile);
     if (op->n_end_profile && op->n_end_profile != op->n_profile)
-        return yaml_fail(yaml_get(map, "end_profile"), NULL, "%zu points, and profile has %zu",
+        return yaml_fail(yaml_get(map, "end_profile"), NULL, "%zu points, but profile has %zu",
                          op->n_end_profile, op->n_profile);
     if (op->tool == TOOL_SWEEP && op->n_points_m < 2)
         return yaml_fail(place(map, "points_m"), NULL, "a sweep needs at least two points");
     return OK;
 }
 
-/* A range of heights in the pile of beds. */
+/* Checks a range of stratigraphic heights. */
 static status check_heights(const struct yaml *map, double from, double to)
 {
     return to > from
@@ -235,7 +237,7 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
                              ((const struct job_function *)base)->max_m);
     case SECTION_stroke:
         if (((const struct job_stroke *)base)->n_path_m == 0)
-            return yaml_fail(place(map, "path_m"), NULL, "no point: a stroke has at least one");
+            return yaml_fail(place(map, "path_m"), NULL, "no points: a stroke needs at least one");
         return OK;
     case SECTION_image:
         return check_image(map, base);
@@ -289,7 +291,7 @@ static status check_strata(const struct yaml *root, const struct job *job)
     return OK;
 }
 
-/* On some disks their files would be the same. */
+/* On case-insensitive file systems their files would collide. */
 static status check_camera_names(const struct yaml *root, const struct job *job)
 {
     const struct yaml *map = yaml_get(root, "cameras");
@@ -297,7 +299,7 @@ static status check_camera_names(const struct yaml *root, const struct job *job)
         for (size_t k = 0; k < i; k++)
             if (strcasecmp(job->cameras[i].name, job->cameras[k].name) == 0)
                 return yaml_fail_key(yaml_get(map, job->cameras[i].name),
-                                     "differs from '%s' in case alone; files are named by cameras",
+                                     "differs from '%s' in case only; files are named after cameras",
                                      job->cameras[k].name);
     return OK;
 }
@@ -311,7 +313,7 @@ static status check_farm_cameras(const struct yaml *root, const struct job *job)
             found |= strcmp(job->farm.cameras[i], job->cameras[k].name) == 0;
         if (!found)
             return yaml_fail(yaml_item(list, i), NULL, "no camera '%s' in cameras", job->farm.cameras[i]);
-        /* With one AOV camera its pictures carry no camera's name, so the names cannot clash. */
+        /* The pictures of a single AOV camera do not carry its name, so the names cannot clash. */
         for (size_t k = 0; k < job->output.aov.n_cameras && job->output.aov.n_cameras > 1; k++)
             if (strcmp(job->farm.cameras[i], job->output.aov.cameras[k]) == 0)
                 return yaml_fail(yaml_item(list, i), NULL,
@@ -321,7 +323,7 @@ static status check_farm_cameras(const struct yaml *root, const struct job *job)
     return OK;
 }
 
-/* Whether `word` is among the n that there are; else the message names the one nearest to it. */
+/* Checks that `word` is one of the n known words; if not, the message suggests the closest one. */
 static status check_word(const struct yaml *at, const char *what, const char *word, const char *const *known,
                          size_t n)
 {
@@ -378,7 +380,8 @@ static status check_aov_cameras(const struct yaml *root, const struct job *job)
         for (size_t k = 0; k < i; k++)
             again |= strcmp(aov->cameras[i], aov->cameras[k]) == 0;
         if (!found && job->n_cameras == 0)
-            return yaml_fail(yaml_item(list, i), NULL, "no camera '%s': cameras has none", aov->cameras[i]);
+            return yaml_fail(yaml_item(list, i), NULL, "no camera '%s': the job has no cameras",
+                             aov->cameras[i]);
         if (!found)
             return yaml_fail(yaml_item(list, i), NULL, "no camera '%s' in cameras (the first there is '%s')",
                              aov->cameras[i], job->cameras[0].name);
@@ -388,25 +391,25 @@ static status check_aov_cameras(const struct yaml *root, const struct job *job)
     return OK;
 }
 
-/* Years or seconds: one of the two passes. */
+/* Checks that either years or seconds pass. */
 static status check_clock(const struct yaml *root, const struct job *job)
 {
     const struct job_clock *c = &job->clock;
     const struct yaml *map = yaml_get(root, "clock");
     if (c->seconds_per_frame > 0 && c->years_per_frame > 0)
         return yaml_fail(place(map, "seconds_per_frame"), NULL,
-                         "given beside years_per_frame (%g): leave one of them out, or set it to 0",
+                         "conflicts with years_per_frame (%g): omit one of them, or set it to 0",
                          c->years_per_frame);
     if (c->seconds_per_frame == 0 && !(c->years_per_frame >= 1e-3))
-        return yaml_fail(place(map, "years_per_frame"), NULL, "%g, and no seconds_per_frame: no time passes",
-                         c->years_per_frame);
+        return yaml_fail(place(map, "years_per_frame"), NULL,
+                         "%g without seconds_per_frame: no time would pass", c->years_per_frame);
     if (c->seconds_per_frame > 0 && !job_model(job)->seconds)
-        return yaml_fail(place(map, "seconds_per_frame"), NULL, "model: %s has no shots in real time",
-                         job_model(job)->name);
+        return yaml_fail(place(map, "seconds_per_frame"), NULL,
+                         "model: %s does not support shots in real time", job_model(job)->name);
     return OK;
 }
 
-/* The air's own boundary is the rock that there is, not its image behind a wall. */
+/* The boundary of the air is the rock itself, without its mirror image behind a wall. */
 static status check_walls(const struct yaml *root, const struct job *job)
 {
     static const char *const sides[] = {"x_min", "x_max", "y_min", "y_max"};
@@ -417,22 +420,22 @@ static status check_walls(const struct yaml *root, const struct job *job)
         return OK;
     while (!(walls >> first & 1))
         first++;
-    return yaml_fail(
-        flow ? place(flow, "solver") : root, NULL,
-        "sph does not know what the air does at a wall, and domain.sides.%s is one (use uniform, or open sides)",
-        sides[first]);
+    return yaml_fail(flow ? place(flow, "solver") : root, NULL,
+                     "sph does not support walls, and domain.sides.%s is one (use uniform, or open sides)",
+                     sides[first]);
 }
 
-/* A particle cannot take more than its voxel. */
+/* A particle cannot fill more than its voxel. */
 static status check_deposition(const struct yaml *root, const struct job *job)
 {
     const struct job_deposition *d = &job->deposition;
     const struct yaml *map = yaml_get(root, "deposition");
     if ((1 - d->fines) * d->bulking <= 1)
         return OK;
-    return yaml_fail(map ? place(map, "bulking") : root, NULL,
-                     "%g times what fines leave (1 - %g) is more room than the rock took; at most %g here",
-                     d->bulking, d->fines, 1 / (1 - d->fines));
+    return yaml_fail(
+        map ? place(map, "bulking") : root, NULL,
+        "%g times the share that fines leave (1 - %g) exceeds the rock's volume; at most %g here", d->bulking,
+        d->fines, 1 / (1 - d->fines));
 }
 
 static status check_sources(const struct yaml *root, const struct job *job)
@@ -440,8 +443,7 @@ static status check_sources(const struct yaml *root, const struct job *job)
     const struct yaml *list = yaml_get(root, "sources");
     for (size_t i = 0; i < job->n_sources; i++)
         if (job->sources[i].bed_m > 0 && job->sources[i].n_path_m == 0)
-            return yaml_fail(place(yaml_item(list, i), "bed_m"), NULL,
-                             "a bed along path_m, which has no points");
+            return yaml_fail(place(yaml_item(list, i), "bed_m"), NULL, "a bed needs points in path_m");
     return OK;
 }
 
@@ -454,7 +456,7 @@ static status check_edits(const struct yaml *root, const struct job *job)
         const struct job_edit *e = &job->edits[i];
         const struct yaml *item = yaml_item(list, i);
         if (!job_model(job)->edits)
-            return yaml_fail(list, NULL, "model: %s has no edits", job_model(job)->name);
+            return yaml_fail(list, NULL, "model: %s does not support edits", job_model(job)->name);
         if (i && e->frame < e[-1].frame)
             return yaml_fail(place(item, "frame"), NULL,
                              "frame %lld is before the edit above it, of frame %lld", (long long)e->frame,
@@ -465,7 +467,7 @@ static status check_edits(const struct yaml *root, const struct job *job)
         if (job->clock.seconds_per_frame > 0 && e->frame > job->frames.first)
             return yaml_fail(
                 place(item, "frame"), NULL,
-                "a shot in real time (clock.seconds_per_frame) has no edits after its first frame");
+                "a shot in real time (clock.seconds_per_frame) allows edits in its first frame only");
         if (!e->carve && !e->n_add && !e->n_paint && !e->set.n)
             return yaml_fail(item, NULL, "changes nothing: give it carve, add, paint or set");
         for (size_t k = 0; k < e->n_add; k++)
@@ -477,7 +479,7 @@ static status check_edits(const struct yaml *root, const struct job *job)
     return OK;
 }
 
-/* Lists that are zipped must end together. */
+/* Zipped lists must have the same length. */
 static status check_wedge(const struct yaml *root, const struct job_wedge *wedge)
 {
     const struct yaml *map = yaml_get(root, "wedge"), *list = yaml_get(map ? map : root, "over");
@@ -486,12 +488,13 @@ static status check_wedge(const struct yaml *root, const struct job_wedge *wedge
         if (wedge->over[i].n_values == 0)
             return yaml_fail(place(at, "values"), NULL, "a wedge without values");
         if (wedge->combine == WEDGE_ZIP && wedge->over[i].n_values != wedge->over[0].n_values)
-            return yaml_fail(place(at, "values"), NULL,
-                             "%zu values, but %s has %zu; zipped lists are of one length (or combine: cross)",
-                             wedge->over[i].n_values, wedge->over[0].key, wedge->over[0].n_values);
+            return yaml_fail(
+                place(at, "values"), NULL,
+                "%zu values, but %s has %zu; with combine: zip all lists must have the same length",
+                wedge->over[i].n_values, wedge->over[0].key, wedge->over[0].n_values);
     }
     if (wedge->n_over && *wedge->csv)
-        return yaml_fail(place(map, "csv"), NULL, "given beside over; a wedge has one of the two");
+        return yaml_fail(place(map, "csv"), NULL, "conflicts with over: omit one of them");
     return OK;
 }
 

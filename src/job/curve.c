@@ -1,6 +1,6 @@
 #include "job/job.h"
 
-/* The keys on both sides of a frame, and the share of the later one. */
+/* The curve's keys on both sides of a frame, and the weight of the later one. */
 struct between {
     size_t low, high;
     double u;
@@ -41,7 +41,7 @@ void track_at(const struct curve *c, double frame, double out[3])
         out[a] = c->value[3 * b.low + a] + (c->value[3 * b.high + a] - c->value[3 * b.low + a]) * b.u;
 }
 
-/* No ease overshoots, so the largest key is the largest value. */
+/* No ease overshoots, so the maximum is at a key. */
 double curve_max(const struct curve *c)
 {
     double max = c->value[0];

@@ -18,7 +18,7 @@ static status default_section(enum job_section_id section, const struct yaml *ma
     return st;
 }
 
-/* The table's own text, "[1, 0, 0]". */
+/* Parses a default given as text in the table, such as "[1, 0, 0]". */
 static void default_vec(const struct job_key *key, double *out)
 {
     const char *s = key->preset + 1;
@@ -97,7 +97,7 @@ status read_default(const struct job_key *key, const struct yaml *map, const cha
     case KEY_MAYBE:
     case KEY_RANGES:
     case KEY_SETS:
-        break; /* zeroed: none */
+        break; /* already zeroed */
     }
     return OK;
 }
@@ -136,7 +136,7 @@ status read_default_layer(const struct yaml *root, struct job *job)
 {
     if (job->n_strata)
         return OK;
-    free(job->strata); /* an empty list has memory too */
+    free(job->strata); /* an empty list is allocated too */
     status st = memory_alloc(1, sizeof *job->strata, "a layer", &job->strata);
     if (st != OK)
         return st;

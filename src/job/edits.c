@@ -1,15 +1,15 @@
-/* Edits: what they set, and the jobs that come of it. */
+/* Edits: the parameters that they set, and the resulting jobs. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "job/parse.h"
 
-/* One line that YAML reads as the same value. */
+/* Writes a value as one line of YAML. */
 static void put_flow(struct text *t, const struct yaml *v)
 {
     if (v->kind == YAML_SCALAR) {
-        /* Plain text may hold what means something inside brackets. */
+        /* Plain text is quoted, because it may contain characters with a meaning inside brackets. */
         if (v->quoted || v->text[strcspn(v->text, ",[]{}:#\n")])
             put_quoted(t, v->text);
         else
@@ -44,7 +44,7 @@ status read_sets(const struct yaml *map, struct job_sets *out)
     status st = OK;
     struct text t = {0};
     if (map->kind != YAML_MAP)
-        return yaml_fail(map, NULL, "%s, but a mapping of key paths is wanted ({wind.speed_m_s: 14, ...})",
+        return yaml_fail(map, NULL, "%s where a mapping of key paths is expected ({wind.speed_m_s: 14, ...})",
                          yaml_what(map));
     TRY(memory_alloc(map->n, sizeof *out->item, "settings", &out->item));
     for (const struct yaml *v = map->first; v; v = v->next) {
@@ -60,7 +60,8 @@ done:
     return st;
 }
 
-/* Particles know their layer by its index; processes keep something for every source, and the air its box. */
+/* Refuses changes that the state does not allow: particles refer to strata by index, processes keep state for every source, and the air
+ * has a fixed box. */
 static status check_layout(const struct yaml *at, const struct job *job, const struct job *edited)
 {
     if (edited->n_strata != job->n_strata)
@@ -74,7 +75,7 @@ static status check_layout(const struct yaml *at, const struct job *job, const s
         is->divergence_iterations != was->divergence_iterations || is->viscosity != was->viscosity)
         return yaml_fail(
             at, NULL,
-            "an edit cannot change wind.flow but for reach_m, settled, flushes, rock_change and wind_change: the air is laid out at the start");
+            "an edit can change only reach_m, settled, flushes, rock_change and wind_change of wind.flow: the air is set up at the start");
     return OK;
 }
 

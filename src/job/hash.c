@@ -1,6 +1,7 @@
-/* The job hash: SIM keys in the table's order, and LATER ones that are not their defaults, names and values in a form that
- * does not depend on how they were written. Numbers are their eight bytes (little endian, as on every machine this runs on), texts end in
- * NUL, lists and mappings begin with their length, and a file is its content. Last comes the first frame, from which ages count. */
+/* The job hash. It covers SIM keys in the table's order and LATER keys that differ from their defaults, with names and values in a
+ * canonical form that does not depend on how they were written: numbers as eight bytes (little endian, as on all supported
+ * machines), texts with a NUL, lists and mappings with their length first, and files as their content. The first frame, from
+ * which ages count, comes last. */
 #include "base/hash.h"
 
 #include <errno.h>
@@ -12,29 +13,29 @@
 #include "base/memory.h"
 #include "job/parse.h"
 
-/* A key that is no section, and where its part of the canonical form ends. */
+/* A key that is not a section, and where its part of the canonical form ends. */
 struct leaf {
     char path[256];
     size_t end;
 };
 
-/* What of it: all; or, for the hash of a frame, what has the same value in all frames, or what one frame has. */
+/* The part to hash: all; or, for the hash of a frame, the values that are the same in all frames, or those of one frame. */
 enum walk_part { WALK_ALL, WALK_STEADY, WALK_MOMENT };
 
-/* Walks the job once for all uses: its canonical form of what is simulated, or of what the files of frames have, or the files it
- * reads. */
+/* Traverses the job for all purposes: the canonical form of what affects the simulation, or the files of frames, or the list of input
+ * files. */
 struct walk {
     enum walk_part part;
     int frame;               /* WALK_MOMENT */
     const struct job *whole; /* for a frame's hash: the job as loaded, which has the edits */
     struct text canonical;
-    struct leaf *leaf; /* if wanted */
+    struct leaf *leaf; /* with `leaves` */
     size_t n_leaves, leaf_capacity;
     bool leaves, of_files, all; /* all: every key of a section */
     struct job_input *inputs;
     size_t n_inputs, capacity;
     bool only_inputs;
-    char path[256]; /* key path of what is being walked */
+    char path[256]; /* key path of the current position */
 };
 
 static void put_number(struct walk *w, double v)
@@ -61,8 +62,8 @@ static void put_range(struct walk *w, struct frame_range range)
     put_number(w, range.step);
 }
 
-/* A curve that never changes is a number, however it is written. Of all frames together counts only whether it is ever above 0: a
- * model has no room for water, say, where none ever flows. */
+/* A constant curve is hashed as a number, however it is written. For the part that is common to all frames, only whether a curve is ever
+ * above 0 counts: a model allocates nothing for water, for example, if there never is any. */
 static void put_curve(struct walk *w, const struct curve *c, size_t width)
 {
     double now[3];
@@ -90,7 +91,7 @@ static void put_curve(struct walk *w, const struct curve *c, size_t width)
         put_count(w, (size_t)c->ease);
 }
 
-/* Only regular files: a job may name a pipe, or /dev/zero, which would be read for ever. */
+/* Accepts regular files only: a pipe or /dev/zero could be read forever. */
 static status walk_input(struct walk *w, const char *path)
 {
     struct job_input input = {.path = path};
@@ -168,8 +169,8 @@ done:
     return st;
 }
 
-/* An edit or an operation, wholly in the frames in which it is done. What an edit sets and is steady counts from the start, and whether it
- * plants anything: models lay out their room by it. */
+/* An edit or an operation is hashed in full in the frames in which it is applied. Constant parameters that an edit sets, and whether it
+ * plants anything, count from the start, because models allocate memory accordingly. */
 static status walk_deed(struct walk *w, enum job_section_id section, const void *item)
 {
     status st = OK;
@@ -212,13 +213,13 @@ done:
     return st;
 }
 
-/* Whatever was set, and however it was written: the job that came of it. What no edit changes is hashed
- * already. */
+/* Settings of an edit are hashed as the resulting job, independent of how they were written. Values that no edit changes are already
+ * hashed. */
 static status walk_sets(struct walk *w, const struct job_sets *sets)
 {
     const struct job_section *s = &job_sections[SECTION_job];
     status st = OK;
-    if (w->whole && w->part == WALK_ALL) /* a frame's hash has the job as they leave it */
+    if (w->whole && w->part == WALK_ALL) /* the hash of a frame covers the job with its edits applied */
         return OK;
     put_count(w, sets->n);
     for (size_t i = 0; sets->n && i < s->n; i++)
@@ -228,7 +229,7 @@ done:
     return st;
 }
 
-/* Whether a key can have another value in another frame, or holds keys that can. Nodes cannot. */
+/* Whether the value of a key, or of a key inside it, can vary between frames. Nodes cannot. */
 static bool key_has_moments(const struct job_key *key)
 {
     static const enum key_type those[] = {KEY_CURVE, KEY_TRACK, KEY_SUB, KEY_MAYBE, KEY_LIST, KEY_MAP};
@@ -317,7 +318,7 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
     return OK;
 }
 
-/* Whether what was put from `at` on is what the key's default puts; what is required has none. */
+/* Whether the bytes from `at` on are those of the key's default; false for required keys. */
 static status is_default(struct walk *w, enum job_section_id section, const struct job_key *key, size_t at,
                          bool *out)
 {
@@ -347,7 +348,7 @@ static bool wanted(const struct walk *w, const struct job_key *key)
     return w->only_inputs || w->all || (w->of_files ? key_files(key) : key_simulates(key));
 }
 
-/* A section's comes after those of its keys and adds nothing. */
+/* The leaf of a section would follow those of its keys and is not recorded. */
 static status add_leaf(struct walk *w)
 {
     status st = memory_grow(&w->leaf, &w->leaf_capacity, w->n_leaves + 1, sizeof *w->leaf, "the job's keys");
@@ -391,7 +392,7 @@ static void walk_end(struct walk *w)
     free(w->inputs);
 }
 
-/* Cameras are in the files only of those that take pictures. */
+/* Of the cameras, only those of output.aov.cameras affect files. */
 static status walk_cameras(struct walk *w, const struct job *job)
 {
     status st = OK;
@@ -409,7 +410,7 @@ done:
     return st;
 }
 
-/* So is the light. By default it adds nothing: frames of releases without the key stay those of their jobs. */
+/* The same holds for the light. With its defaults it adds nothing, so that frames of releases without the key remain valid. */
 static status walk_light(struct walk *w, const struct job *job)
 {
     status st = OK;
@@ -483,7 +484,7 @@ done:
     return st;
 }
 
-/* Where a leaf begins. */
+/* The start of a leaf. */
 static size_t leaf_begin(const struct walk *w, size_t i)
 {
     return i ? w->leaf[i - 1].end : 0;

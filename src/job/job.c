@@ -38,7 +38,7 @@ void free_section(enum job_section_id section, void *base)
             break;
         case KEY_CURVE:
         case KEY_TRACK:
-            free(((struct curve *)member)->frame); /* value is its second half */
+            free(((struct curve *)member)->frame); /* `value` is the second half of the same allocation */
             break;
         case KEY_SUB:
             free_section((enum job_section_id)key->child, member);
@@ -93,7 +93,7 @@ void job_destroy(struct job **job)
     *job = NULL;
 }
 
-/* The absolute folder of `path`, freed with free(). */
+/* The absolute folder of `path`, released with free(). */
 static status folder_of(const char *path, char **out)
 {
     char *copy = NULL;
@@ -110,7 +110,7 @@ static status folder_of(const char *path, char **out)
     return st;
 }
 
-/* The folder of the job itself, where `path` is a link to it; NULL if it is none. */
+/* The folder of the target if `path` is a symbolic link, else NULL. */
 static status folder_behind(const char *path, char **out)
 {
     struct stat info;
@@ -265,7 +265,7 @@ status job_load(const char *path, const char *const *sets, size_t n_sets, struct
     TRY(yaml_parse(&tree, bytes, n, &source, &root));
     if (root->kind != YAML_MAP) {
         st = yaml_fail(root, NULL,
-                       "%s, but a job is a mapping of keys (hoodoo: 1, name: ...; see jobs/README.md)",
+                       "%s where a mapping of keys is expected (hoodoo: 1, name: ...; see jobs/README.md)",
                        yaml_what(root));
         goto done;
     }

@@ -1,7 +1,7 @@
-/* A job: what the user asked for, with every default filled in.
+/* A job: the content of a job file, with every default filled in.
  *
- * The structs below are generated from keys.def; a member has the key's own name and unit (size_m,
- * interlock_MPa). Convert units where a value enters a computation, not here.
+ * The structs below are generated from keys.def; a member has the name and the unit of its key (size_m, interlock_MPa). Units
+ * are converted where a value enters a computation.
  */
 #ifndef HOODOO_JOB_H
 #define HOODOO_JOB_H
@@ -17,8 +17,8 @@
 
 enum curve_ease { EASE_LINEAR, EASE_SMOOTH, EASE_STEP };
 
-/* A number, or a number that changes with the frame. Constant outside its first and last frame. A TRACK has
- * three numbers for each frame. */
+/* A number, or a number that varies with the frame; constant before its first and after its last frame. A TRACK has three numbers
+ * per frame. */
 struct curve {
     size_t n; /* >= 1 */
     double *frame, *value;
@@ -44,7 +44,7 @@ enum job_shape {
     SHAPE_FUNCTION
 };
 
-/* What an edit sets. */
+/* Parameters changed by an edit. */
 struct job_set {
     char *path, *value; /* "wind.speed_m_s"; the value as one line of YAML */
 };
@@ -52,8 +52,7 @@ struct job_set {
 struct job_sets {
     struct job_set *item;
     size_t n;
-    struct job
-        *job; /* the job as it is from this edit on, all earlier ones counted; NULL if it sets nothing */
+    struct job *job; /* the job from this edit on, with all earlier edits applied; NULL if it sets nothing */
 };
 
 /* The top section is the job itself: struct job, not struct job_job. */
@@ -98,7 +97,7 @@ struct job_sets {
 struct job_node {
     enum job_node_kind kind;
     struct job_node *
-        *child; /* operators: n_child >= 1. A difference takes all later children from the first. */
+        *child; /* operators: n_child >= 1. A difference is the first child without all later ones. */
     size_t n_child;
     enum job_shape shape; /* NODE_SHAPE only */
     union {
@@ -117,141 +116,142 @@ struct job_node {
     } u;
 };
 
-/* The choices' constants, an enum each. */
+/* The constants of the choices, one enum per choice. */
 #define CHOICE(section, key, use, preset, choices, meaning, source) enum { CHOICE_CONSTANTS(choices) };
 #include "job/keys.def"
 
-/* The processes, a row of JOB_PROCESSES in keys.def each. */
+/* The processes: rows of JOB_PROCESSES in keys.def. */
 #define PROCESS(constant, word, ...) PROCESS_##constant,
 enum process { JOB_PROCESSES(PROCESS) PROCESSES };
 #undef PROCESS
 
 struct job_process {
     const char *name;           /* in manifests: "abrasion" */
-    unsigned models;            /* OF_MODEL() of those whose frames it is in */
+    unsigned models;            /* OF_MODEL() of the models that have it */
     const char *color, *legend; /* in the report */
     const char *meaning;
 };
 extern const struct job_process job_processes[PROCESSES];
 
-/* Whether the job's frames report it; and any at all. A model without any counts in its ledger alone. */
+/* Whether the job's frames report this process, or any process. A model without processes only keeps the ledger. */
 bool job_has_process(const struct job *job, enum process process);
 bool job_has_processes(const struct job *job);
 
-/* Whether rock keeps how long it has been bare, from the first frame on: where the job or an edit of it asks for that or for
- * what follows from it. */
+/* Whether rock records how long it has been exposed: if the job or any of its edits enables this, or crust or damp. */
 bool job_keeps_exposed(const struct job *job);
 
-/* Whether rock ever has groundwater: by the job or an edit of it. */
+/* Whether the job or any of its edits has groundwater. */
 bool job_seeps(const struct job *job);
 
-/* Whether its frames may have what values need (HAS_* of values.h), as far as the keys say that rock keeps for them alone: exposed_kyr, seepage. */
+/* Whether frames of the job may have the features `has` (HAS_* of values.h). Only HAS_EXPOSED and HAS_SEEPAGE are decided by keys;
+ * all others count as possible. */
 bool job_may_have(const struct job *job, unsigned has);
 
-/* Whether the job wants this layer of pictures (values.h). Left to itself it wants all but those of values that its frames cannot have. */
+/* Whether pictures of the job have this layer (values.h). If the job lists no layers, it has all except those of values that its
+ * frames cannot have. */
 bool job_wants_layer(const struct job *job, const char *layer);
 
-/* Reads and checks `path`, applying `sets` ("key.path=value", as --set gives them) over it. File names inside
- * are made absolute against the job file's folder. E_INPUT: the file cannot be read. E_USAGE: it is wrong;
- * the message has file:line:column (or --set), the key path, and the nearest known key or the allowed range.
- * *out is freed with job_destroy(). */
+/* Reads and checks the job file `path`, with `sets` ("key.path=value", as given to --set) applied. Relative file names in it are made
+ * absolute from the folder of the job file. E_INPUT: the file cannot be read. E_USAGE: it is invalid; the message has
+ * file:line:column (or --set), the key path, and the closest known key or the allowed range. *out is released with
+ * job_destroy(). */
 MUST_USE status job_load(const char *path, const char *const *sets, size_t n_sets, struct job **out);
 void job_destroy(struct job **job);
 
-/* Puts the job's input files where OpenJD's path mapping rules (the file of a session) say they are here.
- * E_INPUT: the file is missing or wrong. */
+/* Applies the path mapping rules of an OpenJD session, stored in `file`, to the job's input files. E_INPUT: the file is missing or
+ * invalid. */
 MUST_USE status job_map_paths(struct job *job, const char *file);
 
-/* Wedges: the job with other values, side by side. How many there are; 0 if the job has none, or is one. */
+/* The number of wedges of the job; 0 if it has none, or is a wedge itself. */
 size_t job_wedges(const struct job *job);
 
-/* Wedge `index` (1..job_wedges(base)) of the job that job_load(path, sets) gave as `base`: named
- * NAME_w0001, with wedge.index and wedge.label filled in and no wedges of its own. E_USAGE: there is no such
- * wedge, or its values are wrong. */
+/* Loads wedge `index` (1..job_wedges(base)) of the job that job_load(path, sets) returned as `base`. It is named NAME_w0001, has
+ * wedge.index and wedge.label filled in, and has no wedges of its own. E_USAGE: there is no such wedge, or its values are
+ * invalid. */
 MUST_USE status job_load_wedge(const char *path, const char *const *sets, size_t n_sets,
                                const struct job *base, int index, struct job **out);
 
-/* The job as run: YAML with every key, its value and, as a comment, its unit and meaning. Loading it again
- * gives an equal job. */
+/* The complete job as YAML: every key with its value and, as a comment, its unit and meaning. Loading it gives an equal job. */
 MUST_USE status job_resolved(const struct job *job, struct text *out);
 
-/* The job as it is in a frame: with what the edits up to it set. Lives as long as `job`. */
+/* The job in a frame, with the parameters set by edits up to that frame. Owned by `job`. */
 const struct job *job_at(const struct job *job, int frame);
 
-/* Which of the domain's sides are walls: WALL_* of shared/params.h. */
+/* The sides of the domain that are walls: WALL_* of shared/params.h. */
 unsigned job_walls(const struct job *job);
 
-/* What differs between models beside what they compute: a row of JOB_MODELS in keys.def. */
+/* Properties of a model: a row of JOB_MODELS in keys.def. */
 struct job_model {
     const char *name;
-    const char *samples; /* what its rock is counted in: "particles" */
-    size_t piles; /* offset in struct job of the struct job_piles that its rocks come from; 0: it has none */
-    bool seconds; /* it can run in real time: clock.seconds_per_frame */
-    bool edits;   /* rock and parameters can be edited on the way */
-    bool wind;    /* its pictures show wind */
-    bool interlocks; /* stress above a layer's threshold slows its weathering */
-    bool terrain;    /* it has materials besides the strata, and frames show their shares */
+    const char *samples; /* what its rock consists of: "particles" or "voxels" */
+    size_t piles;        /* offset in struct job of the struct job_piles that describes its rocks; 0: none */
+    bool seconds;        /* supports shots in real time: clock.seconds_per_frame */
+    bool edits;          /* supports edits */
+    bool wind;           /* its pictures show wind */
+    bool interlocks;     /* stress above the threshold of a stratum slows its weathering */
+    bool terrain;        /* has materials besides the strata, and its frames show their shares */
 };
 const struct job_model *job_model(const struct job *job);
 
-/* The rocks that frames show: of arches.piles, or lying on deposits of deposition.piles, as the job begins.
- * NULL: none. */
+/* The rocks that frames show: arches.piles, or deposition.piles for rocks on deposits, as set at the start of the job. NULL: none. */
 const struct job_piles *job_piles(const struct job *job);
 
-/* Whether checkpoint.mark holds the frame. */
+/* Whether checkpoint.mark lists the frame. */
 bool job_marks(const struct job *job, int frame);
 
-/* Whether a frame has files of this kind, by the keys that say every how many frames. Points are USD's too. */
+/* Whether a frame has files of this kind, by the keys `every` of the kind. Points include those for USD. */
 enum job_files { JOB_VOLUMES, JOB_POINTS, JOB_PICTURES };
 bool job_writes(const struct job *job, enum job_files kind, int frame);
 
-/* Years that pass from frame `from` to frame `to`, >= it. */
+/* Years that pass from frame `from` to frame `to` >= from. */
 double job_years(const struct job *job, int from, int to);
 
 /* The index of the stratum at a height, m. */
 size_t job_layer_at(const struct job *job, double z);
 
-/* Whether the job says how large a heightfield is; else its file does, and whether its values are metres, by the file's word. */
+/* Whether the job, rather than the file, determines the size of a heightfield; and whether the file's values are metres. */
 bool job_sizes_heightfield(const struct job_heightfield *h);
 bool job_heights_are_metres(const struct job_heightfield *h);
 
-/* XXH3-64 of everything that changes the simulation (keys.def's SIM), in canonical form, input files'
- * contents included. */
+/* XXH3-64 of everything that affects the simulation (SIM and LATER in keys.def) in canonical form, including the content of input
+ * files. */
 MUST_USE status job_hash(const struct job *job, uint64_t *hash);
 
-/* The same of everything else that the files of frames depend on (keys.def's FILES, and the cameras of output.aov.cameras). */
+/* The same of everything else that affects the files of frames (FILES in keys.def, and with output.aov.cameras those cameras and the
+ * light). */
 MUST_USE status job_files_hash(const struct job *job, uint64_t *hash);
 
-/* hash[i]: of everything that the state in frame `first + i` depends on, up to `last`: what is steady, and the curves, edits and
- * operations of the frames up to it. Two jobs with the same hash of a frame have the same state there. Of one build of hoodoo: it is not
- * for files. */
+/* Hashes of frames: hash[i] covers everything that the state in frame `first + i` <= `last` depends on, which is all constant
+ * values, and the curves, edits and operations up to that frame. Two jobs with the same hash of a frame have the same state
+ * there. The hashes are valid within one build of hoodoo and are not stored in files. */
 MUST_USE status job_frame_hashes(const struct job *job, int last, uint64_t *hash);
 
-/* The first key, in the table's order, in which two jobs differ: of those that are simulated, or that files have. "frames" if they
- * differ in nothing else. */
+/* The path of the first key, in the table's order, in which two jobs differ, among the keys that affect the simulation or, with `files`,
+ * the files of frames. "frames" if no other key differs. */
 MUST_USE status job_differ(const struct job *one, const struct job *other, bool files, char path[256]);
 
-/* Is this key of the job, a section or a list, what it is when it is left out? */
+/* Whether a key of the job, which may be a section or a list, has its default value. */
 MUST_USE status job_is_default(const struct job *job, const char *key, bool *out);
 
-/* Where a key of the job file stands, "cliff.yaml:12:5"; of one that is not written there, the nearest that holds it. Never fails: the
- * file's name alone. */
+/* The position of a key in the job file, such as "cliff.yaml:12:5"; for a key that the file does not contain, that of the innermost
+ * section around it. Never fails: if no position is known, the result is the file name. */
 void job_key_place(const char *path, const char *key, char out[300]);
 
-/* A file the job reads (mesh, heightfield, jointmap), with its content hash. */
+/* A file that the job reads (mesh, heightfield, jointmap ...), with the hash of its content. */
 struct job_input {
     const char *path; /* borrowed from the job */
     uint64_t hash, size;
 };
 
-/* All of them in order of appearance, in *out (freed with free()). E_INPUT if one cannot be read. */
+/* Lists the input files in order of appearance; *out is released with free(). E_INPUT if one cannot be read. */
 MUST_USE status job_inputs(const struct job *job, struct job_input **out, size_t *n);
 
-/* Keys for people, in lines of `width`: all sections (`what` NULL), the keys of one ("wind", "box"), one key ("wind.speed_m_s",
- * "strata.0.to_m"), or every key that has the word in its path, meaning or unit. E_USAGE: none has; the nearest is named. */
+/* Describes keys as text, wrapped to `width` columns: all sections (`what` is NULL), the keys of a section ("wind", "box"), one key
+ * ("wind.speed_m_s", "strata.0.to_m"), or every key with the word in its path, meaning or unit. E_USAGE: there is none; the
+ * message suggests the closest key. */
 MUST_USE status job_keys(const char *what, int width, struct text *out);
 
-/* The path of every key, a line each: "strata.N.to_m", "scene.box.min_m". */
+/* The path of every key, one per line: "strata.N.to_m", "scene.box.min_m". */
 MUST_USE status job_keys_list(struct text *out);
 
 /* The keys as a JSON Schema. */

@@ -1,4 +1,4 @@
-/* Keys for people: those of a section, one of them, or all that speak of a word. */
+/* Descriptions of keys as text: all of a section, a single one, or all that mention a word. */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,15 +11,15 @@
 
 enum { PATH_MAX_KEYS = 256, INDENT = 4, KEYS_MOST = 2048 };
 
-/* ---- what stands where */
+/* ---- all keys with their paths */
 
 static bool holds_keys(const struct job_key *key)
 {
     return key->type == KEY_SUB || key->type == KEY_MAYBE || key->type == KEY_LIST || key->type == KEY_MAP;
 }
 
-/* Calls with every key there is, under its path ("strata.N.to_m", "scene.box.min_m"); a section that stands in two places comes
- * once. */
+/* Calls `key` once for each key, with its path ("strata.N.to_m", "scene.box.min_m"). A section that is used in several places is
+ * visited at the first one only. */
 struct visit {
     void (*key)(void *user, const char *path, const struct job_key *key);
     void *user;
@@ -102,7 +102,7 @@ static bool is_number(const char *s)
     return *s && strspn(s, "0123456789") == strlen(s);
 }
 
-/* A shape's section, or the operators'; SECTION_job if it is none. */
+/* The section of a shape or of the operators by name; SECTION_job if `name` is neither. */
 static enum job_section_id shape_named(const char *name)
 {
     for (int i = 0; i < SHAPES; i++)
@@ -114,11 +114,11 @@ static enum job_section_id shape_named(const char *name)
     return SECTION_job;
 }
 
-/* Numbers in lists and names in mappings may be left out, or be any. */
+/* Finds a key or section by path. Indices of lists and names in mappings are arbitrary and may be omitted. */
 static bool find(const char *what, struct place *out)
 {
     char copy[PATH_MAX_KEYS], *rest = copy;
-    const struct job_key *in = NULL; /* what holds the section */
+    const struct job_key *in = NULL; /* the key that contains the section */
     *out = (struct place){.section = SECTION_job};
     snprintf(copy, sizeof copy, "%s", what);
     for (char *part; (part = strsep(&rest, ".")) != NULL;) {
@@ -157,7 +157,7 @@ static void show_section(struct text *t, const struct place *p, int width)
         char path[PATH_MAX_KEYS + 64];
         snprintf(path, sizeof path, "%s%s%s", p->path, *p->path ? "." : "", key->name);
         if (holds_keys(key)) {
-            text_add(t, "\n%s: keys of its own\n", path);
+            text_add(t, "\n%s: a section\n", path);
             text_add_wrapped(t, job_sections[key->child].meaning, 0, INDENT, width);
         } else {
             text_add(t, "\n");
@@ -202,7 +202,7 @@ static status show_found(const char *word, int width, struct text *out)
     struct search *s = calloc(1, sizeof *s);
     const char **known = calloc(KEYS_MOST, sizeof *known);
     if (!s || !known) {
-        st = fail(E_MEMORY, "no memory for the keys");
+        st = fail(E_MEMORY, "out of memory: listing the keys");
         goto done;
     }
     s->out = out;
@@ -212,14 +212,14 @@ static status show_found(const char *word, int width, struct text *out)
     visit_all(&v);
     if (s->n > 0)
         goto done;
-    /* The last part of paths is what people mistype. */
+    /* Suggestions compare whole paths, or the last part of paths if `word` is not a path. */
     for (size_t i = 0; i < s->n_paths; i++) {
         const char *dot = strrchr(s->path[i], '.'), *mine = strrchr(word, '.');
         known[i] = mine || !dot ? s->path[i] : dot + 1;
     }
     const char *near = nearest_word(word, known, s->n_paths);
-    st = fail(E_USAGE, "no key is called '%.100s' or speaks of it%s%s%s", word, near ? "; near it: " : "",
-              near ? near : "", near ? "" : "; hoodoo keys lists the sections");
+    st = fail(E_USAGE, "no key is named or mentions '%.100s'; %s%s%s", word,
+              near ? "did you mean " : "'hoodoo keys' lists the sections", near ? near : "", near ? "?" : "");
 done:
     free(s);
     free(known);
@@ -260,7 +260,7 @@ static void show_overview(struct text *t, int width)
     text_add(t, "\n");
     text_add_wrapped(
         t,
-        "hoodoo keys wind: the keys of a section. hoodoo keys wind.speed_m_s: one key. hoodoo keys shear: all that speak of it.",
+        "'hoodoo keys wind' describes the keys of a section, 'hoodoo keys wind.speed_m_s' one key, and 'hoodoo keys shear' all keys that mention shear.",
         0, 0, width);
 }
 

@@ -1,5 +1,5 @@
-/* Where the files that a job names are to be found: by OpenJD's path mapping (pathmapping-1.0) on another machine, or beside the job
- * itself where it was loaded through a link. */
+/* Maps the input files of a job: by OpenJD's path mapping rules (pathmapping-1.0) on another machine, or to the folder of the job itself
+ * if it was loaded through a symbolic link. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,10 +20,10 @@ struct rule {
 struct rules {
     struct rule *rule;
     size_t n;
-    bool missing; /* only files that are not there, where they are there then */
+    bool missing; /* map only files that are missing, and only if the mapped file exists */
 };
 
-/* Is `path` the rule's, or below it? */
+/* Whether `path` is the rule's source or below it. */
 static bool applies(const struct rule *r, const char *path, size_t *length)
 {
     size_t n = strlen(r->from);
@@ -34,7 +34,7 @@ static bool applies(const struct rule *r, const char *path, size_t *length)
            (path[n] == '\0' || path[n] == '/' || (n == 1 && *path == '/'));
 }
 
-/* The longest source that applies, the first of equals. */
+/* The rule with the longest source that applies; the first one of several. */
 static status map_path(const struct rules *rules, char **path)
 {
     const struct rule *best = NULL;
@@ -58,7 +58,7 @@ static status map_path(const struct rules *rules, char **path)
         return OK;
     }
     if (rules->missing)
-        log_info("%s is not there; the job is a link, and beside the job itself is %s", *path, mapped);
+        log_info("%s is missing; using %s from the folder of the job that the link refers to", *path, mapped);
     free(*path);
     *path = mapped;
     return OK;
@@ -132,7 +132,7 @@ status job_map_paths(struct job *job, const char *file)
                       file);
             goto done;
         }
-        /* A job file names POSIX paths alone. */
+        /* Job files contain POSIX paths only. */
         if (strcmp(format, "POSIX") == 0)
             rules.rule[rules.n++] = (struct rule){from, to};
     }

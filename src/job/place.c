@@ -1,4 +1,4 @@
-/* Where keys stand in a job file: what was loaded no longer knows. */
+/* Positions of keys in a job file, which is parsed again for this because loaded jobs do not keep them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

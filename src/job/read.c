@@ -1,4 +1,4 @@
-/* Mappings into structs: sections, lists and maps of them, CSG nodes. */
+/* Reads mappings into structs: sections, lists and maps of sections, and CSG nodes. */
 #include <stdio.h>
 #include <string.h>
 
@@ -6,13 +6,13 @@
 #include "base/nearest.h"
 #include "job/parse.h"
 
-/* Operators inside each other. Each is two levels of YAML, so this stays inside YAML_DEPTH. */
+/* Limit of nested operators. Each takes two levels of YAML, so this is within YAML_DEPTH. */
 enum { NODE_DEPTH = 24, MAX_KEYS = 64 };
 
-/* Strata, paints, cameras: some checks compare each with each. */
+/* Limit of items in a list, because some checks compare each item with all others. */
 enum { LIST_ITEMS = 4096 };
 
-/* What to write instead of a key that there was; NULL: there never was one. */
+/* The advice for a removed key; NULL if there was no such key. */
 static const char *instead_of(enum job_section_id section, const char *key)
 {
     static const struct {
@@ -53,7 +53,7 @@ static status read_list(const struct job_key *key, const struct yaml *v, const c
     bool map = key->type == KEY_MAP;
     char *items = NULL;
     if (v->kind != (map ? YAML_MAP : YAML_LIST))
-        return yaml_fail(v, NULL, "%s, but %s is wanted (%s)", yaml_what(v),
+        return yaml_fail(v, NULL, "%s where %s is expected (%s)", yaml_what(v),
                          map ? "a mapping {name: {...}, ...}" : "a list of mappings", key->meaning);
     if (v->n > LIST_ITEMS)
         return yaml_fail(v, NULL, "%zu items (at most %d)", v->n, LIST_ITEMS);
@@ -93,7 +93,7 @@ static status read_key(const struct job_key *key, const struct yaml *v, const ch
     }
 }
 
-/* A MAP's item is named by its key, which is checked like any other name. */
+/* The key of an item of a MAP is its name, which is checked like any other name. */
 static status read_item_name(const struct job_key *key, const struct yaml *map, const char *name, void *base)
 {
     struct yaml text = *map;
@@ -112,14 +112,14 @@ status read_section(enum job_section_id section, const struct yaml *map, const c
     const char *names[MAX_KEYS];
     size_t n = 0;
     if (map->kind != YAML_MAP)
-        return yaml_fail(map, NULL, "%s, but a mapping is wanted (%s)", yaml_what(map), s->meaning);
+        return yaml_fail(map, NULL, "%s where a mapping is expected (%s)", yaml_what(map), s->meaning);
     for (size_t i = 0; i < s->n && n < MAX_KEYS; i++)
         if (!(name && s->key[i].type == KEY_NAME))
             names[n++] = s->key[i].name;
     for (const struct yaml *v = map->first; v; v = v->next) {
         const struct job_key *key = table_find(section, v->key);
         if (key && name && key->type == KEY_NAME)
-            return yaml_fail_key(v, "it already has a name: %.64s", name);
+            return yaml_fail_key(v, "already named by its key: %.64s", name);
         if (!key)
             return unknown_key(section, v, names, n);
     }
@@ -165,14 +165,14 @@ static status unknown_node_key(const struct yaml *at)
     return unknown_key(SECTION_group, at, names, n);
 }
 
-/* The one operator or shape of a node's mapping. */
+/* Finds the operator or shape of a node's mapping. */
 static status find_what(const struct yaml *map, const struct yaml **out)
 {
     const struct yaml *what = NULL;
     if (map->kind != YAML_MAP)
         return yaml_fail(
             map, NULL,
-            "%s, but a mapping is wanted with one shape (such as box) or one operator (such as union)",
+            "%s where a mapping is expected, with one shape (such as box) or one operator (such as union)",
             yaml_what(map));
     for (const struct yaml *v = map->first; v; v = v->next) {
         if (find_operator(v->key) < 0 && find_shape(v->key) < 0) {
@@ -191,7 +191,7 @@ static status find_what(const struct yaml *map, const struct yaml **out)
     return OK;
 }
 
-/* Beside an operator stand the keys of `group`. */
+/* Reads the keys of `group` beside an operator. */
 static status read_group(const struct yaml *map, const char *folder, struct job_node *node)
 {
     const struct job_section *group = &job_sections[SECTION_group];
@@ -208,10 +208,10 @@ static status read_operator(const struct yaml *map, const struct yaml *list, con
                             struct job_node *node)
 {
     if (list->kind != YAML_LIST || list->n == 0)
-        return yaml_fail(list, NULL, "%s, but a list of at least one shape is wanted",
+        return yaml_fail(list, NULL, "%s where a list of at least one shape is expected",
                          list->kind == YAML_LIST ? "an empty list" : yaml_what(list));
     if (depth == NODE_DEPTH)
-        return yaml_fail(list, NULL, "more than %d operators inside each other", NODE_DEPTH);
+        return yaml_fail(list, NULL, "operators are nested more than %d deep", NODE_DEPTH);
     status st = read_group(map, folder, node);
     if (st == OK)
         st = memory_alloc(list->n, sizeof *node->child, "a shape's parts", &node->child);

@@ -10,36 +10,35 @@ static const char intro[] =
     "\n"
     "This page is made from the tables in `src/job/keys.def` and `src/job/values.def`; do not edit it.\n"
     "\n"
-    "A job file is YAML 1.2 (JSON is YAML too). The unit of a number is the end of its key. Unknown and duplicate keys,\n"
-    "anchors, tags, wrong types and numbers out of range are refused, with file, line, column and key path. Any key can\n"
-    "be given or replaced on the command line: `--set wind.speed_m_s=12`, `--set strata.0.to_m=20`,\n"
+    "A job file is YAML 1.2 (which includes JSON). The unit of a number is the suffix of its key. Unknown and duplicate keys,\n"
+    "anchors, tags, wrong types and numbers out of range are refused; the message has file, line, column and key path.\n"
+    "`--set` adds or overrides any key on the command line: `--set wind.speed_m_s=12`, `--set strata.0.to_m=20`,\n"
     "`--set 'cameras.main.resolution=[480, 270]'`.\n"
     "\n"
     "A **curve** is a number, or a number that changes with the frame: `{1001: 8, 1060: 14, ease: smooth}`. "
     "The ease is\n"
-    "`linear` (if left out), `smooth` (slow at each key) or `step` (holds until the next key). Before the "
-    "first and after\n"
-    "the last frame a curve is constant.\n"
+    "`linear` (the default), `smooth` (slow near each given frame) or `step` (constant until the next one). A curve is\n"
+    "constant before its first and after its last frame.\n"
     "\n"
     "A **shape** is a mapping with exactly one of the shapes below, or with one operator: `union`, "
     "`intersection` or\n"
-    "`difference` (all later ones are taken from the first), which holds a list of shapes.\n"
+    "`difference` (the first shape without all later ones), which holds a list of shapes.\n"
     "\n"
-    "Files are looked for beside the job file, and, where that is a link, else beside the job that it leads "
-    "to.\n"
+    "Relative file names refer to the folder of the job file; if the job file is a symbolic link, files that are not there are\n"
+    "taken from the folder of its target.\n"
     "\n"
-    "Keys marked \u2020 change nothing in the files of frames: a run goes on when they are edited, and `hoodoo run` of\n"
-    "frames that are all done takes the edit over for the other verbs. Those marked \u2021 (and, where there are\n`output.aov.cameras`, these and the light) change how frames are written: they may be edited while no frame is there, and "
-    "are refused\n"
-    "after that, for the frames of a folder are written alike. All others are simulated, and part of the job's "
-    "hash.\n"
+    "Keys marked \u2020 do not affect the files of frames: they may be edited at any time, and a run continues; if all frames are\n"
+    "done, `hoodoo run` only updates the folder's job for the other verbs. Keys marked \u2021 (and, with `output.aov.cameras`,\n"
+    "those cameras and the light) affect how frames are written: they may be edited until the first frame is written and are\n"
+    "refused afterwards, because all frames of a folder must be written alike. All other keys affect the simulation and are part\n"
+    "of the job's hash.\n"
     "\n"
     "## An example\n"
     "\n"
     "```yaml\n"
-    "hoodoo: 1                     # the format of this file\n"
-    "name: block                   # files go to out/block\n"
-    "frames: 1001-1020             # 1001 is the rock as it stands, uneroded\n"
+    "hoodoo: 1                     # version of the file format\n"
+    "name: block                   # files are written to out/block\n"
+    "frames: 1001-1020             # 1001 is the rock before any erosion\n"
     "clock: {years_per_frame: 500}\n"
     "domain:\n"
     "  size_m: [24, 16, 20]        # z is up; the ground is z = 0\n"
@@ -59,7 +58,7 @@ static const char intro[] =
     "output: {aov: {cameras: [main]}}\n"
     "```\n";
 
-/* Text in a table's cell. */
+/* Adds text to a cell of a table. */
 static void put_cell(struct text *t, const char *s)
 {
     for (; *s; s++)
@@ -97,8 +96,8 @@ static void put_row(struct text *t, const struct job_key *key)
     text_add(t, " |\n");
 }
 
-/* Shapes share the keys of `group`, which have a table of their own, and what a MAP holds is named by its
- * key. */
+/* `shared`: include the keys of `group`, which all shapes have and which get a table of their own. `named`: omit the name, because
+ * the items of a MAP are named by their keys. */
 static void put_table(struct text *t, enum job_section_id section, const char *title, bool shared, bool named)
 {
     const struct job_section *s = &job_sections[section];
@@ -110,8 +109,8 @@ static void put_table(struct text *t, enum job_section_id section, const char *t
             put_row(t, &s->key[i]);
 }
 
-/* The section's table, then those inside it. `path` is where it stands in a job: "wind.deflation"; first[id] is
- * where a section stood first. */
+/* Adds the table of a section and those of the sections inside it. `path` is its key path, such as "wind.deflation"; first[id] is
+ * the path at which a section first occurred. */
 static void put_tables(struct text *t, enum job_section_id section, const char *path, bool named,
                        char (*first)[256])
 {
@@ -137,7 +136,7 @@ static void put_tables(struct text *t, enum job_section_id section, const char *
     }
 }
 
-/* The words of the models that have it. */
+/* The names of the models that have the process. */
 static const char *models_text(const struct job_process *process, char out[80])
 {
 #define MODEL(constant, word, ...)                                                                           \
@@ -154,10 +153,11 @@ static void put_processes(struct text *t)
     char models[80];
     text_add(
         t,
-        "\n## What changes the rock\n\n"
-        "`change_m3` in `frames/NAME.FRAME.json` says what each process changed of the rock's volume "
-        "since the frame before, below 0\nwhere it took some. Together they are the change of `volume_m3`. The report draws what they take, by these names.\n\n"
-        "| process | models | in the report | what it is |\n|---|---|---|---|\n");
+        "\n## Processes\n\n"
+        "`change_m3` in `frames/NAME.FRAME.json` has the change of the rock's volume by each process since the previous frame,\n"
+        "negative where rock was removed. The changes add up to that of `volume_m3`. The report plots the removed volumes under\n"
+        "these names.\n\n"
+        "| process | models | in the report | meaning |\n|---|---|---|---|\n");
     for (int p = 0; p < PROCESSES; p++)
         text_add(t, "| `%s` | %s | %s | %s |\n", job_processes[p].name,
                  models_text(&job_processes[p], models), job_processes[p].legend, job_processes[p].meaning);
@@ -173,7 +173,8 @@ status job_reference(struct text *out)
         put_table(out, (enum job_section_id)i, title, false, false);
     }
     put_table(out, SECTION_group, "Every shape and operator", true, false);
-    text_add(out, "\nThese stand inside a shape's mapping, or beside an operator's list.\n");
+    text_add(out,
+             "\nThese keys are given inside the mapping of a shape, or beside the list of an operator.\n");
     value_reference(out);
     put_processes(out);
     return text_status(out);

@@ -1,5 +1,5 @@
-/* The keys as a JSON Schema (draft 2020-12), for editors that complete and check as one types. What it cannot say, such as which
- * keys go together, loading a job says. */
+/* The keys as a JSON Schema (draft 2020-12), for editors that complete and check while typing. Rules that it cannot express, such as
+ * which keys exclude each other, are checked when the job is loaded. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -49,7 +49,7 @@ static void number_or_vector(struct text *t, const struct job_key *key)
     bounds(t, key);
 }
 
-/* A number or point, or one for each of some frames. */
+/* A number or point, or a mapping from frames to these. */
 static void curve(struct text *t, const struct job_key *key)
 {
     json_array(t, "anyOf");
@@ -197,7 +197,7 @@ static void value(struct text *t, const struct job_key *key)
     }
 }
 
-/* What stands beside a key: its meaning with the unit, and its default where that is one word or number. */
+/* Adds the description of a key, which is its meaning with the unit, and its default if that is a single name or number. */
 static void property(struct text *t, const struct job_key *key)
 {
     char meaning[1200];
@@ -215,13 +215,13 @@ static void property(struct text *t, const struct job_key *key)
     json_end_object(t);
 }
 
-/* Names of what a MAP holds are its keys. */
+/* The names of items of a MAP are its keys. */
 static bool is_name(const struct job_section *s, const struct job_key *key)
 {
     return key->type == KEY_NAME && s != &job_sections[SECTION_job];
 }
 
-/* A mapping that holds a required key is required itself. */
+/* A mapping with a required key is itself required. */
 static bool required(const struct job_key *key)
 {
     if (key->type != KEY_SUB)
@@ -252,7 +252,7 @@ static void section(struct text *t, const struct job_section *s)
     json_end_object(t);
 }
 
-/* Exactly one shape, or an operator with its list and what may stand beside that. */
+/* Exactly one shape, or an operator with its list and the keys of `group`. */
 static void shape(struct text *t)
 {
     const struct job_section *group = &job_sections[SECTION_group];

@@ -7,13 +7,13 @@
 
 #include "job/parse.h"
 
-/* A key path, cut: "strata[0].to_m" and "strata.0.to_m" have the parts strata, 0, to_m. */
+/* A key path split into parts: "strata[0].to_m" and "strata.0.to_m" have the parts strata, 0, to_m. */
 struct key_path {
     const char *part[YAML_DEPTH];
     size_t n;
 };
 
-/* What is to be set, and where that is said: --set, or `at` among an edit's settings. */
+/* A setting, and its origin: --set, or the item `at` of an edit's `set`. */
 struct setting {
     const char *path;
     const struct yaml_source *source;
@@ -67,7 +67,7 @@ static size_t list_index(const char *part)
     return i;
 }
 
-/* `old` becomes `value`, in its place among its siblings. */
+/* Replaces `old` by `value` among its siblings. */
 static void replace(struct yaml *old, const struct yaml *value)
 {
     struct yaml keep = *old;
@@ -81,8 +81,7 @@ static void replace(struct yaml *old, const struct yaml *value)
         v->parent = old;
 }
 
-/* Where the table says a list stands, an absent one is made as such; everything else in between is a mapping.
- */
+/* Creates a missing value on the way to a key: a list if the table says so, else a mapping. */
 static enum yaml_kind kind_of(const struct key_path *path, size_t depth)
 {
     int section = SECTION_job;
@@ -104,7 +103,7 @@ static enum yaml_kind kind_of(const struct key_path *path, size_t depth)
     return key && key->type == KEY_LIST ? YAML_LIST : YAML_MAP;
 }
 
-/* The value `path` names under root, made if it is not there. */
+/* The value at `path` below the root, created if it is missing. */
 static status reach(struct yaml_tree *tree, struct yaml *root, const struct key_path *path,
                     const struct setting *setting, struct yaml **out)
 {
@@ -170,7 +169,7 @@ done:
 
 /* ---- settings of edits */
 
-/* What a run is made of from its first frame on: an edit comes too late for it. */
+/* Keys that determine the initial state, which an edit cannot change. */
 static const char *const fixed[] = {"hoodoo",   "name",        "model",  "frames",     "from",
                                     "seed",     "domain",      "scene",  "paint",      "edits",
                                     "attitude", "strata_from", "joints", "concretions"};
@@ -184,7 +183,7 @@ bool job_settable(const char *top)
     return key && key_simulates(key);
 }
 
-/* The table's row of the last part; NULL if there is none, or an index is the last. */
+/* The table's row of the last part; NULL if there is none, or if the last part is an index. */
 static const struct job_key *last_key(const struct key_path *path)
 {
     int section = SECTION_job;

@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 
-/* One row. Parameters end in _ so that they do not replace the designators. */
+/* One row. Parameters end in _ so that they are not substituted in the designators. */
 #define ROW(section_, key_, type_, use_, unit_, meaning_, source_, ...)                                      \
     {.type = type_,                                                                                          \
      .use = use_,                                                                                            \

@@ -1,4 +1,4 @@
-/* Single values: from YAML, and from the table's defaults. */
+/* Reads single values from YAML and from the table's defaults. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 
 enum { FRAME_LIMIT = 9999999, NAMES = 4096, POINTS = 65536 };
 
-/* The short sentence of the last fail(), put behind a place. */
+/* Adds the position of `value` to the message of the last fail(). */
 static status at_place(const struct yaml *value, status st)
 {
     char why[200];
@@ -22,11 +22,11 @@ static status read_number(const struct job_key *key, const struct yaml *v, doubl
     char allowed[256];
     key_allowed(key, allowed);
     if (v->kind != YAML_SCALAR || yaml_is_null(v))
-        return yaml_fail(v, NULL, "%s, but a number is wanted (%s)", yaml_what(v), allowed);
+        return yaml_fail(v, NULL, "%s where a number is expected (%s)", yaml_what(v), allowed);
     double number;
     bool decimal = yaml_decimal(v->text, &number);
     if (v->quoted)
-        return yaml_fail(v, NULL, "text, but a number is wanted (%s)%s", allowed,
+        return yaml_fail(v, NULL, "text where a number is expected (%s)%s", allowed,
                          decimal ? "; leave out the quotes" : "");
     if (!decimal)
         return yaml_fail(v, NULL, "'%.40s' is not a finite decimal number (%s)", v->text, allowed);
@@ -39,7 +39,7 @@ static status read_number(const struct job_key *key, const struct yaml *v, doubl
     return OK;
 }
 
-/* `width` numbers for each of n frames. */
+/* Allocates a curve with `width` numbers for each of n frames. */
 static status curve_alloc(struct curve *c, size_t n, size_t width)
 {
     status st = memory_alloc((1 + width) * n, sizeof *c->frame, "a curve", &c->frame);
@@ -108,7 +108,7 @@ static status read_keyed_curve(const struct job_key *key, const struct yaml *map
         n++;
     }
     if (n == 0) {
-        st = yaml_fail(map, NULL, "a curve without a frame; write {frame: value, ...}");
+        st = yaml_fail(map, NULL, "a curve needs at least one frame: {frame: value, ...}");
         goto done;
     }
     qsort(keys, n, sizeof *keys, by_frame);
@@ -142,7 +142,7 @@ static status read_vec(const struct job_key *key, const struct yaml *v, double *
 {
     char allowed[256];
     if (v->kind != YAML_LIST || v->n != key->n)
-        return yaml_fail(v, NULL, "%s%s, but a list of %zu numbers is wanted (each %s)", yaml_what(v),
+        return yaml_fail(v, NULL, "%s%s where a list of %zu numbers is expected (each %s)", yaml_what(v),
                          v->kind == YAML_LIST ? " of another length" : "", key->n, key_allowed(key, allowed));
     for (const struct yaml *item = v->first; item; item = item->next) {
         status st = read_number(key, item, out++);
@@ -159,7 +159,7 @@ static status read_choice(const struct job_key *key, const struct yaml *v, int *
     size_t n;
     key_allowed(key, allowed);
     if (v->kind != YAML_SCALAR)
-        return yaml_fail(v, NULL, "%s, but a word is wanted (%s)", yaml_what(v), allowed);
+        return yaml_fail(v, NULL, "%s where a choice is expected (%s)", yaml_what(v), allowed);
     for (int i = 0; (item = choice_item(key->choices, i, &n)) != NULL; i++)
         if (strlen(v->text) == n && memcmp(v->text, item, n) == 0) {
             *out = i;
@@ -178,20 +178,19 @@ static status read_bool(const struct yaml *v, bool *out)
         }
     if (v->kind == YAML_SCALAR && !yaml_is_null(v))
         return yaml_fail(v, NULL, "'%.40s' is not true or false", v->text);
-    return yaml_fail(v, NULL, "%s, but true or false is wanted", yaml_what(v));
+    return yaml_fail(v, NULL, "%s where true or false is expected", yaml_what(v));
 }
 
 static status read_range(const struct yaml *v, struct frame_range *out)
 {
     if (v->kind != YAML_SCALAR || yaml_is_null(v))
-        return yaml_fail(v, NULL, "%s, but a frame range is wanted (such as 1001-1110 or 1001-1110x2)",
+        return yaml_fail(v, NULL, "%s where a frame range is expected (such as 1001-1110 or 1001-1110x2)",
                          yaml_what(v));
     status st = range_parse(v->text, out);
     return st == OK ? OK : at_place(v, st);
 }
 
-/* Control characters have no place in a name, a path or a file's metadata; a line break or tab may be in a
- * comment. */
+/* Refuses control characters, which names, paths and metadata must not contain; comments may have line breaks and tabs. */
 static bool printable(const char *text)
 {
     for (const unsigned char *s = (const unsigned char *)text; *s; s++) {
@@ -209,13 +208,13 @@ static bool printable(const char *text)
 static status check_text(const struct yaml *v, bool or_number)
 {
     if (v->kind != YAML_SCALAR || yaml_is_null(v))
-        return yaml_fail(v, NULL, "%s, but text is wanted (\"\" for none)", yaml_what(v));
+        return yaml_fail(v, NULL, "%s where text is expected (\"\" for none)", yaml_what(v));
     if (!v->quoted && strcmp(yaml_what(v), "text") != 0 &&
         !(or_number && strcmp(yaml_what(v), "a number") == 0))
-        return yaml_fail(v, NULL, "%s, but text is wanted; put it in quotes: \"%.40s\"", yaml_what(v),
+        return yaml_fail(v, NULL, "%s where text is expected; put it in quotes: \"%.40s\"", yaml_what(v),
                          v->text);
     if (!printable(v->text))
-        return yaml_fail(v, NULL, "holds a control character");
+        return yaml_fail(v, NULL, "contains a control character");
     return OK;
 }
 
@@ -239,7 +238,7 @@ static status read_input(const struct job_key *key, const struct yaml *v, const 
     if (!*v->text && key->preset && !*key->preset)
         return memory_strdup("", out);
     if (!*v->text || strchr(v->text, '\n'))
-        return yaml_fail(v, NULL, "a file name is wanted");
+        return yaml_fail(v, NULL, "a file name is expected");
     if (*v->text == '/')
         return memory_strdup(v->text, out);
     size_t n = strlen(folder) + strlen(v->text) + 2;
@@ -253,7 +252,7 @@ static status read_points(const struct job_key *key, const struct yaml *v, void 
 {
     double *point = NULL;
     if (v->kind != YAML_LIST)
-        return yaml_fail(v, NULL, "%s, but a list of points is wanted ([] for none), each of %zu numbers",
+        return yaml_fail(v, NULL, "%s where a list of points is expected ([] for none), each of %zu numbers",
                          yaml_what(v), key->n);
     if (v->n > POINTS)
         return yaml_fail(v, NULL, "%zu points (at most %d)", v->n, POINTS);
@@ -271,7 +270,7 @@ static status read_ranges(const struct job_key *key, const struct yaml *v, void 
     struct frame_range *range = NULL;
     if (v->kind != YAML_LIST)
         return yaml_fail(v, NULL,
-                         "%s, but a list of frames is wanted ([] for none), such as [1040, 1050-1100x10]",
+                         "%s where a list of frames is expected ([] for none), such as [1040, 1050-1100x10]",
                          yaml_what(v));
     if (v->n > NAMES)
         return yaml_fail(v, NULL, "%zu frame ranges (at most %d)", v->n, NAMES);
@@ -288,7 +287,7 @@ static status read_names(const struct job_key *key, const struct yaml *v, void *
 {
     char **names = NULL;
     if (v->kind != YAML_LIST)
-        return yaml_fail(v, NULL, "%s, but a list of names is wanted ([] for none)", yaml_what(v));
+        return yaml_fail(v, NULL, "%s where a list of names is expected ([] for none)", yaml_what(v));
     if (v->n > NAMES)
         return yaml_fail(v, NULL, "%zu names (at most %d)", v->n, NAMES);
     status st = memory_alloc(v->n, sizeof *names, key->name, &names);
@@ -300,7 +299,7 @@ static status read_names(const struct job_key *key, const struct yaml *v, void *
     return st;
 }
 
-/* A value of any kind as one line of YAML, for --set to read again. Texts in quotes are YAML already. */
+/* A value of any kind as one line of YAML, in the form that --set accepts. Texts in quotes are already YAML. */
 static void put_flow(struct text *t, const struct yaml *v, bool top)
 {
     if (v->kind == YAML_SCALAR && (top || !v->quoted)) {
@@ -327,7 +326,7 @@ static status read_texts(const struct job_key *key, const struct yaml *v, void *
 {
     char **texts = NULL;
     if (v->kind != YAML_LIST)
-        return yaml_fail(v, NULL, "%s, but a list of values is wanted ([] for none)", yaml_what(v));
+        return yaml_fail(v, NULL, "%s where a list of values is expected ([] for none)", yaml_what(v));
     if (v->n > NAMES)
         return yaml_fail(v, NULL, "%zu values (at most %d)", v->n, NAMES);
     status st = memory_alloc(v->n, sizeof *texts, key->name, &texts);
@@ -342,7 +341,7 @@ static status read_texts(const struct job_key *key, const struct yaml *v, void *
             st = yaml_fail(item, NULL,
                            !t.data               ? "is empty"
                            : t.size >= YAML_TEXT ? "is too long"
-                                                 : "holds a control character");
+                                                 : "contains a control character");
         if (st == OK)
             st = memory_strdup(t.data, texts++);
         text_free(&t);
@@ -398,5 +397,5 @@ status read_value(const struct job_key *key, const struct yaml *v, const char *f
     case KEY_NODE:
         break;
     }
-    return fail(E_USAGE, "%s holds keys of its own", key->name);
+    return fail(E_USAGE, "%s is a section", key->name);
 }

@@ -106,9 +106,10 @@ void value_reference(struct text *t)
         [BITS_EXACT] = "no", [BITS_HALF] = "half floats", [BITS_SHARE] = "yes", [BITS_DIRECTION] = "yes"};
     text_add(
         t,
-        "\n## What frames show\n\n"
-        "Volumes are grids of `volumes/`, meshes are vertex values of `mesh/*.ply`, channels are of "
-        "`aov/`, and points have\nall that are fields of particles. 16 bits: whether `output.vdb.half` and `precision: 16bit` make it smaller; positions are within their voxels then.\n\n"
+        "\n## Values\n\n"
+        "The columns volumes, meshes and channels refer to grids in `volumes/`, vertex values in `mesh/*.ply` and channels in "
+        "`aov/`.\nPoints have all values that are fields of particles. 16 bits: whether `output.vdb.half` and `precision: 16bit` "
+        "store the value in\n16 bits; positions are then relative to their voxels.\n\n"
         "| value | unit | symbol | frames | volumes | meshes | channels | `--show` | USD | 16 bits | meaning |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (int v = 1; v < VALUES; v++) {
         const struct value *a = &value_table[v];

@@ -1,4 +1,4 @@
-/* What frames show: values.def as data. Who writes, reads, draws or names values walks this table. */
+/* The values that frames show: values.def as data, for all code that writes, reads, draws or names values. */
 #ifndef HOODOO_VALUES_H
 #define HOODOO_VALUES_H
 
@@ -8,7 +8,7 @@
 #include "base/text.h"
 
 enum value_id {
-    VALUE_NONE, /* the rock as it looks */
+    VALUE_NONE, /* the rock in its natural colours */
 #define VALUE(name, unit, symbol, of, from, kind, has, where, bits, layer, channels, legend, meaning)        \
     VALUE_##name,
 #include "job/values.def"
@@ -57,10 +57,10 @@ enum value_bits { BITS_EXACT, BITS_HALF, BITS_SHARE, BITS_DIRECTION };
 enum value_axis { AXIS_LINEAR, AXIS_LOG, AXIS_DIVERGING };
 enum value_span { SPAN_FIXED, SPAN_STRESS, SPAN_WEIGHT, SPAN_WATER, SPAN_RATES };
 
-enum { VALUE_CHANNELS = 4, VALUE_NAME = 15 }; /* channels of a value, letters of a name: most */
+enum { VALUE_CHANNELS = 4, VALUE_NAME = 15 }; /* most channels of a value, and letters of a name */
 
 struct value_legend {
-    const char *unit; /* NULL: it has none */
+    const char *unit; /* NULL: the value has no legend */
     double scale;
     enum value_axis axis;
     enum value_span span;
@@ -75,7 +75,7 @@ struct value {
     enum value_has has;
     unsigned where; /* IN_* */
     enum value_bits bits;
-    const char *layer;                   /* "": no pictures */
+    const char *layer;                   /* "": not in pictures */
     const char *channel[VALUE_CHANNELS]; /* full names, NULL after the last */
     struct value_legend legend;
 };
@@ -86,16 +86,16 @@ extern "C" {
 
 extern const struct value value_table[VALUES];
 
-/* The value of this name, VALUE_NONE if there is none. */
+/* The value by name; VALUE_NONE if there is none. */
 enum value_id value_of_name(const char *name);
 
-/* The names of those that are to be found there (IN_*), in the table's order; how many. */
+/* The names of the values in any of these places (IN_*), in the table's order. Returns their number. */
 size_t value_names(unsigned where, const char *out[VALUES]);
 
-/* The pictures' layers, each once. */
+/* The names of the layers of pictures. Returns their number. */
 size_t value_layers(const char *out[VALUES]);
 
-/* How many grids the volumes of a frame have, that has these (HAS_*); one of vectors counts as three. */
+/* The number of grids in the volumes of a frame with the features `has` (HAS_*); a grid of vectors counts as three. */
 size_t value_grids(unsigned has);
 
 /* The table as Markdown. */

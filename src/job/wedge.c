@@ -1,4 +1,4 @@
-/* Wedges: rows of values for some keys. Each becomes a job by the same way as --set. */
+/* Wedges: rows of values for some keys, which are applied to the job in the same manner as --set. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,7 +24,7 @@ size_t job_wedges(const struct job *job)
     return n;
 }
 
-/* The value that parameter `i` has in wedge `index`. */
+/* The value of parameter `i` in wedge `index`. */
 static const char *value_of(const struct job_wedge *w, size_t i, int index)
 {
     size_t row = (size_t)index - 1;
@@ -120,7 +120,7 @@ struct csv {
     int line;
 };
 
-/* The next field; *last says that its line ends with it. */
+/* Reads the next field; *last is set if it is the last one of its line. */
 static status csv_field(struct csv *c, struct text *out, bool *last)
 {
     bool quoted = c->at < c->end && *c->at == '"', closed = !quoted;
@@ -135,12 +135,12 @@ static status csv_field(struct csv *c, struct text *out, bool *last)
         } else if (!quoted && (*c->at == ',' || *c->at == '\n' || *c->at == '\r'))
             break;
         if (*c->at == '\n' || *c->at == '\0')
-            return fail(E_INPUT, "%s:%d: a field goes on past its line, or holds a zero byte", c->path,
+            return fail(E_INPUT, "%s:%d: a field spans several lines, or contains a NUL byte", c->path,
                         c->line);
         text_add_bytes(out, c->at, 1);
     }
     if (!closed)
-        return fail(E_INPUT, "%s:%d: a quote is not closed", c->path, c->line);
+        return fail(E_INPUT, "%s:%d: unterminated quote", c->path, c->line);
     *last = c->at >= c->end || *c->at != ',';
     if (c->at < c->end && *c->at == '\r' && c->at + 1 < c->end && c->at[1] == '\n')
         c->at++;
@@ -181,7 +181,7 @@ static status csv_rows(struct job_wedge *w, struct csv *c)
     struct text field = {0};
     bool last = false;
     size_t column = 0, rows = 0;
-    /* After a comma at the file's end there is one more field, which is empty. */
+    /* A comma at the end of the file is followed by an empty field. */
     for (; c->at < c->end || column > 0; c->line += last) {
         text_free(&field);
         field = (struct text){0};
@@ -212,18 +212,18 @@ done:
     return st;
 }
 
-/* What spreadsheets call CSV as well, said as what it is. */
+/* Detects variants that spreadsheets also export as CSV, and explains them. */
 static status check_kind(const struct csv *c)
 {
     const size_t n = (size_t)(c->end - c->at);
     const char *end = memchr(c->at, '\n', n);
     const size_t first = end ? (size_t)(end - c->at) : n;
     if (n >= 2 && (memcmp(c->at, "\xff\xfe", 2) == 0 || memcmp(c->at, "\xfe\xff", 2) == 0))
-        return fail(E_INPUT, "%s: it is UTF-16; save it as UTF-8", c->path);
+        return fail(E_INPUT, "%s: the encoding is UTF-16; save it as UTF-8", c->path);
     if (memchr(c->at, ',', first))
         return OK;
     if (memchr(c->at, ';', first) || memchr(c->at, '\t', first))
-        return fail(E_INPUT, "%s:1: its fields are separated by %s; commas are wanted", c->path,
+        return fail(E_INPUT, "%s:1: fields are separated by %s; commas are expected", c->path,
                     memchr(c->at, ';', first) ? "semicolons" : "tabs");
     return OK;
 }
@@ -245,11 +245,11 @@ status read_wedge_csv(const char *folder, const char *behind, struct job *job)
     TRY(file_read(path.text, YAML_BYTES, &bytes, &n));
     struct csv csv = {.path = path.text, .at = bytes, .end = bytes + n, .line = 1};
     if (n >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0)
-        csv.at += 3; /* spreadsheets begin with a byte order mark */
+        csv.at += 3; /* skips the byte order mark that spreadsheets write */
     TRY(check_kind(&csv));
     TRY(csv_rows(w, &csv));
     w->combine = WEDGE_ZIP;
-    *w->csv = '\0'; /* the rows are the job's now */
+    *w->csv = '\0'; /* the job has the rows now */
 done:
     free(bytes);
     return st;

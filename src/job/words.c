@@ -23,7 +23,7 @@ const char *key_type_words(const struct job_key *key)
     case KEY_BOOL:
         return "true or false";
     case KEY_CHOICE:
-        return "word";
+        return "choice";
     case KEY_VEC:
         return "numbers";
     case KEY_RANGE:

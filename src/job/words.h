@@ -1,4 +1,4 @@
-/* What a key is, in words: for the reference page, the terminal and messages. */
+/* Type, default and range of a key as text, for the reference page, the terminal and messages. */
 #ifndef HOODOO_JOB_WORDS_H
 #define HOODOO_JOB_WORDS_H
 
@@ -8,10 +8,10 @@
 /* "number", "list of points". */
 const char *key_type_words(const struct job_key *key);
 
-/* Its default as it is written in a job; nothing for what has none, such as a list. Not of required keys. */
+/* Adds the default as written in a job; nothing for keys without a default, such as nested sections. Not for required keys. */
 void key_default_words(const struct job_key *key, struct text *out);
 
-/* "0 .. 1000", or the words it may be; "" where anything may stand. Returns out. */
+/* "0 .. 1000", or the choices; "" if the value is not restricted. Returns out. */
 const char *key_range_words(const struct job_key *key, char out[256]);
 
 #endif

@@ -148,7 +148,7 @@ bool yaml_decimal(const char *text, double *out)
     return isfinite(*out);
 }
 
-/* "strata.0.to_m" of `at`, after `used` bytes of `out`; returns the bytes used. */
+/* Appends the key path of `at`, such as "strata.0.to_m", to the `used` bytes of `out`; returns the bytes used. */
 static size_t path_text(const struct yaml *at, char *out, size_t used, size_t size)
 {
     char part[80];

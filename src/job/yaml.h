@@ -1,10 +1,10 @@
-/* A YAML document as a plain tree in which every value knows where it stands.
+/* A YAML document as a tree whose values record their position in the file.
  *
- * libfyaml does the syntax; this refuses what a job has no use for and hostile files live on: aliases,
- * anchors, tags, keys that are not text, duplicate keys, several documents, NUL bytes, invalid UTF-8, and
- * more nesting, items or bytes than any real job has.
+ * libfyaml parses the syntax. Features that jobs do not need and that hostile files exploit are refused: aliases, anchors, tags,
+ * keys that are not text, duplicate keys, several documents, NUL bytes, invalid UTF-8, and more nesting, items or bytes than
+ * any real job has.
  *
- * Ownership   Everything belongs to the yaml_tree; yaml_free() releases it at once.
+ * Ownership   All values belong to the yaml_tree; yaml_free() releases them together.
  */
 #ifndef HOODOO_JOB_YAML_H
 #define HOODOO_JOB_YAML_H
@@ -24,18 +24,18 @@ enum {
 
 enum yaml_kind { YAML_SCALAR, YAML_LIST, YAML_MAP };
 
-/* Where text comes from: a file, or the key path of a --set (then `set` is not NULL). */
+/* The origin of a text: a file, or a --set (then `set` is its key path, else NULL). */
 struct yaml_source {
     const char *file, *set;
 };
 
 struct yaml {
     enum yaml_kind kind;
-    bool quoted;      /* scalar: in quotes or a block, so text whatever it looks like */
+    bool quoted;      /* scalar: in quotes or a block, hence text even if it looks like a number */
     const char *text; /* scalar */
     const char *key;  /* in a mapping */
     const struct yaml_source *source;
-    int line, column, key_line, key_column; /* from 1; 0 unknown */
+    int line, column, key_line, key_column; /* from 1; 0: unknown */
     struct yaml *parent, *next, *first, *last;
     size_t n; /* children */
 };
@@ -45,17 +45,17 @@ struct yaml_tree {
     size_t n_values;
 };
 
-/* One document. An empty one is a null scalar. E_USAGE names the place. `source` is borrowed for the tree's
- * life. */
+/* Parses one document; an empty one is a null scalar. E_USAGE: the message has the position. `source` is borrowed and must outlive the
+ * tree. */
 MUST_USE status yaml_parse(struct yaml_tree *tree, const char *bytes, size_t n,
                            const struct yaml_source *source, struct yaml **root);
 void yaml_free(struct yaml_tree *tree);
 
-/* Zeroed memory of the tree; text copied into it. */
+/* Allocate zeroed memory, or a copy of a text, that belongs to the tree. */
 MUST_USE status yaml_alloc(struct yaml_tree *tree, size_t size, void *out);
 MUST_USE status yaml_copy(struct yaml_tree *tree, const char *text, size_t n, const char **out);
 
-/* A new value without parent. E_USAGE if the tree is full. */
+/* Creates a value without a parent. E_USAGE if the tree is full. */
 MUST_USE status yaml_new(struct yaml_tree *tree, enum yaml_kind kind, const struct yaml_source *source,
                          struct yaml **out);
 void yaml_append(struct yaml *parent, struct yaml *child);
@@ -66,7 +66,7 @@ struct yaml *yaml_item(const struct yaml *list, size_t i);
 
 bool yaml_is_null(const struct yaml *value);
 
-/* "a list", "a number", "an empty value"..., for messages. */
+/* The kind of a value for messages: "a list", "a number", "an empty value" ... */
 const char *yaml_what(const struct yaml *value);
 
 /* E_USAGE: "file:line:column: key.path: MESSAGE", or "--set key.path: MESSAGE". `below` (or NULL) is a key
@@ -76,7 +76,7 @@ status yaml_fail(const struct yaml *at, const char *below, const char *format, .
 /* The same, at the key of `at` rather than its value. */
 status yaml_fail_key(const struct yaml *at, const char *format, ...) PRINTF_LIKE(2, 3);
 
-/* A YAML decimal number that is finite: not hexadecimal, .inf, .nan or 1_000. */
+/* Parses a finite decimal number; refuses hexadecimal numbers, .inf, .nan and 1_000. */
 bool yaml_decimal(const char *text, double *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* Bytes to struct yaml. */
+/* Parses bytes into a tree of struct yaml. */
 #include <libfyaml.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@ struct reading {
     struct yaml *root;
     struct yaml *open[YAML_DEPTH]; /* the collections around the next event */
     int depth;
-    const char *key; /* read, its value not yet */
+    const char *key; /* a key whose value is still to be read */
     int key_line, key_column;
     int documents;
 };
@@ -28,10 +28,10 @@ static status fail_at(const struct yaml_source *source, int line, int column, co
     return yaml_fail(&at, NULL, "%s", what);
 }
 
-/* What would make the scanner stumble or take minutes: bad bytes, and brackets nobody closes. */
+/* Refuses input that makes libfyaml's scanner fail or take minutes: invalid bytes, and many unclosed brackets. */
 static status check_bytes(const char *bytes, size_t n, const struct yaml_source *source)
 {
-    enum { BRACKETS = 1000 }; /* far above YAML_DEPTH: comments and texts may hold some, too */
+    enum { BRACKETS = 1000 }; /* far above YAML_DEPTH, because comments and texts may contain brackets too */
     int line = 1, column = 1, brackets = 0;
     if (n > YAML_BYTES)
         return fail_at(source, 1, 1, "larger than 4 MiB");
@@ -56,7 +56,7 @@ static status check_bytes(const char *bytes, size_t n, const struct yaml_source 
     return OK;
 }
 
-/* The tree's copy of a scalar. */
+/* Copies a scalar into the tree. */
 static status copy_scalar(struct reading *r, struct fy_token *token, int line, int column, const char **out)
 {
     size_t n = 0;
@@ -104,7 +104,7 @@ static status open_collection(struct reading *r, enum yaml_kind kind, int line, 
         return st;
     if (r->depth == YAML_DEPTH)
         return fail_at(r->source, line, column,
-                       "nested too deeply (at most 64 lists and mappings inside each other)");
+                       "nested too deeply (at most 64 levels of lists and mappings)");
     r->open[r->depth++] = v;
     return OK;
 }
@@ -120,7 +120,7 @@ static int by_key(const void *a, const void *b)
     return (x->key_column > y->key_column) - (x->key_column < y->key_column);
 }
 
-/* Sorted, because a hostile mapping may have 100000 keys. */
+/* Sorts the keys, because a hostile mapping may have 100000 of them. */
 static status close_mapping(const struct yaml *map)
 {
     const struct yaml **sorted = NULL;
@@ -164,7 +164,7 @@ static status take_scalar(struct reading *r, struct fy_token *token, int line, i
 static status take(struct reading *r, struct fy_event *e)
 {
     const struct fy_mark *mark = fy_event_start_mark(e);
-    /* An empty value has no place of its own: it stands where its key does. */
+    /* An empty value has no position of its own and gets that of its key. */
     int line = mark ? mark->line + 1 : r->key_line, column = mark ? mark->column + 1 : r->key_column;
     struct fy_token *anchor = NULL, *tag = NULL;
     switch (e->type) {
@@ -181,7 +181,7 @@ static status take(struct reading *r, struct fy_event *e)
         break;
     }
     if (e->type == FYET_ALIAS)
-        column--; /* its mark is behind the asterisk */
+        column--; /* libfyaml's position is behind the asterisk */
     if (e->type == FYET_ALIAS || anchor)
         return fail_at(r->source, line, column,
                        "anchors (&) and aliases (*) are not allowed: write the value out");
@@ -210,7 +210,7 @@ static status take(struct reading *r, struct fy_event *e)
     }
 }
 
-/* libfyaml's own complaint, which it would have printed. */
+/* The error message of libfyaml, which would otherwise be printed. */
 static status syntax_error(struct reading *r, struct fy_diag *diag)
 {
     void *position = NULL;

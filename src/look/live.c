@@ -69,9 +69,9 @@ static void give_job(struct live *l, struct serve_answer *out)
     const struct sketch_options *s = &l->options->sketch;
     struct job *job = NULL;
     struct text t = {0};
-    const bool hushed = log_hush(true);
+    const bool hushed = log_silence(true);
     const status st = job_load(s->path, s->sets, s->n_sets, &job);
-    log_hush(hushed);
+    log_silence(hushed);
     json_object(&t, NULL);
     json_integer(&t, "saves", l->saves);
     if (st == OK) {

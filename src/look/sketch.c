@@ -259,7 +259,7 @@ status sketch_loses(const struct sketch *s, struct text *out)
 {
     status st = OK;
     struct advice_list coarse = {0}, own = {0};
-    const bool hushed = log_hush(true);
+    const bool hushed = log_silence(true);
     if (s->job->domain.spacing_m > s->own_spacing_m) {
         TRY(advice_collect(s->job, true, &coarse));
         TRY(advice_collect(s->own, true, &own));
@@ -269,7 +269,7 @@ status sketch_loses(const struct sketch *s, struct text *out)
             text_add(out, "%s: %s\n", coarse.item[i].key, coarse.item[i].text);
     TRY(text_status(out));
 done:
-    log_hush(hushed);
+    log_silence(hushed);
     advice_free(&coarse);
     advice_free(&own);
     return st;

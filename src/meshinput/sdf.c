@@ -24,7 +24,7 @@ status vdb_sdf_create(const struct sdf_question *question, struct vdb_sdf **out)
     atomic_store(&at, found_at);
     atomic_store(&destroy, found_destroy);
     atomic_store(&gap, found_gap);
-    TRY(library_said(make(question, out)));
+    TRY(library_status(make(question, out)));
 done:
     return st;
 }
@@ -52,7 +52,7 @@ status vdb_sdf_caps(const struct vdb_sdf *sdf, struct sdf_caps *out)
     sdf_caps_function *caps = NULL;
     *out = (struct sdf_caps){0};
     TRY(library_find("sdf_caps", &caps));
-    TRY(library_said(caps(sdf, out)));
+    TRY(library_status(caps(sdf, out)));
 done:
     return st;
 }

@@ -215,7 +215,7 @@ static status check_points(const struct checkpoint *from, const struct mpm *m, s
 {
     const uint32_t *id = word[MPM_ID], *piece = word[MPM_PIECE], *joint = word[MPM_JOINT];
     for (size_t i = 0; i < m->n; i++) {
-        if (!idset_take(ids, id[i]))
+        if (!idset_remove(ids, id[i]))
             return section_refuse(from, mpm_word_names[MPM_ID], i,
                                   "is %u, which is not the id of a particle, or another point has it",
                                   (unsigned)id[i]);

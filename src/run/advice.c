@@ -103,7 +103,7 @@ static status check_inputs(struct context *v)
     size_t n = 0;
     const double h = v->job->domain.spacing_m;
     TRY(scene_inputs(v->job, &in, &n));
-    log_hush(false);
+    log_silence(false);
     for (size_t i = 0; i < n; i++) {
         const double off = in[i].sampled_m3 / in[i].own_m3 - 1;
         if (!(in[i].own_m3 > 0))
@@ -118,7 +118,7 @@ static status check_inputs(struct context *v)
                 in[i].file, in[i].own_m3, in[i].sampled_m3, h, 100 * fabs(off), off > 0 ? "more" : "less"));
     }
 done:
-    log_hush(true);
+    log_silence(true);
     free(in);
     return st;
 }
@@ -483,11 +483,11 @@ status advice_collect(const struct job *job, bool log_inputs, struct advice_list
     status st = OK;
     struct context v = {.job = job, .out = out};
     /* The scene's files are read several times here, and would log the same each time. */
-    const bool before = log_hush(!log_inputs);
+    const bool before = log_silence(!log_inputs);
     v.kyr = job->clock.seconds_per_frame > 0 ? 0 : 1e-3 * job_years(job, job->frames.first, job->frames.last);
     if (job->scene)
         TRY(solid_create(job->scene, 0.5 * job->domain.spacing_m, job->domain.spacing_m, &v.solid));
-    log_hush(true);
+    log_silence(true);
     TRY(scene_estimate(job, &v.size));
     if (!job_model(job)->terrain)
         TRY(scene_stands(job, job->goblins.floats, &v.size));
@@ -496,7 +496,7 @@ status advice_collect(const struct job *job, bool log_inputs, struct advice_list
         if (v.size.n_points > 0 || checks[i] == check_domain)
             TRY(checks[i](&v));
 done:
-    log_hush(before);
+    log_silence(before);
     solid_destroy(&v.solid);
     free(v.size.point);
     return st;

@@ -149,7 +149,7 @@ status rehearse(struct gpu *gpu, const struct job *job, double patience, struct 
     struct job shown = *job;
     struct cost made, written;
     const struct cost start = now();
-    const bool hushed = log_hush(true);
+    const bool hushed = log_silence(true);
     const unsigned set = files_of(job, job->frames.first);
     *out = (struct rehearsal){.frames = {job->frames.first, job->frames.first, 1}};
     if (*job->from)
@@ -165,7 +165,7 @@ status rehearse(struct gpu *gpu, const struct job *job, double patience, struct 
     add(&out->start, out->made[0][set], -1);
     add(&out->start, out->written[0][set], -1);
 done:
-    log_hush(hushed);
+    log_silence(hushed);
     checkpoint_free(&from);
     model_destroy(&model);
     return st;

@@ -29,9 +29,9 @@ status selftest_do(struct selftest *t, const char *group, const char *name, self
     struct row row = {.group = group, .ok = true};
     snprintf(row.name, sizeof row.name, "%s", name);
     const double start = clock_seconds();
-    const bool hushed = log_hush(true);
+    const bool hushed = log_silence(true);
     st = check(t, what, &row);
-    log_hush(hushed);
+    log_silence(hushed);
     row.seconds = clock_seconds() - start;
     if (st == STOPPED || st == E_OUTPUT)
         return st;

@@ -78,7 +78,7 @@ status function_create(const struct job_function *job, double step, struct funct
     TRY(library_find("formula_make", &make));
     TRY(library_find("formula_at", &f->at));
     TRY(library_find("formula_destroy", &f->destroy));
-    TRY(library_said(make(job->expression, call_noise, &f->noise, &f->formula)));
+    TRY(library_status(make(job->expression, call_noise, &f->noise, &f->formula)));
     TRY(measure(f, step));
     *out = f;
     f = NULL;

@@ -7,7 +7,7 @@ status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *op
 {
     vdb_encode_volumes_function *encode = NULL;
     status st = library_find("vdb_encode_volumes", &encode);
-    return st == OK ? library_said(encode(grids, options, out)) : st;
+    return st == OK ? library_status(encode(grids, options, out)) : st;
 }
 
 /* The pieces, and the status of getting them. */
@@ -39,7 +39,7 @@ status vdb_points_of_frame(const struct rock *rock, const struct frame_deep *dee
     const struct vdb_pieces pieces = {rock, g.pieces.n, &g, get_piece, drop_piece};
     st = encode(&pieces, options, out);
     if (g.st == OK) /* otherwise the message is set already */
-        st = library_said(st);
+        st = library_status(st);
 done:
     rock_pieces_end(&g.pieces);
     return st;

@@ -147,7 +147,7 @@ check "an output folder below a device" refused 4 "/dev/null" run "$job" --out /
 mkdir -p mounted
 if mount -t tmpfs -o size=64k tmpfs mounted 2>/dev/null; then
     mount -o remount,ro mounted
-    check "a disk that is read-only" refused 4 "mounted/out: cannot make the folder: Read-only" run "$job" --out mounted/out
+    check "a disk that is read-only" refused 4 "mounted/out: cannot create the folder: Read-only" run "$job" --out mounted/out
     mount -o remount,rw mounted
     mkdir -p mounted/out/points mounted/out/volumes mounted/out/aov mounted/out/frames mounted/out/checkpoint mounted/out/log
     mount -o remount,ro mounted

@@ -46,7 +46,7 @@ check "the nearest verb is named" refused "did you mean 'hoodoo run'?" rnu job.y
 check "far verbs are not" refused "'hoodoo --help' lists" sandcastle
 check "a missing operand" refused "OUT is missing" status
 check "an operand too many" refused "unexpected argument 'b'" status a b
-check "a missing value" refused "--frames needs a value" status --frames
+check "a missing value" refused "--frames requires a value" status --frames
 check "a bad range" refused "not a frame range" status --frames 1..5 x
 check "no verb: help, but not success" says 2
 check "no verb: one line on stderr" one_line

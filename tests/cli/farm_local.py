@@ -57,7 +57,7 @@ ok(code == 7 and "holds another job" in said and "w0001" in said, "another job i
 os.makedirs("fails")
 open("fails/mesh", "w").close()
 code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "1", "--out", "fails")
-ok(code == 4 and said.count("it will be tried again") >= 1 and "failed for good" in said and "Not a directory" in said and
+ok(code == 4 and said.count("it will be retried") >= 1 and "failed permanently" in said and "Not a directory" in said and
    "sim.1011-1012: done" in said and "\r" not in said, "a task that keeps failing is tried twice; the rest is done; the log says why", code, said)
 os.remove("fails/mesh")
 code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "1", "--out", "fails")
@@ -118,7 +118,7 @@ for i, name in enumerate(NAMES):
 ok(not any("pwned" in names for _, _, names in os.walk(".")), "nothing of a name was run")
 for value in ("../x", "a b", "$(touch pwned)", "a\nb", ""):
     code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--set", f"name={json.dumps(value)}", "--dry-run")
-    ok(code == 2 and "not a name" in said or "is wanted" in said or "control" in said or "holds" in said, f"a job called {value!r} is refused", code, said)
+    ok(code == 2 and "not a name" in said or "is expected" in said or "control" in said or "holds" in said, f"a job called {value!r} is refused", code, said)
 for wedge, word in (("[{key: name, values: [x]}]", "cannot differ"), ("[{key: nosuch, values: [1]}]", "unknown key"), ("[{key: seed, values: []}]", "without values"),
                     ("[{key: seed, values: [1, 2]}, {key: fps, values: [1]}]", "zipped"), ("[{key: seed, values: [-5]}]", "out of range"),
                     ("[{key: 'x=1; touch pwned', values: [1]}]", "")):

@@ -47,7 +47,7 @@ for i, name in enumerate(examples):
         bad.append((name, said, planned))
 ok(not bad, f"each of {len(examples)} makes a job under a new name that can be planned", *bad)
 code, said = hoodoo("new", "mine_0")
-ok(code == 2 and "there already" in said, "a job that is there is not written over", said)
+ok(code == 2 and "already exists" in said, "a job that is there is not written over", said)
 for words in (("new",), ("new", "a b"), ("new", "../x"), ("new", "x", "--like", "buttle")):
     code, said = hoodoo(*words)
     ok(code == 2, "refused: " + " ".join(words), said)

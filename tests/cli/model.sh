@@ -52,7 +52,7 @@ done
 grep -q 'Lumps' whole/report/index.html
 say $? "the report says what its rock is counted in"
 "$new" run job.yaml --out no --set clock.years_per_frame=0 --set clock.seconds_per_frame=0.1 >log 2>&1
-[ $? = 2 ] && grep -q 'model: melt has no shots in real time' log
+[ $? = 2 ] && grep -q 'model: melt does not support shots in real time' log
 say $? "and what it cannot do is refused"
 "$HOODOO" plan job.yaml >log 2>&1
 [ $? = 2 ] && grep -q 'melt' log

@@ -174,7 +174,7 @@ for f in glob.glob("one/frames/*"):
 code, _, said = hoodoo("report", "one")
 page = look("one", "no frame")
 check(code == 3 and "0 of 4 frames" in page.text and "No frame is sound." in page.text and said.count("\n") == 1
-      and "none of its 4 frames is sound (0 damaged, 4 missing)" in said, "no frame: a page that says so, and exit 3", code, said)
+      and "none of the 4 frames is complete and undamaged (0 damaged, 4 missing)" in said, "no frame: a page that says so, and exit 3", code, said)
 shutil.copytree("half", "gone")
 shutil.rmtree("gone/volumes")
 os.mkdir("gone/volumes")
@@ -186,7 +186,7 @@ shutil.copytree(ROOT, "unreadable")
 for f in glob.glob("unreadable/frames/*"):
     open(f, "w").write("{")
 code, _, said = hoodoo("report", "unreadable", "--no-pictures")
-check(code == 3 and "4 damaged" in look("unreadable", "manifests damaged").text and "none of its 4 frames is sound" in said,
+check(code == 3 and "4 damaged" in look("unreadable", "manifests damaged").text and "none of the 4 frames is complete and undamaged" in said,
       "every manifest damaged: said on the page, and exit 3", code, said)
 with open("half/aov/7-wall.1001.exr", "r+b") as file:
     file.seek(200)

@@ -98,5 +98,5 @@ said = subprocess.run([hoodoo, "verify", "map"], stdout=subprocess.PIPE, stderr=
 ok(said.returncode == 0, "and reads it", said.stdout[-500:])
 os.remove(os.path.join(there, "libexec/hoodoo/hoodoo-read-image"))
 said = subprocess.run([hoodoo, "run", "map.yaml", "--out", "map2"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=clean, text=True)
-ok(said.returncode == 3 and "hoodoo-read-image stands neither beside hoodoo nor" in said.stdout, "without its reader an image is an error that says so", said.stdout[-500:])
+ok(said.returncode == 3 and "hoodoo-read-image is neither beside hoodoo nor" in said.stdout, "without its reader an image is an error that says so", said.stdout[-500:])
 sys.exit(failures > 0)

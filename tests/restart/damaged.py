@@ -130,7 +130,7 @@ for kind in ("frames", "points", "volumes", "aov"):
         if ".1004." in name:
             shutil.copy2(os.path.join("edited", kind, name), os.path.join("run", kind, name))
 code, said = verify("run")
-ok(code == 3 and "damaged frames/twelve.1004.json: it is a frame of another job" in said and "1 damaged" in said and '"hoodoo run" makes' in said,
+ok(code == 3 and "damaged frames/twelve.1004.json: it belongs to another job" in said and "1 damaged" in said and 'run "hoodoo run"' in said,
    "verify: a frame of another job is named", code, said)
 code, said = run("run")
 same("and the next run makes it again", code, said)
@@ -139,7 +139,7 @@ with open("run/job.yaml") as file:
 with open("run/job.yaml", "w") as file:
     file.write(text.replace("seed: 3", "seed: 4"))
 code, said = verify("run")
-ok(code == 3 and "damaged job.yaml: it is not the frames' job" in said and "1 damaged" in said, "verify: an edited job.yaml is named", code, said)
+ok(code == 3 and "damaged job.yaml: it is not the job of the frames" in said and "1 damaged" in said, "verify: an edited job.yaml is named", code, said)
 fresh()
 code, said = run("run", "--set", "checkpoint.keep=4", "--set", "farm.retries=1", "--set", "cameras.spare={orbit: {distance_m: 9}}")
 ok(code == 0 and "continuing" in said, "what is in no frame may change: it goes on", code, said)

@@ -239,8 +239,8 @@ static void refuses_a_lying_index(void **state)
         {"fedcba9876543210", "fedcba987654321X", "'job_hash'"},
         {"\"0.1.0\"", "\"0.1.0 0.1.0 0.1.0 0.1.0 0.1.0 0.1.0 0.1.0\"", "'version'"},
         {"\"driver 1.2\"", "12", "'driver'"},
-        {"\"driver 1.2\"", "\"\\ud800\"", "half a surrogate pair"},
-        {"\"driver 1.2\"", "\"\\u0000\"", "a NUL in a text"},
+        {"\"driver 1.2\"", "\"\\ud800\"", "unpaired surrogate"},
+        {"\"driver 1.2\"", "\"\\u0000\"", "or NUL in a text"},
         {"\"name\": \"noise\"", "\"name\": \"viability\"", "two sections"},
         {"\"name\": \"noise\"", "\"name\": null", "'name'"},
         {"\"item\": 36", "\"item\": 0", "'item'"},
@@ -262,7 +262,7 @@ static void refuses_a_lying_index(void **state)
          "nested too deeply"},
         {"\"sections\": [", "\"sections\": [1,", "'name'"},
         {"{", "", "line 2, column 10"},
-        {"{", "{{", "a key in quotes"},
+        {"{", "{{", "expected a key in quotes"},
     };
     size_t size;
     unsigned char *bytes = encoded(200, &size);

@@ -239,7 +239,7 @@ static void groups_run_side_by_side(void **state)
     assert_int_equal(children_run(&c, SH("echo oh; exit 3"), "a cake", count, &done), OK);
     assert_int_equal(children_wait(&c), E_OUTPUT);
     assert_string_equal(status_message(),
-                        "a cake could not be made (exit 3); what the program said is in ./group.log");
+                        "a cake could not be made (exit 3); see the program's output in ./group.log");
     assert_int_equal(
         children_run(&c, (const char *const[]){"no-such-program", NULL}, "a castle", count, &done), OK);
     assert_int_equal(children_wait(&c), E_INPUT);

@@ -31,7 +31,7 @@ int clock_gettime(clockid_t clock, struct timespec *out)
     return code;
 }
 
-static const struct lock_patience quick = {.beat_s = 0.1, .watch_s = 0.6};
+static const struct lock_patience quick = {.heartbeat_s = 0.1, .watch_s = 0.6};
 
 static bool there(const char *path)
 {

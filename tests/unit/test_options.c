@@ -22,7 +22,7 @@ static const struct usage usage = {"test", "OUT [FILE]", "a verb for tests"};
 
 struct given {
     struct common common;
-    struct words operands;
+    struct arguments operands;
     int size;
     double scale;
     bool help;
@@ -35,7 +35,7 @@ static status parse(const char *line, struct given *g)
     static char words[1024];
     char *argv[32] = {0};
     int argc = 0;
-    words_free(&g->operands);
+    arguments_free(&g->operands);
     common_free(&g->common);
     *g = (struct given){.size = 7};
     snprintf(words, sizeof words, "test %s", line);
@@ -59,12 +59,12 @@ static void understands_what_users_write(void **state)
         parse("--out a/b here --json --frames=1001-1010x3 --set a.b=1 --set c=[1,2] --size -3", &g), OK);
     assert_string_equal(g.common.out, "a/b");
     assert_int_equal(g.operands.n, 1);
-    assert_string_equal(g.operands.word[0], "here");
+    assert_string_equal(g.operands.item[0], "here");
     assert_true(g.common.json);
     assert_int_equal(g.common.frames.first, 1001);
     assert_int_equal(g.common.frames.step, 3);
     assert_int_equal(g.common.sets.n, 2);
-    assert_string_equal(g.common.sets.word[1], "c=[1,2]");
+    assert_string_equal(g.common.sets.item[1], "c=[1,2]");
     assert_int_equal(g.size, -3);
 
     assert_int_equal(parse("here", &g), OK);
@@ -85,11 +85,11 @@ static void understands_what_users_write(void **state)
 
     assert_int_equal(parse("-- --json -x", &g), OK);
     assert_false(g.common.json);
-    assert_string_equal(g.operands.word[0], "--json");
+    assert_string_equal(g.operands.item[0], "--json");
     assert_int_equal(parse("--out=--odd= -", &g), OK);
     assert_string_equal(g.common.out, "--odd=");
-    assert_string_equal(g.operands.word[0], "-");
-    words_free(&g.operands);
+    assert_string_equal(g.operands.item[0], "-");
+    arguments_free(&g.operands);
     common_free(&g.common);
 }
 
@@ -105,8 +105,8 @@ static void refuses_the_rest_and_says_why(void **state)
         {"x --frame=1001", "did you mean --frames?"},
         {"x --quux", "'hoodoo test -h' lists them"},
         {"x -q", "unknown option -q"},
-        {"x --out", "--out needs a value: --out DIR"},
-        {"x --out --json", "--out needs a value"},
+        {"x --out", "--out requires a value: --out DIR"},
+        {"x --out --json", "--out requires a value"},
         {"x --json=yes", "takes no value"},
         {"x --frames 9-1", "ends before it begins"},
         {"x --frames 1..5", "not a frame range"},
@@ -126,7 +126,7 @@ static void refuses_the_rest_and_says_why(void **state)
         if (!strstr(status_message(), wrong[i].says))
             fail_msg("'%s' says: %s", wrong[i].line, status_message());
     }
-    words_free(&g.operands);
+    arguments_free(&g.operands);
     common_free(&g.common);
 }
 

@@ -1,4 +1,4 @@
-#include "cli/words.h"
+#include "cli/answer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,12 +46,12 @@ static const char *bytes_text(double n, char out[32])
     return out;
 }
 
-/* A value that is no group, as people read it; *out is freed with free(). */
+/* A number, text, boolean or null as text for people; *out is released with free(). */
 static status scalar(const struct json *v, char **out)
 {
     status st = OK;
     const char *key = v->key ? v->key : "";
-    /* The longest duration or size fits. */
+    /* 32 bytes hold any number, duration or size. */
     const size_t size = (v->text ? strlen(v->text) : 0) + 32;
     TRY(memory_alloc(size, 1, "a text", out));
     if (v->kind == JSON_TEXT) {
@@ -68,7 +68,7 @@ static status scalar(const struct json *v, char **out)
     } else if (ends_with(key, "_seconds")) {
         duration_text(v->number, *out);
     } else if (strchr(v->text, 'e') && fabs(v->number) >= 1e-4 && fabs(v->number) < 1e15) {
-        snprintf(*out, size, "%.15g", v->number); /* 5e+03 is the shortest form, and right for programs */
+        snprintf(*out, size, "%.15g", v->number); /* JSON has the shortest form, such as 5e+03 */
     } else {
         strcpy(*out, v->text);
     }
@@ -78,7 +78,7 @@ done:
 
 /* ---- tables */
 
-/* Is every value of the array a flat object with as many members as the first? */
+/* Whether every value of the array is a flat object with as many members as the first. */
 static bool is_table(const struct json *array)
 {
     const size_t columns = array->first ? array->first->n : 0;
@@ -92,7 +92,7 @@ static bool is_table(const struct json *array)
     return array->n > 0;
 }
 
-/* One pass over the table: measures columns, or prints. */
+/* One pass over the table, which either measures the columns or prints them. */
 static status walk_table(const struct json *array, int indent, bool print, int width[])
 {
     char name[LABEL_SIZE];
@@ -188,7 +188,7 @@ done:
     return st;
 }
 
-status words_print(const struct text *answer, bool as_json)
+status answer_print(const struct text *answer, bool as_json)
 {
     struct json *json = NULL;
     status st = OK;
