@@ -39,7 +39,7 @@ struct lock {
 /* The counter comes first and has a fixed width, so that it can be overwritten in place. */
 static status compose(const struct lock *lock, const char *what, struct text *t)
 {
-    struct process me;
+    struct process_id me;
     char since[32] = "";
     time_t now = time(NULL);
     struct tm tm;
@@ -63,7 +63,7 @@ static status compose(const struct lock *lock, const char *what, struct text *t)
 struct seen {
     bool there, unread; /* unread: it exists but cannot be read at the moment */
     char count[COUNT_DIGITS + 1], token[96], since[40], what[256];
-    struct process holder;
+    struct process_id holder;
 };
 
 static void copy_text(const struct json *json, const char *key, char *out, size_t size)
@@ -193,7 +193,7 @@ static status fail_held(const char *path, const struct seen *s)
 static status check_holder(const char *path, const struct seen *first, double watch_s, bool (*stop)(void))
 {
     struct seen now;
-    const struct process *h = &first->holder;
+    const struct process_id *h = &first->holder;
     const enum process_fate fate = process_fate(h);
     if (fate != PROCESS_UNKNOWN)
         return fate == PROCESS_LIVES ? fail_held(path, first) : OK;

@@ -18,11 +18,12 @@ static bool proc_is_ours(void)
     return n > 0 && strtol(self, NULL, 10) == (long)getpid();
 }
 
-/* The start time of a process; 0 if /proc does not have it. */
-static unsigned long long process_began(long pid)
+/* The start time of a process; 0 if /proc does not have it. *ended: it has exited, and its parent has not waited for it yet. */
+static unsigned long long process_began(long pid, bool *ended)
 {
     char path[64], line[1024];
     unsigned long long began = 0;
+    *ended = false;
     if (!proc_is_ours())
         return 0;
     snprintf(path, sizeof path, "/proc/%ld/stat", pid);
@@ -34,6 +35,7 @@ static unsigned long long process_began(long pid)
     line[n] = '\0';
     /* The name may contain spaces and parentheses. The start time is the 20th field behind it. */
     char *s = strrchr(line, ')');
+    *ended = s && (strncmp(s, ") Z", 3) == 0 || strncmp(s, ") X", 3) == 0);
     for (int field = 0; s && field < 20; field++)
         s = strchr(s + 1, ' ');
     if (s)
@@ -51,39 +53,41 @@ static void first_line(const char *path, char *out, size_t size)
         fclose(f);
 }
 
-static void place_self(struct process *p)
+static void place_self(struct process_id *p)
 {
-    *p = (struct process){.pid = (long)getpid()};
+    *p = (struct process_id){.pid = (long)getpid()};
     gethostname(p->host, sizeof p->host - 1);
     first_line("/proc/sys/kernel/random/boot_id", p->boot, sizeof p->boot);
     ssize_t n = readlink("/proc/self/ns/pid", p->space, sizeof p->space - 1);
     p->space[n > 0 ? n : 0] = '\0';
 }
 
-void process_self(struct process *out)
+void process_self(struct process_id *out)
 {
+    bool ended;
     place_self(out);
-    out->began = process_began(out->pid);
+    out->began = process_began(out->pid, &ended);
 }
 
-enum process_fate process_fate(const struct process *p)
+enum process_fate process_fate(const struct process_id *p)
 {
-    struct process me;
+    struct process_id me;
     place_self(&me);
     if (p->pid <= 0 || strcmp(p->host, me.host) != 0 || strcmp(p->boot, me.boot) != 0 || !*p->boot ||
         strcmp(p->space, me.space) != 0 || !*p->space)
         return PROCESS_UNKNOWN;
     if (kill((pid_t)p->pid, 0) != 0 && errno == ESRCH)
         return PROCESS_GONE;
-    const unsigned long long began = process_began(p->pid);
+    bool ended;
+    const unsigned long long began = process_began(p->pid, &ended);
     if (!began || !p->began)
         return PROCESS_UNKNOWN; /* the number is in use, possibly by another process */
-    return began == p->began ? PROCESS_LIVES : PROCESS_GONE;
+    return began == p->began && !ended ? PROCESS_LIVES : PROCESS_GONE;
 }
 
 uint32_t process_place(void)
 {
-    struct process me;
+    struct process_id me;
     char all[sizeof me.host + sizeof me.boot + sizeof me.space + 2];
     place_self(&me);
     int n = snprintf(all, sizeof all, "%s\n%s\n%s", me.host, me.boot, me.space);

@@ -5,20 +5,20 @@
 
 #include <stdint.h>
 
-struct process {
+struct process_id {
     char host[128], boot[64], space[64]; /* host name, boot id, PID namespace; "" if unknown */
     long pid;
     unsigned long long began; /* start time, in ticks since boot; 0: unknown */
 };
 
-void process_self(struct process *out);
+void process_self(struct process_id *out);
 
 enum process_fate {
     PROCESS_LIVES,
     PROCESS_GONE,
     PROCESS_UNKNOWN, /* on another machine or in another container, or /proc hides other users' processes (hidepid) */
 };
-enum process_fate process_fate(const struct process *p);
+enum process_fate process_fate(const struct process_id *p);
 
 /* A hash of machine, boot and PID namespace, within which process numbers are unique. */
 uint32_t process_place(void);

@@ -223,7 +223,7 @@ static void a_lock_that_cannot_be_read_for_a_moment_is_not_lost(void **state)
 }
 
 /* In a child: an ordinary user, to whom /proc shows no process of others. 77: this machine does not allow it. */
-static int as_a_stranger(const struct process *other, long holder_pid)
+static int as_a_stranger(const struct process_id *other, long holder_pid)
 {
     struct lock *lock;
     char number[40];
@@ -242,7 +242,7 @@ static void a_living_holder_that_proc_hides_keeps_others_out(void **state)
 {
     (void)state;
     int how;
-    struct process me;
+    struct process_id me;
     process_self(&me);
     assert_int_equal(process_fate(&me), PROCESS_LIVES);
     assert_int_equal(mkdir("hidden", 0777), 0);
@@ -263,7 +263,7 @@ static void a_living_holder_that_proc_hides_keeps_others_out(void **state)
 static void the_fate_of_processes(void **state)
 {
     (void)state;
-    struct process me, other;
+    struct process_id me, other;
     process_self(&me);
     assert_true(me.began > 0);
     other = me;
