@@ -187,7 +187,8 @@ static status count_operands(const struct usage *usage, const struct arguments *
     size_t least = 0, most = 0;
     for (const char *p = usage->operands; *p; p += strspn(p, " ")) {
         size_t length = strcspn(p, " ");
-        bool many = length > 3 && strncmp(p + length - 3, "...", 3) == 0;
+        const size_t name = length - (p[length - 1] == ']');
+        bool many = name > 3 && strncmp(p + name - 3, "...", 3) == 0;
         least += *p != '[';
         most = many || most == SIZE_MAX ? SIZE_MAX : most + 1;
         p += length;
