@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "farm/command.h"
-#include "run/memory.h"
+#include "farm/needs.h"
 
 enum { ROWS = 100 };
 
@@ -40,24 +40,44 @@ static void put_after(const struct farm_graph *g, const struct farm_task *t, boo
     json_end_array(out);
 }
 
-/* What another farm needs to run it. Paths are this machine's. */
+static status put_output(void *user, const char *path)
+{
+    json_text(user, NULL, path);
+    return OK;
+}
+
+/* What a farm needs to run the task. Paths are those of this machine. */
 static status put_command(const struct farm *f, const struct farm_task *t, const char *device,
                           struct text *out)
 {
     status st = OK;
     struct farm_command c;
+    struct farm_needs needs;
     struct path log;
-    const struct model_estimate *e = &f->wedge[0].estimate;
-    const bool gpu = farm_wants_gpu(t->kind, device);
-    TRY(farm_command(f, t, device ? device : "auto", 0, &c));
+    char threads[16];
+    farm_needs(f, t, device, &needs);
+    TRY(farm_command(f, t, device ? device : "auto", needs.cpus, &c));
+    json_bool(out, "after_any", t->kind == FARM_END);
     json_array(out, "argv");
     for (size_t i = 0; i < c.n; i++)
         json_text(out, NULL, c.argv[i]);
     json_end_array(out);
-    json_bool(out, "gpu", gpu);
-    if (t->kind == FARM_SIM)
-        json_integer(out, "memory_bytes",
-                     (int64_t)(e->host_bytes + run_memory_process(NULL, e) + (gpu ? 0 : e->device_bytes)));
+    snprintf(threads, sizeof threads, "%d", needs.cpus);
+    json_object(out, "environment");
+    json_text(out, "OMP_NUM_THREADS", threads);
+    if (!needs.gpu)
+        json_text(out, "LP_NUM_THREADS", threads);
+    json_end_object(out);
+    json_integer(out, "cpus", needs.cpus);
+    json_bool(out, "gpu", needs.gpu);
+    json_integer(out, "gpu_memory_bytes", (int64_t)needs.gpu_bytes);
+    json_integer(out, "memory_bytes", (int64_t)needs.memory_bytes);
+    json_integer(out, "peak_bytes", (int64_t)needs.peak_bytes);
+    json_integer(out, "time_limit_seconds", needs.limit_s);
+    json_integer(out, "notice_seconds", needs.notice_s);
+    json_array(out, "outputs");
+    TRY(farm_task_outputs(f, t, put_output, out));
+    json_end_array(out);
     TRY(farm_log_path(f, t, &log));
     json_text(out, "log", log.text);
 done:
@@ -73,6 +93,8 @@ status farm_describe(const struct farm *f, bool words, const char *device, struc
     uint64_t disk = 0;
     if (f->wedge[0].job->wedge.index)
         put_wedges(f, words, out);
+    if (!words)
+        json_integer(out, "format", FARM_FORMAT);
     json_array(out, "tasks");
     for (size_t i = 0; i < g->n; i++) {
         const struct farm_task *t = &g->task[i];
@@ -82,7 +104,7 @@ status farm_describe(const struct farm *f, bool words, const char *device, struc
             continue;
         json_object(out, NULL);
         json_text(out, "name", t->name);
-        json_text(out, "kind", farm_kinds[t->kind].stage);
+        json_text(out, "kind", farm_stage_name(t->kind));
         if (!words)
             json_integer(out, "wedge", t->wedge);
         json_text(out, "frames", range_text(t->frames, frames));

@@ -1,13 +1,16 @@
-/* The graph in an answer (base/text.h's JSON): what plan and submit --dry-run print. */
+/* The graph of tasks as JSON: what hoodoo plan, submit --dry-run and submit --to tasks print. farm/README.md documents its members. */
 #ifndef HOODOO_FARM_DESCRIBE_H
 #define HOODOO_FARM_DESCRIBE_H
 
 #include "base/text.h"
 #include "farm/farm.h"
 
-/* Members "wedges" (if there are any) and "tasks" of the object under way. `words`: flat rows, and no more of them than a person
- * reads. Otherwise each has all that a farm needs to run it: its command as a list, what it waits for, what it takes, where it
- * logs. `device`: for --device, or NULL. E_USAGE: a command is too long. */
+/* The version of the format, the member "format": a farm that reads tasks should check it. It grows when the meaning of a member
+ * changes, and stays when members are added. */
+enum { FARM_FORMAT = 1 };
+
+/* Adds members "wedges" (if there are any), "format" and "tasks" to the open JSON object. `words`: for people, flat rows and at most 100 of
+ * them. Otherwise each task has all that a farm needs to run it. `device`: for --device, or NULL. E_USAGE: a command is too long. */
 MUST_USE status farm_describe(const struct farm *f, bool words, const char *device, struct text *out);
 
 #endif

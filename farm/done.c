@@ -174,6 +174,43 @@ done:
     return st;
 }
 
+status farm_task_outputs(const struct farm *f, const struct farm_task *t,
+                         status (*each)(void *user, const char *path), void *user)
+{
+    status st = OK;
+    const struct farm_kind_info *kind = &farm_kinds[t->kind];
+    const struct job *job = farm_job(f, t);
+    const size_t n = kind->parts ? kind->parts(job) : 1;
+    struct path file, path;
+    char number[FRAME_TEXT], prefix[FRAME_TEXT + 2] = "";
+    if (kind->cut == CUT_JOB)
+        return OK;
+    if (t->wedge)
+        snprintf(prefix, sizeof prefix, "%s/", wedge_text(t->wedge, number));
+    if (kind->cut == CUT_VIEWS) {
+        for (int view = t->views.first; view <= t->views.last; view++) {
+            TRY(folder_view(&file, job->name, t->show, t->frames.last, view));
+            TRY(path_format(&path, "%s%s", prefix, file.text));
+            TRY(each(user, path.text));
+        }
+        return OK;
+    }
+    const bool many = kind->cut == CUT_BLOCKS || kind->cut == CUT_CHUNKS || kind->cut == CUT_LIST;
+    const struct frame_range last = {t->frames.last, t->frames.last, 1}, frames = many ? t->frames : last;
+    for (int frame = frames.first; frame <= frames.last; frame += frames.step)
+        for (size_t i = 0; i < n; i++) {
+            const char *part = kind->part ? kind->part(job, i) : t->show;
+            if (many && kind->takes && !kind->takes(job, frame))
+                continue;
+            TRY(folder_name(&file, kind->cut == CUT_ALL_WEDGES ? f->base->name : job->name,
+                            kind->cut == CUT_BLOCKS ? FILE_MANIFEST : kind->makes, frame, part));
+            TRY(path_format(&path, "%s%s", prefix, file.text));
+            TRY(each(user, path.text));
+        }
+done:
+    return st;
+}
+
 status farm_task_done(const struct farm *f, const struct farm_task *t, bool *done)
 {
     status st = OK;
@@ -189,6 +226,8 @@ status farm_task_done(const struct farm *f, const struct farm_task *t, bool *don
         return views_done(f, t, done);
     case CUT_ALL_WEDGES:
         return across_done(f, t, done);
+    case CUT_JOB:
+        return farm_ended(f, done);
     case CUT_CHUNKS:
     case CUT_LIST:
     case CUT_ONCE:

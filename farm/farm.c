@@ -8,6 +8,9 @@
 
 #include "base/atomic_file.h"
 #include "base/memory.h"
+#include "base/nearest.h"
+#include "farm/end.h"
+#include "farm/submission.h"
 #include "output/folder.h"
 #include "run/branch.h"
 #include "run/run.h"
@@ -93,6 +96,7 @@ void farm_free(struct farm *f)
     free(f->wedge);
     job_destroy(&f->base);
     graph_free(&f->graph);
+    free(f->chosen);
     *f = (struct farm){0};
 }
 
@@ -112,6 +116,97 @@ const struct job *farm_job(const struct farm *f, const struct farm_task *t)
 status farm_log_path(const struct farm *f, const struct farm_task *t, struct path *out)
 {
     return path_format(out, "%s/log/farm/%s.log", f->root.text, t->name);
+}
+
+status farm_measure(struct farm *f)
+{
+    status st = OK;
+    struct path root;
+    for (size_t i = 0; i < f->n_wedges; i++) {
+        TRY(farm_root(f, (int)f->wedge[i].job->wedge.index, &root));
+        f->wedge[i].frame_seconds = farm_frame_seconds(root.text, f->wedge[i].job->name);
+    }
+done:
+    return st;
+}
+
+status farm_open(const char *root, struct farm *f)
+{
+    status st = OK;
+    struct path path;
+    struct submission s = {0};
+    TRY(path_join(&path, root, "farm/job.yaml"));
+    if (access(path.text, F_OK) != 0) {
+        st = fail(E_INPUT, "%s was not made by hoodoo submit: it has no farm/job.yaml", root);
+        goto done;
+    }
+    TRY(submission_read(root, &s));
+    TRY(farm_load(path.text, NULL, 0, NULL, s.wedge, root, f));
+    TRY(farm_measure(f));
+    TRY(farm_graph(f));
+done:
+    submission_free(&s);
+    return st;
+}
+
+int farm_retries(const struct farm *f, const struct farm_task *t)
+{
+    return t->kind == FARM_END ? 0 : (int)farm_job(f, t)->farm.retries;
+}
+
+status farm_choose(struct farm *f, size_t task, const bool *active)
+{
+    status st = OK;
+    const struct farm_graph *g = &f->graph;
+    bool done;
+    TRY(memory_alloc(g->n, sizeof *f->chosen, "the tasks", &f->chosen));
+    TRY(farm_task_done(f, &g->task[task], &done));
+    if (done || (active && active[task])) {
+        st = fail(E_USAGE, "%s %s, so there is nothing to retry", g->task[task].name,
+                  done ? "is done" : "waits or runs");
+        goto done;
+    }
+    f->chosen[task] = true;
+    for (size_t i = task; i < g->n; i++) {
+        bool behind = i == task, ready = true;
+        for (size_t k = 0; k < g->task[i].n_after; k++)
+            behind |= f->chosen[g->after[g->task[i].after + k]];
+        for (size_t k = 0; k < g->task[i].n_after && behind && ready; k++) {
+            const size_t before = g->after[g->task[i].after + k];
+            if (f->chosen[before] || (active && active[before]))
+                continue;
+            TRY(farm_task_done(f, &g->task[before], &ready));
+            if (!ready && i == task) {
+                st = fail(E_USAGE,
+                          "%s waits for %s, which is not done: retry that one, or all with 'hoodoo retry %s'",
+                          g->task[i].name, g->task[before].name, f->root.text);
+                goto done;
+            }
+        }
+        f->chosen[i] = behind && ready;
+    }
+done:
+    return st;
+}
+
+status farm_find(const struct farm *f, const char *name, size_t *out)
+{
+    status st = OK;
+    const char **names = NULL;
+    TRY(memory_alloc(f->graph.n, sizeof *names, "the tasks", &names));
+    for (size_t i = 0; i < f->graph.n; i++) {
+        names[i] = f->graph.task[i].name;
+        if (strcmp(names[i], name) == 0) {
+            *out = i;
+            goto done;
+        }
+    }
+    const char *near = nearest_word(name, names, f->graph.n);
+    st = fail(E_USAGE, "the job has no task '%.80s'%s%s; 'hoodoo plan' lists its tasks", name,
+              near ? "; did you mean " : "", near ? near : "");
+done:
+    free(names);
+    return st;
 }
 
 /* ---- what every task reads */
@@ -167,6 +262,7 @@ status farm_freeze(struct farm *f)
     TRY(job_resolved(f->base, &t));
     TRY(path_join(&path, f->root.text, "farm/job.yaml"));
     TRY(atomic_file_write(path.text, t.data, t.size));
+    farm_end_reset(f);
 done:
     free(real);
     text_free(&t);

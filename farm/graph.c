@@ -228,6 +228,26 @@ done:
     return st;
 }
 
+/* The task that ends the job: it waits for all others, of the blocks for the last one of each wedge. */
+static status add_end(struct farm_graph *g, const struct farm_wedge *wedge)
+{
+    status st = OK;
+    const size_t n = g->n;
+    const int last = wedge[0].job->frames.last;
+    TRY(add_task(g, NULL, &(struct farm_task){.kind = FARM_END, .frames = {last, last, 1}}));
+    for (size_t i = 0; i < n; i++) {
+        size_t next = i + 1;
+        while (next < n && g->task[i].kind == FARM_SIM && g->task[next].kind != FARM_SIM)
+            next++;
+        const bool followed =
+            g->task[i].kind == FARM_SIM && next < n && g->task[next].wedge == g->task[i].wedge;
+        if (!followed)
+            TRY(add_after(g, i));
+    }
+done:
+    return st;
+}
+
 status graph_make(const struct farm_wedge *wedge, size_t n_wedges, struct farm_graph *out)
 {
     status st = OK;
@@ -236,6 +256,7 @@ status graph_make(const struct farm_wedge *wedge, size_t n_wedges, struct farm_g
     for (int k = 0; k < FARM_KINDS; k++)
         if (farm_kinds[k].cut == CUT_ALL_WEDGES)
             TRY(add_across(out, wedge, (enum farm_kind)k));
+    TRY(add_end(out, wedge));
 done:
     return st;
 }

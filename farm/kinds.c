@@ -34,7 +34,7 @@ static size_t wants_turntable(const struct job *job)
     return job->farm.turntable > 0;
 }
 
-/* Pictures out of files need both. */
+/* AOVs from files need the particles too. */
 static bool has_points(const struct job *job, int frame)
 {
     return job_writes(job, JOB_VOLUMES, frame) && job_writes(job, JOB_POINTS, frame);
@@ -71,6 +71,16 @@ const struct farm_kind_info farm_kinds[FARM_KINDS] = {
 #define KIND(word, ...) [FARM_##word] = {__VA_ARGS__},
 #include "farm/kinds.def"
 };
+
+const char *farm_stage_name(enum farm_kind kind)
+{
+    static const char *const names[] = {
+#define FARM_STAGE(constant, word) #word,
+        FARM_STAGES(FARM_STAGE)
+#undef FARM_STAGE
+    };
+    return names[farm_kinds[kind].stage];
+}
 
 bool farm_kind_is_cut(enum farm_kind kind)
 {

@@ -1,28 +1,32 @@
 #include "farm/local.h"
 
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 
 #include "base/child.h"
 #include "base/clock.h"
 #include "base/cores.h"
+#include "base/log.h"
 #include "base/memory.h"
 #include "farm/command.h"
+#include "farm/tries.h"
 #include "gpu/gpu.h"
 
 enum { PAUSE_S = 1 };
 
-/* How long a stop may go unnoticed where its signal came to another thread, and a pause may overrun. */
+/* How long a stop request may go unnoticed if its signal came to another thread, and how far a pause may overrun. */
 static const double LOOK_S = 0.1;
 
 /* ---- workers */
 
 static void add_cpu_workers(struct local_worker out[LOCAL_WORKERS], size_t *n)
 {
-    /* Stills and meshes beside the GPUs: four cores each, and one left for each GPU's own process. */
+    /* Workers for stills and meshes have four cores each; one core is left to each GPU's own process. */
     int left = cores() - (int)*n, k = left / 4 > 1 ? left / 4 : 1;
     for (int i = 0; i < k && *n < LOCAL_WORKERS; i++)
         out[(*n)++] = (struct local_worker){.others = true, .threads = left > 4 ? left / k : 1};
@@ -82,7 +86,7 @@ done:
     return st;
 }
 
-/* ---- tasks under way */
+/* ---- tasks */
 
 enum task_state { WAITING, RUNNING, DONE, FAILED, LEFT_OUT };
 
@@ -90,7 +94,7 @@ struct task {
     enum task_state state;
     int tries;
     double not_before; /* a pause before the next try */
-    bool asked;        /* whether the files say it is done */
+    bool checked;      /* its files have been looked at */
 };
 
 struct worker {
@@ -103,18 +107,39 @@ struct local {
     const struct local_options *options;
     struct task *task;
     struct worker worker[LOCAL_WORKERS];
-    struct child child[LOCAL_WORKERS]; /* of each worker; none: it is idle */
+    struct child child[LOCAL_WORKERS]; /* of each worker; pid 0: idle */
     struct local_state state;
     bool stopping;
     int code; /* of the first task that failed */
     size_t first_failed;
 };
 
-static void tell(struct local *l, enum local_news what, size_t task, int worker, double seconds,
-                 const char *why)
+static void report(struct local *l, enum local_news what, size_t task, int worker, double seconds,
+                   const char *why)
 {
     if (l->options->news)
         l->options->news(l->options->user, what, &l->farm->graph.task[task], worker, seconds, why);
+}
+
+/* Appends a line to the task's log, between what its tries write. Never fails: a task whose log cannot be opened fails by itself. */
+static void log_line(const struct local *l, size_t task, const char *format, ...)
+{
+    const struct farm_task *t = &l->farm->graph.task[task];
+    struct path path;
+    FILE *file;
+    char now[32];
+    const time_t seconds = time(NULL);
+    struct tm tm;
+    va_list list;
+    if (farm_log_path(l->farm, t, &path) != OK || !(file = fopen(path.text, "ae")))
+        return;
+    strftime(now, sizeof now, "%Y-%m-%dT%H:%M:%S", localtime_r(&seconds, &tm));
+    fprintf(file, "%s hoodoo farm: %s: ", now, t->name);
+    va_start(list, format);
+    vfprintf(file, format, list);
+    va_end(list);
+    fputc('\n', file);
+    fclose(file);
 }
 
 static status start(struct local *l, size_t task, int k)
@@ -137,6 +162,11 @@ static status start(struct local *l, size_t task, int k)
                                           .variable = variables,
                                           .n_variables = 2,
                                           .death_signal = SIGTERM};
+    log_line(l, task, "try %d, worker %d, device %s", l->task[task].tries + 1, k,
+             *w->device ? w->device : "auto");
+    if (l->task[task].tries == 0)
+        TRY(tries_add(l->farm, t, "submitted"));
+    TRY(tries_add_start(l->farm, t, ""));
     TRY(child_start(&options, &l->child[k]));
     l->worker[k].task = task;
     l->worker[k].since = clock_seconds();
@@ -145,7 +175,7 @@ static status start(struct local *l, size_t task, int k)
     l->state.running++;
     l->state.task[k] = t;
     l->state.running_since[k] = l->worker[k].since;
-    tell(l, LOCAL_STARTED, task, k, 0, "");
+    report(l, LOCAL_STARTED, task, k, 0, "");
 done:
     free(command);
     return st;
@@ -158,44 +188,48 @@ static void finish(struct local *l, int k, int how)
     const struct farm_task *t = &l->farm->graph.task[w->task];
     double took = clock_seconds() - w->since;
     struct path log;
-    char why[600] = "";
+    char why[600] = "", meaning[160];
     int code = WIFEXITED(how) ? WEXITSTATUS(how) : 128 + WTERMSIG(how);
     l->state.running--;
     l->state.task[k] = NULL;
+    log_line(l, w->task, "exit %d after %.0f s: %s", code, took, farm_exit_meaning(code, meaning));
+    if (tries_add_end(l->farm, t, code, took) != OK)
+        log_warn("%s", status_message());
     if (code == 0) {
         task->state = DONE;
         l->state.done++;
-        tell(l, LOCAL_DONE, w->task, k, took, "");
+        report(l, LOCAL_DONE, w->task, k, took, "");
         return;
     }
     if (l->stopping) {
-        /* Whatever it was, the same command goes on from here. */
+        /* Whatever the exit code, the same command continues from here. */
         task->state = WAITING;
-        tell(l, LOCAL_SAVED, w->task, k, took, "");
+        report(l, LOCAL_SAVED, w->task, k, took, "");
         return;
     }
     if (farm_log_path(l->farm, t, &log) == OK)
         child_reason(how, log.text, why, sizeof why);
     task->not_before = clock_seconds() + PAUSE_S * task->tries;
     if (code == STOPPED) {
-        task->tries--; /* someone stopped it alone: no failure */
+        task->tries--; /* someone stopped this task alone, which is not a failure */
         task->state = WAITING;
-        tell(l, LOCAL_AGAIN, w->task, k, took, why);
-    } else if (farm_final(code) || task->tries > farm_job(l->farm, t)->farm.retries) {
+        report(l, LOCAL_AGAIN, w->task, k, took, why);
+    } else if (farm_final(code) || code == CHILD_NO_PROGRAM || task->tries > farm_retries(l->farm, t)) {
         task->state = FAILED;
         l->state.failed++;
         if (!l->code) {
             l->code = code;
             l->first_failed = w->task;
         }
-        tell(l, LOCAL_FAILED, w->task, k, took, why);
+        report(l, LOCAL_FAILED, w->task, k, took, why);
     } else {
         task->state = WAITING;
-        tell(l, LOCAL_AGAIN, w->task, k, took, why);
+        report(l, LOCAL_AGAIN, w->task, k, took, why);
     }
 }
 
-/* Can the task begin? It is left out if something it waits for failed, and done if its files say so. */
+/* Whether the task can start. It is left out if a task that it waits for failed, and done if its files are complete. The task that ends the
+ * job waits for the others' ends alone. */
 static status ready(struct local *l, size_t i, bool *yes)
 {
     status st = OK;
@@ -204,18 +238,21 @@ static status ready(struct local *l, size_t i, bool *yes)
     *yes = false;
     for (size_t k = 0; k < g->task[i].n_after; k++) {
         enum task_state before = l->task[g->after[g->task[i].after + k]].state;
-        if (before == FAILED || before == LEFT_OUT) {
+        const bool failed = before == FAILED || before == LEFT_OUT;
+        if (failed && g->task[i].kind == FARM_END)
+            continue;
+        if (failed) {
             task->state = LEFT_OUT;
             l->state.left_out++;
-            tell(l, LOCAL_LEFT_OUT, i, -1, 0, g->task[g->after[g->task[i].after + k]].name);
+            report(l, LOCAL_LEFT_OUT, i, -1, 0, g->task[g->after[g->task[i].after + k]].name);
             return OK;
         }
         if (before != DONE)
             return OK;
     }
-    if (!task->asked) {
+    if (!task->checked) {
         bool done;
-        task->asked = true;
+        task->checked = true;
         TRY(farm_task_done(l->farm, &g->task[i], &done));
         if (done) {
             task->state = DONE;
@@ -229,8 +266,8 @@ done:
     return st;
 }
 
-/* Gives idle workers what is ready, simulation first. */
-static status hand_out(struct local *l)
+/* Starts ready tasks on idle workers, simulation first. */
+static status start_ready(struct local *l)
 {
     status st = OK;
     const struct farm_graph *g = &l->farm->graph;
@@ -260,7 +297,7 @@ static void stop_all(struct local *l)
             kill(l->child[k].pid, SIGTERM);
 }
 
-/* Takes in what has ended or ends within `seconds`; true if anything has. */
+/* Handles the tasks that have ended or end within `seconds`; true if there are any. */
 static bool reap(struct local *l, double seconds)
 {
     const size_t n = l->options->n_workers;
@@ -275,7 +312,7 @@ static status verdict(const struct local *l)
 {
     struct path log;
     if (l->stopping)
-        return fail(STOPPED, "stopped with %zu of %zu tasks done; run the same command again to go on",
+        return fail(STOPPED, "stopped with %zu of %zu tasks done; run the same command again to continue",
                     l->state.done, l->state.total);
     if (l->code == 0)
         return OK;
@@ -289,7 +326,7 @@ static status verdict(const struct local *l)
 #undef KNOWN
     return fail(
         st,
-        "%zu of %zu tasks failed and %zu were left out that wait for them; the first was %s: see %s, then run the same command again",
+        "%zu of %zu tasks failed and %zu that wait for them were left out; the first was %s: see %s, then run the same command again",
         l->state.failed, l->state.total, l->state.left_out, t->name, log.text);
 }
 
@@ -299,11 +336,16 @@ status local_run(const struct farm *f, const struct local_options *options)
     struct local l = {.farm = f, .options = options, .state = {.total = f->graph.n}};
     double ticked = 0, wait = 0;
     TRY(memory_alloc(f->graph.n, sizeof *l.task, "the tasks", &l.task));
+    for (size_t i = 0; i < f->graph.n; i++)
+        if (f->chosen && !f->chosen[i]) {
+            l.task[i].state = DONE; /* what chosen tasks wait for is done: farm_choose() */
+            l.state.total--;
+        }
     for (;;) {
         bool any = reap(&l, wait);
         if (!l.stopping && options->stop && options->stop())
             stop_all(&l);
-        if (!l.stopping && st == OK && (st = hand_out(&l)) != OK)
+        if (!l.stopping && st == OK && (st = start_ready(&l)) != OK)
             stop_all(&l);
         size_t over = l.state.done + l.state.failed + l.state.left_out;
         if (l.state.running == 0 && (l.stopping || over == l.state.total))

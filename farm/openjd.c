@@ -1,13 +1,42 @@
 #include "farm/openjd.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "farm/command.h"
-#include "run/memory.h"
+#include "farm/needs.h"
 
-/* Seconds between the notice and the end of a task: of a simulation, a frame and its checkpoint. OpenJD allows 600. */
-enum { NOTIFY_SIM_S = 300, NOTIFY_S = 30, NOTIFY_MOST_S = 600, MIB = 1 << 20 };
+/* Seconds between the notice and the end of a task: of one on a device, a frame and its checkpoint. OpenJD allows 600. */
+enum { NOTIFY_DEVICE_S = 300, NOTIFY_S = 30, NOTIFY_MOST_S = 600, MIB = 1 << 20 };
+
+enum { STEP_NAME = 64 };
+
+/* What the functions below share: the text that is written, and facts of the tasks. */
+struct writer {
+    const struct farm *farm;
+    const char *device; /* for --device, or NULL */
+    struct text *out;
+    bool has[FARM_KINDS];                /* the template has tasks of this kind */
+    struct farm_needs needs[FARM_KINDS]; /* of the wedge that needs most memory */
+    char (*step)[STEP_NAME];             /* names of the steps written so far, in order */
+    size_t n_steps, capacity;
+};
+
+static void survey(struct writer *w)
+{
+    const struct farm *f = w->farm;
+    for (size_t i = 0; i < f->graph.n; i++) {
+        const struct farm_task *t = &f->graph.task[i];
+        struct farm_needs needs;
+        farm_needs(f, t, w->device, &needs);
+        if (!w->has[t->kind] || needs.memory_bytes > w->needs[t->kind].memory_bytes)
+            w->needs[t->kind] = needs;
+        w->has[t->kind] = true;
+    }
+    w->has[FARM_END] = f->base->farm.n_on_done > 0; /* without farm.on_done the farm itself knows the end */
+}
 
 /* ---- parameters */
 
@@ -21,7 +50,7 @@ static void put_parameter(struct text *t, const char *name, const char *type, co
     json_text(t, "description", description);
 }
 
-/* A STRING default holds no control characters and at most 1024 of others. */
+/* `text`, if a parameter's default can hold it: at most 1,024 characters and none of them a control character. */
 static const char *plain_or(const char *text, const char *otherwise)
 {
     if (strlen(text) > 1000)
@@ -32,53 +61,50 @@ static const char *plain_or(const char *text, const char *otherwise)
     return text;
 }
 
-/* The tasks of a kind that steps are written from: those of the first wedge, or of all. */
-static bool in_template(const struct farm *f, const struct farm_task *task, enum farm_kind kind)
+static void put_range(struct text *t, struct frame_range r)
 {
-    return task->kind == kind &&
-           (farm_kinds[kind].cut == CUT_ALL_WEDGES || task->wedge == (int)f->wedge[0].job->wedge.index);
+    text_add(t, "%s%d", t->size ? "," : "", r.first);
+    if (r.last > r.first)
+        text_add(t, "-%d", r.last);
+    if (r.last > r.first && r.step > 1)
+        text_add(t, ":%d", r.step);
 }
 
-static bool has(const struct farm *f, enum farm_kind kind)
-{
-    for (size_t i = 0; i < f->graph.n; i++)
-        if (in_template(f, &f->graph.task[i], kind))
-            return true;
-    return false;
-}
-
-/* The frames of all tasks of a kind, as "1001-1010,1011-1020:5". */
-static void frames_of(const struct farm *f, enum farm_kind kind, struct text *t)
-{
-    const char *comma = "";
-    for (size_t i = 0; i < f->graph.n; i++) {
-        const struct farm_task *task = &f->graph.task[i];
-        if (!in_template(f, task, kind))
-            continue;
-        text_add(t, "%s%d", comma, task->frames.first);
-        if (task->frames.last > task->frames.first)
-            text_add(t, "-%d", task->frames.last);
-        if (task->frames.last > task->frames.first && task->frames.step > 1)
-            text_add(t, ":%d", task->frames.step);
-        comma = ",";
-    }
-    if (!t->data)
-        text_add(t, "%s", "");
-}
-
-/* Is there a task whose command has that value? */
-static bool uses(const struct farm *f, const char *value)
-{
-    for (int k = 0; k < FARM_KINDS; k++)
-        if (strstr(farm_kinds[k].command, value) && has(f, (enum farm_kind)k))
-            return true;
-    return false;
-}
-
-static status put_parameters(const struct farm *f, const char *device, struct text *t)
+/* The frames of the first wedge that a kind takes, as few ranges: "1001-1991:5,1994". */
+static void put_frames(const struct farm *f, enum farm_kind kind, struct text *t)
 {
     const struct job *job = f->wedge[0].job;
-    struct text frames = {0};
+    struct frame_range run = {0, 0, 0};
+    for (int frame = job->frames.first; frame <= job->frames.last; frame += job->frames.step) {
+        if (!farm_kinds[kind].takes(job, frame))
+            continue;
+        const int step = frame - run.last;
+        if (run.step && (run.first == run.last || step == run.step)) {
+            run = (struct frame_range){run.first, frame, step};
+            continue;
+        }
+        if (run.step)
+            put_range(t, run);
+        run = (struct frame_range){frame, frame, 1};
+    }
+    if (run.step)
+        put_range(t, run);
+}
+
+/* Whether a task of the template has that value in its command. */
+static bool uses(const struct writer *w, const char *value)
+{
+    for (int k = 0; k < FARM_KINDS; k++)
+        if (w->has[k] && strstr(farm_kinds[k].command, value))
+            return true;
+    return false;
+}
+
+static status put_parameters(const struct writer *w)
+{
+    const struct farm *f = w->farm;
+    struct text *t = w->out, frames = {0};
+    const struct job *job = f->wedge[0].job;
     char wedges[32];
     json_array(t, "parameterDefinitions");
     put_parameter(t, "JobFile", "PATH", "farm/job.yaml", "The job as it was submitted");
@@ -91,7 +117,7 @@ static status put_parameters(const struct farm *f, const char *device, struct te
     json_end_object(t);
     put_parameter(t, "Hoodoo", "STRING", plain_or(f->hoodoo.text, "hoodoo"), "The program");
     json_end_object(t);
-    put_parameter(t, "Device", "STRING", plain_or(device ? device : "auto", "auto"),
+    put_parameter(t, "Device", "STRING", plain_or(w->device ? w->device : "auto", "auto"),
                   "auto, cpu, an index, uuid:HEX or pci:ADDRESS");
     json_end_object(t);
     if (job->wedge.index) {
@@ -102,12 +128,12 @@ static status put_parameters(const struct farm *f, const char *device, struct te
         put_parameter(t, "Wedges", "STRING", wedges, "Which wedges, such as 1-4 or 2,5");
         json_end_object(t);
     }
-    if (has(f, FARM_STILL)) {
-        frames_of(f, FARM_STILL, &frames);
+    if (w->has[FARM_STILL]) {
+        put_frames(f, FARM_STILL, &frames);
         put_parameter(t, "StillFrames", "STRING", frames.data ? frames.data : "", "Frames to make stills of");
         json_end_object(t);
     }
-    if (uses(f, "{camera}") && job->n_cameras) {
+    if (uses(w, "{camera}") && job->n_cameras) {
         put_parameter(t, "Camera", "STRING", job->cameras[0].name, "The camera of the stills");
         json_array(t, "allowedValues");
         for (size_t i = 0; i < job->n_cameras; i++)
@@ -123,22 +149,21 @@ static status put_parameters(const struct farm *f, const char *device, struct te
 
 /* ---- steps */
 
-enum { AFTER_MAX = 4, STEP_NAME = 64 };
+enum { AFTER_MOST = 4 };
 
 struct step {
-    const struct farm *farm;
     enum farm_kind kind;
     char name[STEP_NAME];
-    char after[AFTER_MAX][STEP_NAME];
+    char after[AFTER_MOST][STEP_NAME];
     size_t n_after;
-    const char *chunks; /* the range of a step in chunks, or NULL */
-    const char *device; /* as --device has it, or NULL */
+    const char *chunks; /* the range of a chunked step, or NULL */
     struct command_values values;
 };
 
-static void put_space(const struct step *s, struct text *t)
+static void put_space(const struct writer *w, const struct step *s)
 {
-    const struct job *job = s->farm->wedge[0].job;
+    struct text *t = w->out;
+    const struct job *job = w->farm->wedge[0].job;
     const bool wedge = s->values.wedge && strstr(farm_kinds[s->kind].command, "{wedge}");
     if (!wedge && !s->chunks)
         return;
@@ -174,22 +199,19 @@ static void put_amount(struct text *t, const char *name, int64_t least)
     json_end_object(t);
 }
 
-static void put_host(const struct step *s, struct text *t)
+static void put_host(const struct writer *w, const struct step *s)
 {
-    const struct model_estimate *e = &s->farm->wedge[0].estimate;
+    struct text *t = w->out;
+    const struct farm_needs *needs = &w->needs[s->kind];
     json_object(t, "hostRequirements");
-    if (farm_kinds[s->kind].device) {
-        /* Without a GPU its memory is the machine's. */
-        const bool gpu = farm_wants_gpu(s->kind, s->device);
-        const uint64_t host = e->host_bytes + run_memory_process(NULL, e) + (gpu ? 0 : e->device_bytes);
-        json_array(t, "amounts");
-        if (gpu) {
-            put_amount(t, "amount.worker.gpu", 1);
-            put_amount(t, "amount.worker.gpu.memory", (int64_t)(e->device_bytes / MIB) + 1);
-        }
-        put_amount(t, "amount.worker.memory", (int64_t)(host / MIB) + 1);
-        json_end_array(t);
+    json_array(t, "amounts");
+    if (needs->gpu) {
+        put_amount(t, "amount.worker.gpu", 1);
+        put_amount(t, "amount.worker.gpu.memory", farm_units(needs->gpu_bytes, MIB));
     }
+    put_amount(t, "amount.worker.vcpu", needs->cpus);
+    put_amount(t, "amount.worker.memory", farm_units(needs->memory_bytes, MIB));
+    json_end_array(t);
     json_array(t, "attributes");
     json_object(t, NULL);
     json_text(t, "name", "attr.worker.os.family");
@@ -201,9 +223,10 @@ static void put_host(const struct step *s, struct text *t)
     json_end_object(t);
 }
 
-/* The program itself, not a shell: the notice goes to the first process alone. */
-static status put_script(const struct step *s, struct text *t)
+/* The program itself and not a shell: only the first process gets the notice. */
+static status put_script(const struct writer *w, const struct step *s)
 {
+    struct text *t = w->out;
     struct farm_command c;
     status st = command_fill("", s->kind, &s->values, &c);
     if (st != OK)
@@ -218,10 +241,10 @@ static status put_script(const struct step *s, struct text *t)
     json_end_array(t);
     json_object(t, "cancelation");
     json_text(t, "mode", "NOTIFY_THEN_TERMINATE");
-    const size_t n_wedges = s->kind == FARM_SIM ? s->farm->n_wedges : 0;
+    const size_t n_wedges = s->kind == FARM_SIM ? w->farm->n_wedges : 0;
     json_integer(t, "notifyPeriodInSeconds",
                  farm_kinds[s->kind].device
-                     ? farm_notice_seconds(s->farm->wedge, n_wedges, NOTIFY_SIM_S, NOTIFY_MOST_S)
+                     ? farm_notice_seconds(w->farm->wedge, n_wedges, NOTIFY_DEVICE_S, NOTIFY_MOST_S)
                      : NOTIFY_S);
     json_end_object(t);
     json_end_object(t);
@@ -230,29 +253,41 @@ static status put_script(const struct step *s, struct text *t)
     return OK;
 }
 
-static status put_step(const struct step *s, struct text *t)
+static void put_dependency(struct text *t, const char *name)
 {
     json_object(t, NULL);
+    json_text(t, "dependsOn", name);
+    json_end_object(t);
+}
+
+static status put_step(struct writer *w, const struct step *s)
+{
+    status st = OK;
+    struct text *t = w->out;
+    const bool end = s->kind == FARM_END;
+    json_object(t, NULL);
     json_text(t, "name", s->name);
-    if (s->n_after) {
+    if (s->n_after || end) {
         json_array(t, "dependencies");
-        for (size_t i = 0; i < s->n_after; i++) {
-            json_object(t, NULL);
-            json_text(t, "dependsOn", s->after[i]);
-            json_end_object(t);
-        }
+        for (size_t i = 0; i < s->n_after; i++)
+            put_dependency(t, s->after[i]);
+        for (size_t i = 0; end && i < w->n_steps; i++)
+            put_dependency(t, w->step[i]);
         json_end_array(t);
     }
-    put_space(s, t);
-    put_host(s, t);
-    status st = put_script(s, t);
+    put_space(w, s);
+    put_host(w, s);
+    TRY(put_script(w, s));
     json_end_object(t);
+    TRY(memory_grow(&w->step, &w->capacity, w->n_steps + 1, sizeof *w->step, "the steps"));
+    memcpy(w->step[w->n_steps++], s->name, STEP_NAME);
+done:
     return st;
 }
 
-static struct step step_of(const struct farm *f, enum farm_kind kind, const char *device)
+static struct step step_of(const struct writer *w, enum farm_kind kind)
 {
-    const struct job *job = f->wedge[0].job;
+    const struct job *job = w->farm->wedge[0].job;
     const struct command_values values = {.job = "{{Param.JobFile}}",
                                           .out = "{{Param.OutDir}}",
                                           .wedge = job->wedge.index ? "{{Task.Param.Wedge}}" : NULL,
@@ -260,17 +295,18 @@ static struct step step_of(const struct farm *f, enum farm_kind kind, const char
                                           .view = "{{Task.Param.Frames}}",
                                           .device = "{{Param.Device}}",
                                           .camera = job->n_cameras ? "{{Param.Camera}}" : NULL,
+                                          .jobs = w->needs[kind].cpus_text,
                                           .map = "{{Session.PathMappingRulesFile}}",
                                           .gaps = "--allow-none",
                                           .progress = "openjd"};
-    struct step s = {.farm = f, .kind = kind, .values = values, .device = device};
+    struct step s = {.kind = kind, .values = values};
     snprintf(s.name, sizeof s.name, "%s", farm_kinds[kind].step);
     return s;
 }
 
 static void add_after(struct step *s, const char *name)
 {
-    if (*name && s->n_after < AFTER_MAX)
+    if (*name && s->n_after < AFTER_MOST)
         snprintf(s->after[s->n_after++], STEP_NAME, "%s", name);
 }
 
@@ -280,11 +316,10 @@ static void name_after_frames(struct step *s, const char *frames)
     snprintf(s->name, sizeof s->name, "%s_%s", farm_kinds[s->kind].step, frames);
 }
 
-/* What is derived from a block's frames, in chunks of those from the first to the last that have it. */
-static status put_derived(const struct farm *f, const char *device, enum farm_kind kind, const char *block,
-                          struct frame_range frames, struct text *t)
+/* What is made of a block's frames, in chunks of those from the first to the last that have a source. */
+static status put_derived(struct writer *w, enum farm_kind kind, const char *block, struct frame_range frames)
 {
-    const struct job *job = f->wedge[0].job;
+    const struct job *job = w->farm->wedge[0].job;
     const struct farm_kind_info *info = &farm_kinds[kind];
     char text[48], chunks[48];
     struct frame_range taken = {0, 0, 0};
@@ -293,50 +328,48 @@ static status put_derived(const struct farm *f, const char *device, enum farm_ki
             taken = (struct frame_range){taken.step ? taken.first : frame, frame, 1};
     if (!taken.step || (info->wanted && !info->wanted(job)))
         return OK;
-    struct step s = step_of(f, kind, device);
+    struct step s = step_of(w, kind);
     snprintf(chunks, sizeof chunks, "%d-%d", taken.first, taken.last);
     name_after_frames(&s, range_text(frames, text));
     add_after(&s, block);
     s.chunks = chunks;
-    return put_step(&s, t);
+    return put_step(w, &s);
 }
 
 /* A block, and what is derived from it. `name` is that of the block before it and becomes its own. */
-static status put_block(const struct farm *f, const char *device, struct frame_range frames,
-                        char name[STEP_NAME], struct text *t)
+static status put_block(struct writer *w, struct frame_range frames, char name[STEP_NAME])
 {
     status st = OK;
     char text[48];
-    struct step s = step_of(f, FARM_SIM, device);
+    struct step s = step_of(w, FARM_SIM);
     s.values.frames = range_text(frames, text);
     name_after_frames(&s, text);
     add_after(&s, name);
     snprintf(name, STEP_NAME, "%s", s.name);
-    TRY(put_step(&s, t));
+    TRY(put_step(w, &s));
     for (int k = 0; k < FARM_KINDS; k++)
         if (farm_kinds[k].cut == CUT_CHUNKS)
-            TRY(put_derived(f, device, (enum farm_kind)k, name, frames, t));
+            TRY(put_derived(w, (enum farm_kind)k, name, frames));
 done:
     return st;
 }
 
-/* The steps it waits for, as far as the template has them; else the last block, which all else waits for. */
-static void add_all_after(struct step *s, const char *last_sim)
+/* The steps of the kinds it waits for, as far as the template has them; else the last block. */
+static void add_all_after(const struct writer *w, struct step *s, const char *last_sim)
 {
     const unsigned after = farm_kinds[s->kind].after;
     for (int k = 0; k < FARM_KINDS; k++)
-        if ((after & 1u << k) && k != FARM_SIM && has(s->farm, (enum farm_kind)k))
+        if ((after & 1u << k) && k != FARM_SIM && w->has[k])
             add_after(s, farm_kinds[k].step);
-    if (s->n_after == 0)
+    if (s->n_after == 0 && s->kind != FARM_END)
         add_after(s, last_sim);
 }
 
-/* What is made of all frames together, of lists of them, or of views of the last. */
-static status put_finish(const struct farm *f, const char *device, enum farm_kind kind, const char *last_sim,
-                         struct text *t)
+/* What is made of all frames together, of lists of frames, or of views of the last frame. */
+static status put_finish(struct writer *w, enum farm_kind kind, const char *last_sim)
 {
     status st = OK;
-    const struct job *job = f->wedge[0].job;
+    const struct job *job = w->farm->wedge[0].job;
     const struct farm_kind_info *info = &farm_kinds[kind];
     const size_t n = info->value ? info->wanted(job) : 1;
     const int last = (int)job->farm.turntable - 1;
@@ -344,32 +377,34 @@ static status put_finish(const struct farm *f, const char *device, enum farm_kin
     snprintf(views, sizeof views, "%d", (int)job->farm.turntable);
     snprintf(list, sizeof list, last > 0 ? "0-%d" : "%d", last);
     for (size_t i = 0; i < n; i++) {
-        struct step s = step_of(f, kind, device);
+        struct step s = step_of(w, kind);
         s.values.views = views;
         s.chunks = info->cut == CUT_LIST ? "{{Param.StillFrames}}" : info->cut == CUT_VIEWS ? list : NULL;
         if (info->value) {
             s.values.value = info->value(job, i);
             snprintf(s.name, sizeof s.name, "%s_%.40s", info->step, s.values.value);
         }
-        add_all_after(&s, last_sim);
-        TRY(put_step(&s, t));
+        add_all_after(w, &s, last_sim);
+        TRY(put_step(w, &s));
     }
 done:
     return st;
 }
 
-static status put_steps(const struct farm *f, const char *device, struct text *t)
+/* Blocks of the first wedge: a task parameter repeats them for each wedge. */
+static status put_steps(struct writer *w)
 {
     status st = OK;
     char last_sim[STEP_NAME] = "";
-    json_array(t, "steps");
+    const struct farm *f = w->farm;
+    json_array(w->out, "steps");
     for (size_t i = 0; i < f->graph.n; i++)
-        if (in_template(f, &f->graph.task[i], FARM_SIM))
-            TRY(put_block(f, device, f->graph.task[i].frames, last_sim, t));
+        if (f->graph.task[i].kind == FARM_SIM && f->graph.task[i].wedge == (int)f->wedge[0].job->wedge.index)
+            TRY(put_block(w, f->graph.task[i].frames, last_sim));
     for (int k = 0; k < FARM_KINDS; k++)
-        if (farm_kinds[k].cut != CUT_BLOCKS && farm_kinds[k].cut != CUT_CHUNKS && has(f, (enum farm_kind)k))
-            TRY(put_finish(f, device, (enum farm_kind)k, last_sim, t));
-    json_end_array(t);
+        if (farm_kinds[k].cut != CUT_BLOCKS && farm_kinds[k].cut != CUT_CHUNKS && w->has[k])
+            TRY(put_finish(w, (enum farm_kind)k, last_sim));
+    json_end_array(w->out);
 done:
     return st;
 }
@@ -379,8 +414,10 @@ status openjd_template(const struct farm *f, const char *device, struct text *t)
     status st = OK;
     bool chunks = false;
     char name[96];
+    struct writer w = {.farm = f, .device = device, .out = t};
+    survey(&w);
     for (int k = 0; k < FARM_KINDS; k++)
-        chunks |= k != FARM_SIM && farm_kind_is_cut((enum farm_kind)k) && has(f, (enum farm_kind)k);
+        chunks |= k != FARM_SIM && farm_kind_is_cut((enum farm_kind)k) && w.has[k];
     json_object(t, NULL);
     json_text(t, "specificationVersion", "jobtemplate-2023-09");
     if (chunks) {
@@ -390,10 +427,12 @@ status openjd_template(const struct farm *f, const char *device, struct text *t)
     }
     snprintf(name, sizeof name, "hoodoo %s", f->base->name);
     json_text(t, "name", name);
-    TRY(put_parameters(f, device, t));
-    TRY(put_steps(f, device, t));
+    TRY(put_parameters(&w));
+    TRY(put_steps(&w));
     json_end_object(t);
     TRY(text_status(t));
+    TRY(openjd_check(t->data, t->size));
 done:
+    free(w.step);
     return st;
 }

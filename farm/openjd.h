@@ -1,9 +1,8 @@
-/* The farm that speaks OpenJobDescription: a template (jobtemplate-2023-09, with TASK_CHUNKING where there are
- * meshes or stills) of a step per block, chunked steps for meshes and stills, and the finishes.
+/* OpenJobDescription back end: a template (jobtemplate-2023-09, with TASK_CHUNKING if there are meshes, AOVs, stills or views) with a
+ * step for each block, chunked steps for what is made of frames, and steps for the files of all frames.
  *
- * The template stands in the job's output folder and names farm/job.yaml and the folder itself as PATH
- * parameters, so that a farm maps both; --path-map maps what the job itself reads. What it runs is a list of
- * words: nothing a user wrote reaches a shell, or a format string.
+ * The template names farm/job.yaml and the output folder as PATH parameters, so that a farm can map both; --path-map maps the files
+ * that the job reads. Commands are lists of arguments: nothing that a user wrote reaches a shell or a format string.
  */
 #ifndef HOODOO_FARM_OPENJD_H
 #define HOODOO_FARM_OPENJD_H
@@ -11,7 +10,11 @@
 #include "base/text.h"
 #include "farm/farm.h"
 
-/* The template, as JSON. */
+/* The template, as JSON, after openjd_check(). */
 MUST_USE status openjd_template(const struct farm *f, const char *device, struct text *out);
+
+/* Checks a template against the limits and cross-references of the specification (wiki/2023-09-Template-Schemas.md, sections 1 to 6, as far
+ * as our templates use it), so that a farm does not refuse it later. E_USAGE names the place, the value and the limit. */
+MUST_USE status openjd_check(const char *template, size_t n);
 
 #endif

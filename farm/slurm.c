@@ -10,14 +10,17 @@
 #include "base/child.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/version.h"
+#include "farm/argv.h"
 #include "farm/command.h"
+#include "farm/needs.h"
 #include "farm/slurm_jobs.h"
+#include "farm/slurm_script.h"
+#include "farm/tries.h"
 
-/* How long before its time limit a task is told, in seconds; more is no signal time to Slurm. */
-enum { NOTICE_S = 180, NOTICE_MOST_S = 65535 };
+/* Slurm counts memory in MiB and time limits in minutes. */
+enum { MIB = 1 << 20, MINUTE_S = 60 };
 
-/* Tasks of one kind from one block: an array, unless it is one. */
+/* Tasks of one kind from one block: an array, unless it is one task. */
 struct batch {
     size_t first, n;
     const struct farm_task *task; /* the first */
@@ -25,106 +28,25 @@ struct batch {
     struct path script;
 };
 
-/* ---- the script */
-
-/* What a task of the batch is, by its place in the array. */
-static status put_cases(const struct farm *f, const struct slurm_options *o, const struct batch *b,
-                        struct text *t)
+static const char *device_of(const struct slurm_options *o)
 {
-    status st = OK;
-    struct farm_command *c = NULL;
-    struct path log;
-    TRY(memory_alloc(1, sizeof *c, "a command", &c));
-    text_add(t, "case ${SLURM_ARRAY_TASK_ID:-0} in\n");
-    for (size_t i = 0; i < b->n; i++) {
-        const struct farm_task *task = &b->task[i];
-        TRY(farm_command(f, task, o->device ? o->device : "slurm", 0, c));
-        TRY(farm_log_path(f, task, &log));
-        text_add(t, "%zu)\n    task=%s\n    log=", i, task->name);
-        farm_quote(t, log.text);
-        text_add(t, "\n    set --");
-        for (size_t k = 0; k < c->n; k++) {
-            text_add(t, " ");
-            farm_quote(t, c->argv[k]);
-        }
-        text_add(t, "\n    ;;\n");
-    }
-    text_add(t, "*)\n    echo \"no task $SLURM_ARRAY_TASK_ID here\" >&2\n    exit %d\n    ;;\nesac\n",
-             E_USAGE);
-    TRY(text_status(t));
-done:
-    free(c);
-    return st;
+    return o->device ? o->device : "slurm";
 }
-
-/* Slurm signals the batch script alone: USR1 before the time limit (--signal=B:), TERM when it cancels,
- * preempts or requeues. After TERM Slurm decides what comes next; else the script does. A wait that a signal
- * ends is begun again. */
-static const char body[] =
-    "say() { echo \"$(date +%Y-%m-%dT%H:%M:%S) hoodoo farm: $task on $(hostname): $*\"; }\n"
-    "id=${SLURM_ARRAY_JOB_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}\n"
-    "id=${id:-$SLURM_JOB_ID}\n"
-    "pid= got= term=\n"
-    "pass() { got=1; [ -z \"$pid\" ] || kill -TERM \"$pid\" 2>/dev/null; }\n"
-    "trap 'pass' USR1\n"
-    "trap 'term=1; pass' TERM INT\n"
-    "exec >>\"$log\" 2>&1\n"
-    "say \"job $id, start $((${SLURM_RESTART_COUNT:-0} + 1)), GPU ${SLURM_JOB_GPUS:-none}\"\n"
-    "\"$@\" &\n"
-    "pid=$!\n"
-    "[ -z \"$got\" ] || kill -TERM \"$pid\" 2>/dev/null\n"
-    "while :; do\n"
-    "    got=\n"
-    "    wait \"$pid\"\n"
-    "    rc=$?\n"
-    "    [ -n \"$got\" ] || break\n"
-    "done\n"
-    "case $rc in\n"
-    "0)\n"
-    "    rm -f \"$log.failed\"\n"
-    "    say done\n"
-    "    exit 0\n"
-    "    ;;\n"
-    "85)\n"
-    "    [ -z \"$term\" ] || { say \"saved and stopped, as Slurm asked\"; exit 85; }\n"
-    "    say \"saved and stopped; queued again\"\n"
-    "    ;;\n"
-    "2 | 7 | 8)\n"
-    "    say \"failed for good: exit $rc\"\n"
-    "    exit \"$rc\"\n"
-    "    ;;\n"
-    "*)\n"
-    "    [ -z \"$term\" ] || { say \"stopped by Slurm: exit $rc\"; exit \"$rc\"; }\n"
-    "    echo \"$rc\" >>\"$log.failed\"\n"
-    "    n=$(wc -l <\"$log.failed\")\n"
-    "    [ \"$n\" -le \"$retries\" ] || { say \"failed $n times, the last with exit $rc\"; rm -f \"$log.failed\"; exit \"$rc\"; }\n"
-    "    say \"exit $rc; queued again (try $((n + 1)) of $((retries + 1)))\"\n"
-    "    ;;\n"
-    "esac\n"
-    "scontrol requeue \"$id\" || say \"scontrol could not: left to RequeueExit=85\"\n"
-    "exit 85\n";
 
 static status write_script(const struct farm *f, const struct slurm_options *o, const struct batch *b)
 {
     status st = OK;
     struct text t = {0};
-    text_add(
-        &t,
-        "#!/bin/bash\n# Written by hoodoo %s submit --to slurm. Safe to run again: what is done is not done twice.\nretries=%d\n",
-        hoodoo_version, (int)farm_job(f, b->task)->farm.retries);
-    TRY(put_cases(f, o, b, &t));
-    text_add(&t, "%s", body);
-    TRY(text_status(&t));
+    TRY(slurm_script(f, b->task, b->n, device_of(o), &t));
     TRY(atomic_file_write(b->script.text, t.data, t.size));
 done:
     text_free(&t);
     return st;
 }
 
-/* ---- sbatch's words */
+/* ---- sbatch's arguments */
 
-/* A path as sbatch takes one for --output: % begins a pattern there. A backslash switches patterns off, and the
- * file is not found then. */
+/* A path for --output, where % begins a pattern. A backslash would switch patterns off and change the path. */
 static void put_pattern(struct text *t, const char *root)
 {
     if (strchr(root, '\\')) {
@@ -136,77 +58,74 @@ static void put_pattern(struct text *t, const char *root)
     text_add(t, "/log/farm/slurm.out");
 }
 
-struct words {
-    const char *argv[80];
-    size_t n;
-    struct text own[8];
-    size_t n_own;
-};
-
-static void word(struct words *w, const char *text)
+static bool begins(const char *text, const char *with)
 {
-    w->argv[w->n++] = text;
-    w->argv[w->n] = NULL;
+    return strncmp(text, with, strlen(with)) == 0;
 }
 
-static struct text *made(struct words *w)
+/* The user's arguments. Those about mail are for the job that ends the others: one mail, not one for every task. */
+static void add_extra(const struct slurm_options *o, bool end, struct argv_list *a)
 {
-    return &w->own[w->n_own++];
-}
-
-static void words_of(const struct farm *f, const struct slurm_options *o, const struct batch *b,
-                     const char *dependency, struct words *w)
-{
-    struct text *t = NULL;
-    const struct farm_task *task = b->task;
-    word(w, "sbatch");
-    word(w, "--parsable");
-    t = made(w);
-    text_add(t, "--job-name=%s.%s", f->base->name, b->name);
-    word(w, t->data ? t->data : "");
-    /* What the script itself says goes to the task's log; this is for what Slurm has to say. */
-    t = made(w);
-    text_add(t, "--output=");
-    put_pattern(t, f->root.text);
-    word(w, t->data ? t->data : "");
-    word(w, "--open-mode=append");
-    word(w, "--requeue");
-    t = made(w);
-    text_add(
-        t, "--signal=B:USR1@%d",
-        farm_notice_seconds(f->wedge, task->kind == FARM_SIM ? f->n_wedges : 0, NOTICE_S, NOTICE_MOST_S));
-    word(w, t->data ? t->data : "");
-    word(w, "--nodes=1");
-    word(w, "--ntasks=1");
-    if (farm_wants_gpu(task->kind, o->device))
-        word(w, "--gres=gpu:1");
-    if (b->n > 1) {
-        t = made(w);
-        text_add(t, "--array=0-%zu", b->n - 1);
-        word(w, t->data ? t->data : "");
+    for (size_t i = 0; i < o->n_extra; i++) {
+        const char *text = o->extra[i];
+        const bool mail = begins(text, "--mail-type") || begins(text, "--mail-user");
+        const bool pair = mail && !strchr(text, '=') && i + 1 < o->n_extra;
+        if (!mail || end) {
+            argv_add(a, "%s", text);
+            if (pair)
+                argv_add(a, "%s", o->extra[i + 1]);
+        }
+        i += pair;
     }
-    if (dependency && *dependency) {
-        t = made(w);
-        text_add(t, "--dependency=afterok%s", dependency);
-        word(w, t->data ? t->data : "");
-        word(w, "--kill-on-invalid-dep=yes");
-    }
-    for (size_t i = 0; i < o->n_extra && w->n < 70; i++)
-        word(w, o->extra[i]);
-    word(w, b->script.text);
 }
 
-static status words_status(const struct words *w)
+static status sbatch_arguments(const struct farm *f, const struct slurm_options *o, const struct batch *b,
+                               const char *dependency, struct argv_list *a)
 {
     status st = OK;
-    for (size_t i = 0; i < w->n_own && st == OK; i++)
-        st = text_status(&w->own[i]);
+    struct text output = {0};
+    struct farm_needs needs;
+    const bool end = b->task->kind == FARM_END;
+    const struct job_tasks *keys = farm_requests(farm_job(f, b->task), b->task->kind);
+    farm_needs(f, b->task, device_of(o), &needs);
+    put_pattern(&output, f->root.text);
+    TRY(text_status(&output));
+    argv_add(a, "sbatch");
+    argv_add(a, "--parsable");
+    argv_add(a, "--job-name=%s.%s", f->base->name, b->name);
+    /* The task's log holds what the script prints; this file is for Slurm's own messages. */
+    argv_add(a, "--output=%s", output.data);
+    argv_add(a, "--open-mode=append");
+    argv_add(a, "--requeue");
+    argv_add(a, "--signal=B:USR1@%d", needs.notice_s);
+    argv_add(a, "--nodes=1");
+    argv_add(a, "--ntasks=1");
+    argv_add(a, "--cpus-per-task=%d", needs.cpus);
+    argv_add(a, "--mem=%lldM", (long long)farm_units(needs.memory_bytes, MIB));
+    if (needs.limit_s)
+        argv_add(a, "--time=%lld", (long long)farm_units((uint64_t)needs.limit_s, MINUTE_S));
+    if (needs.gpu)
+        argv_add(a, "--gres=gpu:1");
+    if (b->n > 1)
+        argv_add(a, "--array=0-%zu", b->n - 1);
+    if (dependency && *dependency) {
+        argv_add(a, "--dependency=%s%s", end ? "afterany" : "afterok", dependency);
+        if (!end)
+            argv_add(a, "--kill-on-invalid-dep=yes");
+    }
+    for (size_t i = 0; i < keys->n_sbatch; i++)
+        argv_add(a, "%s", keys->sbatch[i]);
+    add_extra(o, end, a);
+    argv_add(a, "%s", b->script.text);
+    TRY(argv_status(a));
+done:
+    text_free(&output);
     return st;
 }
 
 /* ---- batches */
 
-/* Tasks that stand together, of one kind and wedge, and wait for the same ones. */
+/* Whether two neighbours in the graph are of one kind and wedge and wait for the same task. */
 static bool alike(const struct farm_graph *g, const struct farm_task *a, const struct farm_task *b)
 {
     return a->kind == b->kind && a->show == b->show && a->wedge == b->wedge && a->kind != FARM_SIM &&
@@ -236,7 +155,7 @@ static status next_batch(const struct farm *f, const bool *todo, size_t first, s
     return path_format(&b->script, "%s/farm/slurm/%s.sh", f->root.text, b->name);
 }
 
-/* ":12:13" of the jobs that the batch waits for; those done already are no jobs. Each once. */
+/* ":12:13": the jobs that the batch waits for, each once. Tasks that are done have no job. */
 static void put_dependency(const struct farm *f, const struct batch *b, char (*job)[SLURM_ID], struct text *t)
 {
     const struct farm_graph *g = &f->graph;
@@ -253,13 +172,13 @@ static void put_dependency(const struct farm *f, const struct batch *b, char (*j
         text_add(t, "%s", "");
 }
 
-static status call_sbatch(const struct words *w, const char *name, char id[SLURM_ID])
+static status call_sbatch(const struct argv_list *a, const char *name, char id[SLURM_ID])
 {
     status st = OK;
     struct text answer = {0};
     char said[512];
     int code = 0;
-    TRY(child_ask(w->argv, SLURM_ANSWER_S, &answer, said, &code));
+    TRY(child_ask((const char *const *)a->argv, SLURM_ANSWER_S, &answer, said, &code));
     size_t n = answer.data ? strspn(answer.data, "0123456789") : 0;
     if (code == 127)
         st = fail(E_INPUT, "sbatch is not installed here; submit from a machine of the cluster");
@@ -272,7 +191,7 @@ done:
     return st;
 }
 
-static void describe(const struct batch *b, const struct words *w, const char *id, bool dry_run,
+static void describe(const struct batch *b, const struct argv_list *w, const char *id, bool dry_run,
                      struct text *out)
 {
     json_object(out, NULL);
@@ -295,22 +214,24 @@ static void describe(const struct batch *b, const struct words *w, const char *i
     json_end_object(out);
 }
 
-/* One batch: its script, sbatch, and the ids of its tasks. `place` is a made-up id of a dry run. */
+/* Writes the script of a batch, calls sbatch and stores the ids of its tasks. `place` makes up an id in a dry run. */
 static status submit_batch(const struct farm *f, const struct slurm_options *o, const struct batch *b,
                            char (*job)[SLURM_ID], size_t place, struct text *out)
 {
     status st = OK;
-    struct words w = {0};
+    struct argv_list a = {0};
     struct text dependency = {0};
     char id[SLURM_ID] = "";
     put_dependency(f, b, job, &dependency);
-    words_of(f, o, b, dependency.data, &w);
-    TRY(words_status(&w));
+    TRY(text_status(&dependency));
+    TRY(sbatch_arguments(f, o, b, dependency.data, &a));
     if (o->dry_run) {
         snprintf(id, sizeof id, "%zu", place + 1);
     } else {
         TRY(write_script(f, o, b));
-        TRY(call_sbatch(&w, b->name, id));
+        for (size_t i = 0; i < b->n; i++)
+            TRY(tries_add(f, &b->task[i], "submitted"));
+        TRY(call_sbatch(&a, b->name, id));
         log_info("%s: job %s%s", b->name, id, b->n > 1 ? " (an array)" : "");
     }
     for (size_t i = 0; i < b->n; i++)
@@ -318,11 +239,42 @@ static status submit_batch(const struct farm *f, const struct slurm_options *o, 
             snprintf(job[b->first + i], SLURM_ID, "%.24s_%zu", id, i);
         else
             snprintf(job[b->first + i], SLURM_ID, "%.24s", id);
-    describe(b, &w, id, o->dry_run, out);
+    describe(b, &a, id, o->dry_run, out);
 done:
-    for (size_t i = 0; i < w.n_own; i++)
-        text_free(&w.own[i]);
+    argv_free(&a);
     text_free(&dependency);
+    return st;
+}
+
+/* Decides which tasks to submit: those that are neither done nor queued, of the chosen ones. */
+static status find_work(const struct farm *f, const struct slurm_options *o, char (*job)[SLURM_ID],
+                        bool *todo, struct text *out)
+{
+    status st = OK;
+    const struct farm_graph *g = &f->graph;
+    size_t n_done = 0, n_queued = 0, n_todo = 0;
+    for (size_t i = 0; i < g->n; i++) {
+        const bool end = g->task[i].kind == FARM_END;
+        bool done = true;
+        /* A task is not done before what it waits for. */
+        for (size_t k = 0; k < g->task[i].n_after; k++)
+            done = done && !todo[g->after[g->task[i].after + k]] && !*job[g->after[g->task[i].after + k]];
+        if (done)
+            TRY(farm_task_done(f, &g->task[i], &done));
+        /* The job that ends the others must wait for the new ones too: it is submitted again. */
+        if (end && *job[i] && n_todo) {
+            if (!o->dry_run)
+                TRY(slurm_cancel((const char(*)[SLURM_ID]) & job[i], 1));
+            *job[i] = '\0';
+        }
+        todo[i] = !done && !*job[i] && (!f->chosen || f->chosen[i]);
+        n_todo += todo[i];
+        n_done += done;
+        n_queued += *job[i] != '\0';
+    }
+    json_integer(out, "done_already", (int64_t)n_done);
+    json_integer(out, "queued_already", (int64_t)n_queued);
+done:
     return st;
 }
 
@@ -333,7 +285,7 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
     char(*job)[SLURM_ID] = NULL;
     struct path path;
     bool *todo = NULL;
-    size_t n_done = 0, n_queued = 0, n_batches = 0;
+    size_t n_batches = 0;
     struct batch *b = NULL;
     TRY(memory_alloc(g->n, sizeof *job, "the jobs", &job));
     TRY(memory_alloc(g->n, sizeof *todo, "the jobs", &todo));
@@ -344,16 +296,7 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
         atomic_file_sweep(path.text);
         TRY(slurm_active(f, job));
     }
-    for (size_t i = 0; i < g->n; i++) {
-        bool done = true;
-        for (size_t k = 0; k < g->task[i].n_after; k++)
-            done = done && !todo[g->after[g->task[i].after + k]] && !*job[g->after[g->task[i].after + k]];
-        if (done)
-            TRY(farm_task_done(f, &g->task[i], &done));
-        todo[i] = !done && !*job[i];
-        n_done += done;
-        n_queued += *job[i] != '\0';
-    }
+    TRY(find_work(f, o, job, todo, out));
     json_array(out, o->dry_run ? "would_submit" : "submitted");
     for (size_t i = 0; i < g->n; i += todo[i] ? b->n : 1) {
         if (!todo[i])
@@ -364,7 +307,7 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
             TRY(st);
             continue;
         }
-        /* What is queued is known, also when the rest was refused. */
+        /* Record the jobs already queued even if sbatch refused a later one. */
         if (st != OK || i + b->n >= g->n || n_batches % 16 == 0) {
             char why[800];
             snprintf(why, sizeof why, "%s", status_message());
@@ -379,8 +322,6 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
     if (!o->dry_run)
         TRY(slurm_remember(f, job));
     json_end_array(out);
-    json_integer(out, "done_already", (int64_t)n_done);
-    json_integer(out, "queued_already", (int64_t)n_queued);
 done:
     free(job);
     free(todo);

@@ -1,9 +1,8 @@
-/* The farm that is Slurm: a batch job per block, chained by afterok; an array per set of meshes and of stills.
+/* Slurm back end: a batch job for each block, chained by afterok; an array for the meshes, AOVs, stills or views of a block; and a job
+ * that ends the others, after any outcome (afterany), which also gets the user's mail options: one mail for the whole job.
  *
- * Each job is a script of its own under farm/slurm/, which runs one hoodoo command, passes the signals on
- * that Slurm gives to batch scripts, and queues itself again when the command was stopped after saving, or
- * failed and may be tried again. It needs nothing of the site but GPUs as gres, and works with RequeueExit=85
- * as without. What was submitted stands in farm/slurm.json.
+ * Each job has its own script in farm/slurm/ (slurm_script.h). The site needs nothing but GPUs as gres; it may have RequeueExit=85 or not.
+ * farm/slurm.json records what was submitted.
  */
 #ifndef HOODOO_FARM_SLURM_H
 #define HOODOO_FARM_SLURM_H
@@ -13,13 +12,13 @@
 
 struct slurm_options {
     const char *device;       /* for --device; NULL: slurm */
-    const char *const *extra; /* more words for every sbatch: --partition=gpu */
+    const char *const *extra; /* more arguments for every sbatch: --partition=gpu */
     size_t n_extra;
-    bool dry_run; /* say what would be submitted (in *out), write and submit nothing */
+    bool dry_run; /* describe what would be submitted in *out; write and submit nothing */
 };
 
-/* Submits what is not done and not under way already. E_OUTPUT with what sbatch said if it refuses. Adds
- * members "submitted" (or "would_submit") and so on to the JSON object under way in *out. */
+/* Submits the chosen tasks that are neither done nor queued. E_OUTPUT with sbatch's message if it refuses. Adds members
+ * "submitted" (or "would_submit"), "done_already" and "queued_already" to the open JSON object in *out. */
 MUST_USE status slurm_submit(const struct farm *f, const struct slurm_options *options, struct text *out);
 
 #endif

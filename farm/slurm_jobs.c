@@ -9,6 +9,7 @@
 #include "base/child.h"
 #include "base/json.h"
 #include "base/memory.h"
+#include "farm/argv.h"
 
 enum { FILE_MAX = 64 << 20 };
 
@@ -22,7 +23,7 @@ static bool is_id(const char *text)
     return *text && strlen(text) < SLURM_ID && text[strspn(text, "0123456789_")] == '\0';
 }
 
-/* The ids of the file, per task; tasks it does not know have "". */
+/* The ids in the file; a task that it does not list has "". */
 static status read_ids(const struct farm *f, struct slurm_job *out, bool *there)
 {
     status st = OK;
@@ -42,7 +43,7 @@ static status read_ids(const struct farm *f, struct slurm_job *out, bool *there)
                    *id = json_to_text(json_member(row, "job"));
         if (!name || !id || !is_id(id))
             continue;
-        /* Both are in the graph's order, but for tasks of another range of frames. */
+        /* The file is in the graph's order, except for tasks of another range of frames. */
         for (size_t k = 0; k < f->graph.n; k++) {
             size_t i = (at + k) % f->graph.n;
             if (strcmp(f->graph.task[i].name, name) != 0)
@@ -63,38 +64,90 @@ static int by_id(const void *a, const void *b)
     return strcmp(((const struct slurm_job *)a)->id, ((const struct slurm_job *)b)->id);
 }
 
-/* Every job there is, by id. */
-static status ask_squeue(struct slurm_job **out, size_t *n)
+/* Adds the jobs in squeue's answer. */
+static status read_queue(char *answer, struct slurm_job **out, size_t *n, size_t *capacity)
 {
     status st = OK;
-    static const char *const argv[] = {"squeue",       "--noheader",        "--array",
-                                       "--states=all", "--format=%i %T %r", NULL};
-    struct text answer = {0};
-    char said[512];
-    int code = 0;
-    size_t capacity = 0;
-    *out = NULL;
-    *n = 0;
-    TRY(child_ask(argv, SLURM_ANSWER_S, &answer, said, &code));
-    if (code != 0) {
-        st = fail(E_INPUT, code == 127 ? "squeue is not installed here%.0s" : "squeue: %s", said);
-        goto done;
-    }
-    for (char *line = answer.data; line && *line;) {
+    for (char *line = answer; line && *line;) {
         char *next = strchr(line, '\n');
         struct slurm_job j = {0};
+        char *const field[] = {j.id, j.state, j.node, j.elapsed, j.reason};
+        const size_t size[] = {sizeof j.id, sizeof j.state, sizeof j.node, sizeof j.elapsed, sizeof j.reason};
         if (next)
             *next++ = '\0';
-        if (sscanf(line, "%63s %31s %63s", j.id, j.state, j.reason) >= 2 && is_id(j.id)) {
-            TRY(memory_grow(out, &capacity, *n + 1, sizeof **out, "the queue"));
+        for (size_t i = 0; i < sizeof size / sizeof *size && line; i++) {
+            char *bar = strchr(line, '|');
+            if (bar)
+                *bar++ = '\0';
+            snprintf(field[i], size[i], "%s", line);
+            line = bar;
+        }
+        if (is_id(j.id) && *j.state) {
+            TRY(memory_grow(out, capacity, *n + 1, sizeof **out, "the queue"));
             (*out)[(*n)++] = j;
         }
         line = next;
     }
+done:
+    return st;
+}
+
+/* Asks about the jobs in `ids`, which commas separate. squeue fails if it is asked for a single job that it no longer knows. */
+static status ask_some(const char *ids, struct slurm_job **out, size_t *n, size_t *capacity)
+{
+    status st = OK;
+    struct argv_list a = {0};
+    struct text answer = {0};
+    char said[512];
+    int code = 0;
+    argv_add(&a, "squeue");
+    argv_add(&a, "--noheader");
+    argv_add(&a, "--array");
+    argv_add(&a, "--states=all");
+    argv_add(&a, "--format=%%i|%%T|%%N|%%M|%%r");
+    argv_add(&a, "--jobs=%s", ids);
+    TRY(argv_status(&a));
+    TRY(child_ask((const char *const *)a.argv, SLURM_ANSWER_S, &answer, said, &code));
+    if (code != 0 && !strstr(said, "Invalid job id")) {
+        st = fail(E_INPUT, code == 127 ? "squeue is not installed here%.0s" : "squeue: %s", said);
+        goto done;
+    }
+    TRY(read_queue(answer.data, out, n, capacity));
+done:
+    argv_free(&a);
+    text_free(&answer);
+    return st;
+}
+
+/* What Slurm knows of the tasks' jobs, sorted by id; an array is asked for once. */
+static status ask_squeue(const struct slurm_job *jobs, size_t n_jobs, struct slurm_job **out, size_t *n)
+{
+    enum { AT_ONCE = 60000 }; /* bytes */
+    status st = OK;
+    struct text ids = {0};
+    size_t capacity = 0;
+    const char *last = "";
+    *out = NULL;
+    *n = 0;
+    for (size_t i = 0; i < n_jobs; i++) {
+        const size_t length = strcspn(jobs[i].id, "_");
+        if (length == 0 || (strncmp(last, jobs[i].id, length) == 0 && strcspn(last, "_") == length))
+            continue;
+        last = jobs[i].id;
+        text_add(&ids, "%s%.*s", ids.size ? "," : "", (int)length, last);
+        if (ids.size > AT_ONCE) {
+            TRY(text_status(&ids));
+            TRY(ask_some(ids.data, out, n, &capacity));
+            text_free(&ids);
+        }
+    }
+    TRY(text_status(&ids));
+    if (ids.size)
+        TRY(ask_some(ids.data, out, n, &capacity));
     if (*n)
         qsort(*out, *n, sizeof **out, by_id);
 done:
-    text_free(&answer);
+    text_free(&ids);
     return st;
 }
 
@@ -109,7 +162,7 @@ status slurm_jobs(const struct farm *f, struct slurm_job **out)
     TRY(read_ids(f, jobs, &there));
     if (!there)
         goto done;
-    TRY(ask_squeue(&queue, &n));
+    TRY(ask_squeue(jobs, f->graph.n, &queue, &n));
     for (size_t i = 0; i < f->graph.n && n > 0; i++) {
         const struct slurm_job *found = bsearch(&jobs[i], queue, n, sizeof *queue, by_id);
         if (found && *jobs[i].id)
@@ -120,6 +173,36 @@ status slurm_jobs(const struct farm *f, struct slurm_job **out)
 done:
     free(jobs);
     free(queue);
+    return st;
+}
+
+status slurm_cancel(const char (*job)[SLURM_ID], size_t n)
+{
+    enum { AT_ONCE = 500 };
+    status st = OK;
+    struct argv_list a = {0};
+    struct text answer = {0};
+    char said[512];
+    int code = 0;
+    for (size_t i = 0; i < n;) {
+        argv_free(&a);
+        argv_add(&a, "scancel");
+        for (; i < n && a.n <= AT_ONCE; i++)
+            if (*job[i])
+                argv_add(&a, "%s", job[i]);
+        if (a.n == 1)
+            continue;
+        TRY(argv_status(&a));
+        TRY(child_ask((const char *const *)a.argv, SLURM_ANSWER_S, &answer, said, &code));
+        if (code != 0) {
+            st = fail(code == 127 ? E_INPUT : E_OUTPUT,
+                      code == 127 ? "scancel is not installed here%.0s" : "scancel: %s", said);
+            goto done;
+        }
+    }
+done:
+    argv_free(&a);
+    text_free(&answer);
     return st;
 }
 

@@ -9,6 +9,8 @@
 #include "base/log.h"
 #include "farm/farm.h"
 #include "farm/slurm_jobs.h"
+#include "farm/submission.h"
+#include "farm/tries.h"
 #include "output/folder.h"
 
 static status job_path(const char *root, struct path *out)
@@ -52,39 +54,92 @@ static void put_wedges(const struct farm *f, struct text *out)
     json_end_array(out);
 }
 
-/* What there is to say of a task that is not done. */
-static void put_task(const struct farm_task *t, const struct slurm_job *job, struct text *out)
+/* The state of a task that is not done: Slurm's, or else what its tries say. */
+static void state_of(const struct slurm_job *job, const struct farm_tries *tries, bool local, char out[32],
+                     const char **reason)
 {
-    char state[32] = "to do";
-    const char *reason = "";
-    if (job && *job->id) {
-        snprintf(state, sizeof state, "%s", *job->state ? job->state : "ended");
-        for (char *c = state; *c; c++)
+    *reason = "";
+    if (job && *job->id && *job->state) {
+        snprintf(out, 32, "%s", job->state);
+        for (char *c = out; *c; c++)
             *c = (char)tolower((unsigned char)*c);
-        reason = !*job->state ? "Slurm knows it no more and it is not done: see its log, submit again"
-                 : strcmp(job->reason, "None") == 0 ? ""
-                                                    : job->reason;
+        if (strcmp(job->reason, "None") != 0)
+            *reason = job->reason;
+        return;
+    }
+    snprintf(out, 32, "%s",
+             tries->cancelled                        ? "cancelled"
+             : tries->running && local               ? "running"
+             : tries->running                        ? "lost"
+             : tries->exit_code > 0 && tries->starts ? "failed"
+             : job && *job->id                       ? "ended"
+                                                     : "to do");
+    if (tries->exit_code == STOPPED && !tries->running && !tries->cancelled)
+        snprintf(out, 32, "stopped");
+    if (tries->running && !local)
+        *reason = "its process ended without reporting an exit code: see its log, then retry";
+    else if (strcmp(out, "ended") == 0)
+        *reason = "Slurm no longer knows its job, and it is not done: see its log, then retry";
+}
+
+static status put_task(const struct farm *f, const struct farm_task *t, const struct slurm_job *job,
+                       bool local, bool words, struct text *out)
+{
+    status st = OK;
+    struct farm_tries tries;
+    struct path log;
+    char state[32], meaning[160];
+    const char *reason;
+    TRY(tries_read(f, t, &tries));
+    TRY(path_format(&log, "log/farm/%s.log", t->name));
+    state_of(job, &tries, local, state, &reason);
+    const char *node = job && *job->node ? job->node : tries.node,
+               *says = tries.exit_code < 0 ? "" : farm_exit_meaning(tries.exit_code, meaning);
+    char code[16] = "", last[200] = "";
+    if (tries.exit_code >= 0) {
+        snprintf(code, sizeof code, "%d", tries.exit_code);
+        snprintf(last, sizeof last, "%d: %s", tries.exit_code, says);
     }
     json_object(out, NULL);
     json_text(out, "task", t->name);
     json_text(out, "state", state);
+    json_integer(out, "tries", tries.starts);
+    json_text(out, "exit", words ? last : code);
+    if (!words)
+        json_text(out, "meaning", says);
+    json_text(out, "node", node);
+    if (!words)
+        json_text(out, "excluded_nodes", tries.excluded);
+    json_integer(out, "elapsed_seconds", (int64_t)tries.seconds);
     json_text(out, "job", job ? job->id : "");
     json_text(out, "reason", reason);
+    json_text(out, "log", tries.starts ? log.text : "");
     json_end_object(out);
+done:
+    return st;
 }
 
-status farm_status(const char *root, struct text *out)
+/* Whether the process that hands out the tasks of a local submission lives; true too if it is elsewhere. */
+static bool runs_here(const char *root)
+{
+    struct submission s;
+    if (submission_read(root, &s) != OK)
+        return false;
+    const bool lives = s.to == TO_LOCAL && s.process.pid && process_fate(&s.process) != PROCESS_GONE;
+    submission_free(&s);
+    return lives;
+}
+
+status farm_status(const char *root, bool words, struct text *out)
 {
     status st = OK;
-    struct path path;
     struct farm f = {0};
     struct slurm_job *jobs = NULL;
     size_t n_done = 0;
-    TRY(job_path(root, &path));
-    TRY(farm_load(path.text, NULL, 0, NULL, 0, root, &f));
-    TRY(farm_graph(&f));
+    const bool local = runs_here(root);
+    TRY(farm_open(root, &f));
     if (slurm_jobs(&f, &jobs) != OK)
-        log_warn("what Slurm thinks is not known: %s", status_message());
+        log_warn("Slurm's view of the tasks is missing: %s", status_message());
     if (f.wedge[0].job->wedge.index)
         put_wedges(&f, out);
     json_array(out, "tasks");
@@ -93,7 +148,7 @@ status farm_status(const char *root, struct text *out)
         TRY(farm_task_done(&f, &f.graph.task[i], &done));
         n_done += done;
         if (!done)
-            put_task(&f.graph.task[i], jobs ? &jobs[i] : NULL, out);
+            TRY(put_task(&f, &f.graph.task[i], jobs ? &jobs[i] : NULL, local, words, out));
     }
     json_end_array(out);
     json_integer(out, "tasks_done", (int64_t)n_done);

@@ -1,4 +1,4 @@
-/* How far a farm's folder is: its files, joined with what the scheduler says. */
+/* How far a submitted job is: its files, joined with what the tasks and the scheduler report. */
 #ifndef HOODOO_FARM_STATUS_H
 #define HOODOO_FARM_STATUS_H
 
@@ -6,13 +6,15 @@
 
 #include "base/text.h"
 
-/* Was `root` made by submit? */
+/* Whether `root` was made by hoodoo submit. */
 bool farm_is(const char *root);
-/* ... and has it wedges, so that its frames are in folders of their own? */
+/* Whether it was, and holds wedges, whose frames are in folders of their own. */
 MUST_USE status farm_has_wedges(const char *root, bool *yes);
 
-/* Members "wedges" (where there are), "tasks_done", "task_count" and "tasks" (those that are not done) of the
- * JSON object under way. Without Slurm's word, when squeue cannot be asked, it says why and goes on. */
-MUST_USE status farm_status(const char *root, struct text *out);
+/* Adds members "wedges" (if there are any), "tasks" (those that are not done), "tasks_done" and "task_count" to the open JSON
+ * object. Each task has its state; where it has started, its tries, last exit code with its meaning, node and elapsed time; the nodes
+ * that it avoids; its Slurm job and the reason for which that waits; its log. `words`: for people, with fewer columns. If squeue cannot be
+ * asked, a warning says so. */
+MUST_USE status farm_status(const char *root, bool words, struct text *out);
 
 #endif

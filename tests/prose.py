@@ -14,7 +14,7 @@ WIDTH = 120
 # Generated or recorded text, whose lines are as wide as what they quote.
 WIDE = {"jobs/README.md", "tests/bench/selftest-llvmpipe.md"}
 # Pages that are still to be rewritten at this width.
-WIDE |= {"farm/README.md", "src/checkpoint/FORMAT.md", "src/output/FORMAT.md", "src/stacks/FORMAT.md"}
+WIDE |= {"src/checkpoint/FORMAT.md", "src/output/FORMAT.md", "src/stacks/FORMAT.md"}
 
 
 def output(*argv):
@@ -108,7 +108,7 @@ def unknown_commands():
 
 def inside_other_program(text):
     """Options of sbatch, which pages name as well."""
-    return re.match(r"--(gres|requeue|open-mode|signal|partition)\b", text)
+    return re.match(r"--(gres|requeue|open-mode|signal|partition|mem|cpus-per-task|time|mail-type|mail-user|qos)\b", text)
 
 
 KEYS = set()
@@ -117,6 +117,7 @@ for key in output(HOODOO, "keys", "--list").split():
     for form in (parts, [part for part in parts if part not in ("N", "NAME")], parts[1:] if parts[0] == "scene" else parts):
         KEYS |= {".".join(form[:n]) for n in range(1, len(form) + 1)}
 KEYS |= {key.replace("deposition.", "arches.") for key in KEYS if key.startswith("deposition.piles")}
+KEYS |= {key.replace("farm.sim", f"farm.{kind}") for key in KEYS if key.startswith("farm.sim") for kind in ("derive", "preview", "finish")}
 SECTIONS = {key.split(".")[0] for key in KEYS if "." in key}
 # Names with a dot that are not keys: the layers of pictures, and members of structures.
 OTHER = set(re.findall(r"`([a-z_]+\.[A-Za-z_]+)`", read("jobs/README.md").split("## Values")[-1]))

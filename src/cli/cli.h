@@ -25,6 +25,8 @@
     X(mesh, "OUT", "a surface mesh per frame (PLY, OBJ, USD)")                                               \
     X(submit, "JOB [ARG...]",                                                                                \
       "run the job's tasks on this machine or Slurm, or write them for OpenJD or another farm")              \
+    X(cancel, "OUT", "stop a submitted job's tasks; what is done stays")                                     \
+    X(retry, "OUT [TASK]", "submit again what is not done, or one task and those that wait for it")          \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \
     X(report, "OUT", "one static HTML page: pictures, curves, provenance, timing")                           \
     X(inspect, "FILE", "describe a checkpoint, VDB, EXR, manifest or run.json")                              \

@@ -11,33 +11,6 @@
 #include "farm/describe.h"
 #include "run/memory.h"
 
-/* Seconds per frame of each wedge: measured from existing frames, else by a rehearsal of the first wedge and in proportion to the
- * number of particles for the others; 0, unknown, without a device. */
-static status time_frames(struct farm *f, struct gpu *gpu, const struct plan_asked *asked,
-                          struct plan_time *t)
-{
-    status st = OK;
-    struct path root;
-    const struct model_estimate *first = &f->wedge[0].estimate;
-    for (size_t i = 0; i < f->n_wedges; i++) {
-        struct farm_wedge *w = &f->wedge[i];
-        const double n = (double)range_count(w->job->frames);
-        TRY(farm_root(f, (int)w->job->wedge.index, &root));
-        w->frame_seconds = farm_frame_seconds(root.text, w->job->name);
-        if (i == 0 && w->frame_seconds > 0) {
-            t->job.wall = w->frame_seconds * n;
-            snprintf(t->from, sizeof t->from, "existing frames");
-        } else if (i == 0 && gpu && asked->patience > 0) {
-            TRY(plan_rehearse(asked, gpu, f, t));
-        }
-        if (w->frame_seconds == 0)
-            w->frame_seconds = t->job.wall / (double)range_count(f->wedge[0].job->frames) *
-                               (double)w->estimate.n_particles / (double)first->n_particles;
-    }
-done:
-    return st;
-}
-
 /* Memory before anything is rehearsed. */
 struct memory {
     uint64_t process;
@@ -75,7 +48,7 @@ static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *a
         memory.there = run_memory_available(gpu);
         memory.fits = run_memory_fits(memory.there, run_memory_needed(gpu, &e));
     }
-    TRY(time_frames(f, gpu, asked, &time));
+    TRY(plan_frame_times(asked, gpu, f, &time));
     TRY(farm_graph(f));
     size_t n_checkpoints =
         (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));

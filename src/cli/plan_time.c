@@ -80,8 +80,8 @@ static double shortest(const struct gpu *gpu, const struct rehearsal *r)
     return sum;
 }
 
-status plan_rehearse(const struct plan_asked *asked, struct gpu *gpu, const struct farm *f,
-                     struct plan_time *out)
+static status rehearse_job(const struct plan_asked *asked, struct gpu *gpu, const struct farm *f,
+                           struct plan_time *out)
 {
     status st = OK;
     const struct job *job = f->wedge[0].job;
@@ -117,5 +117,28 @@ done:
     rehearsal_free(&few);
     rehearsal_free(&more);
     rehearsal_free(&whole);
+    return st;
+}
+
+status plan_frame_times(const struct plan_asked *asked, struct gpu *gpu, struct farm *f,
+                        struct plan_time *out)
+{
+    status st = OK;
+    const struct farm_wedge *first = &f->wedge[0];
+    const double n = (double)range_count(first->job->frames);
+    TRY(farm_measure(f));
+    if (first->frame_seconds > 0) {
+        out->job.wall = first->frame_seconds * n;
+        snprintf(out->from, sizeof out->from, "existing frames");
+    } else if (gpu && asked->patience > 0) {
+        TRY(rehearse_job(asked, gpu, f, out));
+    }
+    for (size_t i = 0; i < f->n_wedges; i++) {
+        struct farm_wedge *w = &f->wedge[i];
+        if (w->frame_seconds == 0)
+            w->frame_seconds =
+                out->job.wall / n * (double)w->estimate.n_particles / (double)first->estimate.n_particles;
+    }
+done:
     return st;
 }

@@ -18,9 +18,11 @@ struct plan_time {
     char from[160];  /* the basis of the estimate, as text */
 };
 
-/* Rehearses the first wedge at its own spacing or, if that would exceed the time limit or the memory, at two coarser spacings from
- * which the cost is extrapolated. An error is one of the job's own first frames. */
-MUST_USE status plan_rehearse(const struct plan_asked *asked, struct gpu *gpu, const struct farm *f,
-                              struct plan_time *out);
+/* Sets frame_seconds of each wedge: from the frames in its folder; else, for the first wedge, from a rehearsal, if `gpu` is not NULL and
+ * patience allows it; other wedges take time in proportion to their particles. 0 where nothing is known. The rehearsal is at the wedge's own
+ * spacing, or, where that would take more than patience or memory, at two coarser ones, from which it is extrapolated.
+ * E_*: the error that the job's own first frames end with. */
+MUST_USE status plan_frame_times(const struct plan_asked *asked, struct gpu *gpu, struct farm *f,
+                                 struct plan_time *out);
 
 #endif

@@ -9,6 +9,7 @@
 #include "checkpoint/checkpoint.h"
 #include "cli/answer.h"
 #include "cli/cli.h"
+#include "farm/end.h"
 #include "farm/status.h"
 #include "output/folder.h"
 
@@ -152,7 +153,7 @@ static status add_checkpoints(const struct survey *s, struct text *out)
     return st;
 }
 
-static status answer_status(struct survey *s, struct text *out)
+static status answer_status(struct survey *s, bool words, struct text *out)
 {
     status st = OK;
     char text[48];
@@ -172,7 +173,7 @@ static status answer_status(struct survey *s, struct text *out)
     if (s->n[STATE_DAMAGED])
         add_damaged(s, out);
     if (farm_is(s->root))
-        TRY(farm_status(s->root, out));
+        TRY(farm_status(s->root, words, out));
     json_end_object(out);
 done:
     return st;
@@ -185,12 +186,12 @@ static bool begun(const char *root)
     return path_join(&path, root, "run.json") == OK && access(path.text, F_OK) == 0;
 }
 
-/* A farm's folder without frames, or with frames in the folders of wedges. */
-static status answer_farm(const char *root, struct text *out)
+/* A farm's folder that holds no frames, or holds them in folders of its wedges. */
+static status answer_farm(const char *root, bool words, struct text *out)
 {
     json_object(out, NULL);
     json_text(out, "folder", root);
-    status st = farm_status(root, out);
+    status st = farm_status(root, words, out);
     json_end_object(out);
     return st;
 }
@@ -202,16 +203,24 @@ status cli_status(int argc, char **argv)
     struct arguments operands = {0};
     struct survey s = {0};
     struct text answer = {0};
-    bool help, wedges;
-    const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c)};
+    bool help, wedges, end = false;
+    const struct option options[] = {
+        OPTION_FRAMES(&c),
+        OPTION_JSON(&c),
+        {"end", NULL, OPTION_FLAG, &end,
+         "of a submitted job: run farm.on_done, unless it was run for this end, and exit with 0 if every task is done, else with 4. The last task of a job runs this"}};
     TRY(options_parse(&usage_status, options, sizeof options / sizeof *options, argc, argv, &operands,
                       &help));
     if (help)
         goto done;
     s.root = operands.item[0];
+    if (end) {
+        TRY(farm_end(s.root));
+        goto done;
+    }
     TRY(farm_has_wedges(s.root, &wedges));
     if (wedges || (farm_is(s.root) && !begun(s.root))) {
-        TRY(answer_farm(s.root, &answer));
+        TRY(answer_farm(s.root, !c.json, &answer));
         TRY(answer_print(&answer, c.json));
         goto done;
     }
@@ -220,7 +229,7 @@ status cli_status(int argc, char **argv)
     if (s.frames.step == 0)
         TRY(job_frames(s.root, &s.frames));
     TRY(survey_frames(&s));
-    TRY(answer_status(&s, &answer));
+    TRY(answer_status(&s, !c.json, &answer));
     TRY(answer_print(&answer, c.json));
 done:
     text_free(&answer);

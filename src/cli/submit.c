@@ -1,5 +1,4 @@
-/* hoodoo submit JOB --to local|slurm|openjd|tasks: runs the job's tasks on this machine, submits them to a scheduler, or prints
- * them. */
+/* hoodoo submit JOB --to local|slurm|openjd|deadline|tasks: the job's tasks, to this machine's devices, to a scheduler, or as data. */
 #include <stdio.h>
 
 #include "base/atomic_file.h"
@@ -9,26 +8,19 @@
 #include "base/signals.h"
 #include "cli/answer.h"
 #include "cli/cli.h"
+#include "cli/plan_time.h"
+#include "cli/submit.h"
+#include "farm/deadline.h"
 #include "farm/describe.h"
 #include "farm/local.h"
 #include "farm/openjd.h"
 #include "farm/slurm.h"
 #include "run/advice.h"
 
-#define TO_CHOICE (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")(TO_TASKS, "tasks")
-/* Wedges whose warnings are logged; those of further wedges are mostly the same. */
+/* How many wedges are checked for settings that may surprise: they are alike. */
 enum { WARNED = 3 };
 
-enum target { CHOICE_CONSTANTS(TO_CHOICE) };
-
-struct wanted {
-    struct common common;
-    int to, wedge, workers;
-    bool dry_run;
-    const char *gpus;
-};
-
-/* ---- progress of a local farm */
+/* ---- local */
 
 struct view {
     const struct farm *farm;
@@ -88,24 +80,42 @@ static void show_state(void *user, const struct local_state *s)
     progress_note(&v->progress, s->done, s->total, line);
 }
 
-static status to_local(const struct wanted *w, struct farm *f)
+/* Two processes that run the tasks of one folder would fail each other's. */
+static status check_alone(const char *root)
+{
+    struct submission s;
+    status st = submission_read(root, &s);
+    if (st == OK && s.to == TO_LOCAL && s.process.pid && process_fate(&s.process) == PROCESS_LIVES)
+        st = fail(E_OUTPUT,
+                  "the tasks of %s are run by process %ld already: wait for it, or 'hoodoo cancel' it first",
+                  root, s.process.pid);
+    submission_free(&s);
+    return st;
+}
+
+static status to_local(const struct submit_request *r, struct farm *f)
 {
     status st = OK;
+    const struct submission *s = &r->submission;
     struct view v = {.farm = f, .began = clock_seconds()};
     struct local_worker worker[LOCAL_WORKERS];
     size_t n = 0, total;
     struct path path;
-    TRY(local_workers(w->gpus, w->workers, worker, &n));
-    if (w->common.device)
+    TRY(local_workers(s->gpus, s->workers, worker, &n));
+    if (s->device)
         for (size_t i = 0; i < n; i++)
-            snprintf(worker[i].device, sizeof worker[i].device, "%s", w->common.device);
+            snprintf(worker[i].device, sizeof worker[i].device, "%s", s->device);
+    TRY(check_alone(f->root.text));
     TRY(farm_freeze(f));
+    struct submission own = *s;
+    process_self(&own.process);
+    TRY(submission_write(f->root.text, &own));
     TRY(path_join(&path, f->root.text, "log/farm.log"));
     TRY(log_open(path.text));
     signals_install();
     v.frames_before = farm_frames(f, &total);
     log_info("%zu tasks for %zu workers; %zu of %zu frames are done", f->graph.n, n, v.frames_before, total);
-    progress_begin_notes(&v.progress, (enum progress_style)w->common.progress);
+    progress_begin_notes(&v.progress, (enum progress_style)r->progress);
     TRY(local_run(f, &(struct local_options){.worker = worker,
                                              .n_workers = n,
                                              .stop = stop_requested,
@@ -113,7 +123,7 @@ static status to_local(const struct wanted *w, struct farm *f)
                                              .tick = show_state,
                                              .user = &v}));
     progress_end(&v.progress);
-    log_info("all %zu tasks are done: %s", f->graph.n, f->root.text);
+    log_info("all %s are done: %s", f->chosen ? "chosen tasks" : "tasks", f->root.text);
 done:
     progress_end(&v.progress);
     return st;
@@ -121,27 +131,28 @@ done:
 
 /* ---- Slurm */
 
-static status to_slurm(const struct wanted *w, const struct arguments *operands, struct farm *f)
+static status to_slurm(const struct submit_request *r, struct farm *f)
 {
     status st = OK;
+    const struct submission *s = &r->submission;
     struct text t = {0};
     struct path path;
-    if (!w->dry_run) {
+    if (!r->dry_run) {
         TRY(farm_freeze(f));
+        TRY(submission_write(f->root.text, s));
         TRY(path_join(&path, f->root.text, "log/farm.log"));
         TRY(log_open(path.text));
     }
     json_object(&t, NULL);
     json_text(&t, "name", f->base->name);
     json_text(&t, "folder", f->root.text);
-    TRY(slurm_submit(f,
-                     &(struct slurm_options){.device = w->common.device,
-                                             .extra = operands->item + 1, /* after the job */
-                                             .n_extra = operands->n - 1,
-                                             .dry_run = w->dry_run},
-                     &t));
+    TRY(slurm_submit(
+        f,
+        &(struct slurm_options){
+            .device = s->device, .extra = s->extra, .n_extra = s->n_extra, .dry_run = r->dry_run},
+        &t));
     json_end_object(&t);
-    TRY(answer_print(&t, w->common.json));
+    TRY(answer_print(&t, r->json));
 done:
     text_free(&t);
     return st;
@@ -149,18 +160,18 @@ done:
 
 /* ---- OpenJD */
 
-static status to_openjd(const struct wanted *w, struct farm *f)
+static status to_openjd(const struct submit_request *r, struct farm *f)
 {
     status st = OK;
     struct text t = {0};
     struct path path;
-    if (!w->dry_run)
-        TRY(farm_freeze(f));
-    TRY(openjd_template(f, w->common.device, &t));
-    if (w->dry_run) {
+    TRY(openjd_template(f, r->submission.device, &t));
+    if (r->dry_run) {
         fputs(t.data, stdout);
         goto done;
     }
+    TRY(farm_freeze(f));
+    TRY(submission_write(f->root.text, &r->submission));
     TRY(path_format(&path, "%s/%s.openjd.json", f->root.text, f->base->name));
     TRY(atomic_file_write(path.text, t.data, t.size));
     log_info("%s: submit it with your farm's client, or try it with 'openjd run %s --step ...'", path.text,
@@ -170,18 +181,38 @@ done:
     return st;
 }
 
-/* ---- the verb */
+/* ---- Deadline Cloud */
 
-static status print_tasks(const struct wanted *w, const struct farm *f, bool as_json)
+static status to_deadline(const struct submit_request *r, struct farm *f)
+{
+    status st = OK;
+    struct deadline_bundle b = {0};
+    struct path folder;
+    if (!r->dry_run)
+        TRY(farm_freeze(f));
+    TRY(deadline_bundle(f, r->submission.device, &b));
+    if (r->dry_run) {
+        fputs(b.template.data, stdout);
+        goto done;
+    }
+    TRY(submission_write(f->root.text, &r->submission));
+    TRY(deadline_write(f, &b, &folder));
+    log_info("%s: submit it with: deadline bundle submit %s", folder.text, folder.text);
+done:
+    deadline_bundle_free(&b);
+    return st;
+}
+
+/* ---- any other farm: the tasks as data */
+
+static status print_tasks(const struct submit_request *r, const struct farm *f, bool as_json)
 {
     status st = OK;
     struct text t = {0};
     json_object(&t, NULL);
-    if (as_json)
-        json_integer(&t, "format", 1);
     json_text(&t, "name", f->base->name);
     json_text(&t, "folder", f->root.text);
-    TRY(farm_describe(f, !as_json, w->common.device, &t));
+    TRY(farm_describe(f, !as_json, r->submission.device, &t));
     json_end_object(&t);
     TRY(answer_print(&t, as_json));
 done:
@@ -189,80 +220,117 @@ done:
     return st;
 }
 
-/* ---- any other farm: the tasks as JSON */
-
-static status to_tasks(const struct wanted *w, struct farm *f)
+static status to_tasks(const struct submit_request *r, struct farm *f)
 {
     status st = OK;
-    if (!w->dry_run)
+    if (!r->dry_run) {
         TRY(farm_freeze(f));
-    TRY(print_tasks(w, f, true));
+        TRY(submission_write(f->root.text, &r->submission));
+    }
+    TRY(print_tasks(r, f, true));
 done:
     return st;
 }
 
-static status dispatch(const struct wanted *w, const struct arguments *operands, struct farm *f)
+status submit_tasks(const struct submit_request *r, struct farm *f)
 {
-    if (w->to != TO_SLURM && operands->n > 1)
-        return fail(E_USAGE,
-                    "submit: unexpected argument '%.80s'; only --to slurm passes arguments on, to sbatch",
-                    operands->item[1]);
-    switch ((enum target)w->to) {
+    switch (r->submission.to) {
     case TO_LOCAL:
-        return w->dry_run ? print_tasks(w, f, w->common.json) : to_local(w, f);
+        return r->dry_run ? print_tasks(r, f, r->json) : to_local(r, f);
     case TO_SLURM:
-        return to_slurm(w, operands, f);
+        return to_slurm(r, f);
     case TO_OPENJD:
-        return to_openjd(w, f);
-    case TO_TASKS:
-        return to_tasks(w, f);
+        return to_openjd(r, f);
+    case TO_DEADLINE:
+        return to_deadline(r, f);
+    default:
+        return to_tasks(r, f);
     }
+}
+
+/* ---- the verb */
+
+static status take_extra(const struct arguments *operands, struct submission *s)
+{
+    if (s->to != TO_SLURM && operands->n > 1)
+        return fail(
+            E_USAGE,
+            "submit: unexpected argument '%.80s': only --to slurm takes more arguments, which are for sbatch",
+            operands->item[1]);
+    if (operands->n - 1 > SUBMISSION_EXTRA)
+        return fail(E_USAGE, "submit: %zu arguments for sbatch; at most %d", operands->n - 1,
+                    SUBMISSION_EXTRA);
+    for (size_t i = 1; i < operands->n; i++)
+        s->extra[s->n_extra++] = operands->item[i];
     return OK;
+}
+
+/* Frame times, on which time limits and notices rest: of the folder's frames, or rehearsed on a device of this machine. */
+static status time_frames(const struct plan_asked *asked, const char *device, struct farm *f)
+{
+    status st = OK;
+    struct gpu *gpu = NULL;
+    struct plan_time time = {0};
+    if (asked->patience > 0)
+        TRY(gpu_create(&(struct gpu_options){.device = device}, &gpu));
+    TRY(plan_frame_times(asked, gpu, f, &time));
+done:
+    gpu_destroy(&gpu);
+    return st;
 }
 
 status cli_submit(int argc, char **argv)
 {
     status st = OK;
-    struct wanted w = {.to = -1};
+    struct common c = {0};
+    struct submit_request request = {.submission.to = -1};
+    struct submission *s = &request.submission;
     struct arguments operands = {0};
     struct farm farm = {0};
-    struct path root;
+    struct plan_asked asked = {.common = &c};
     bool help = false;
     const struct option options[] = {
-        {"to", CHOICE_TEXT(TO_CHOICE), OPTION_CHOICE, &w.to,
-         "local: run on this machine's devices; slurm: submit with sbatch; openjd: write a job template (jobtemplate-2023-09); tasks: print the tasks as JSON for any other farm, each with its command, dependencies and resources"},
-        OPTION_OUT(&w.common),
-        {"dry-run", NULL, OPTION_FLAG, &w.dry_run, "print what would be submitted, without submitting it"},
-        {"gpus", "LIST", OPTION_TEXT, &w.gpus, "local: one worker per listed device, such as 0,1"},
-        {"workers", "N", OPTION_INT, &w.workers, "local: number of workers, which share the CPU"},
-        OPTION_DEVICE(&w.common),
-        OPTION_SET(&w.common),
-        OPTION_FROM(&w.common),
-        OPTION_WEDGE(&w.wedge),
-        OPTION_PROGRESS(&w.common),
-        OPTION_JSON(&w.common),
+        {"to", CHOICE_TEXT(SUBMIT_TO_CHOICE), OPTION_CHOICE, &s->to,
+         "this machine's devices; sbatch; a job template (jobtemplate-2023-09); a job bundle of AWS Deadline Cloud; or, for any other farm, the tasks as JSON on stdout: each with its command, what it waits for and what it needs"},
+        OPTION_OUT(&c),
+        {"dry-run", NULL, OPTION_FLAG, &request.dry_run, "print what would be submitted, and do nothing"},
+        {"gpus", "LIST", OPTION_TEXT, &s->gpus, "local: a worker for each of these devices, such as 0,1"},
+        {"workers", "N", OPTION_INT, &s->workers, "local: this many workers that share the CPU"},
+        {"rehearse", "SECONDS", OPTION_NUMBER, &asked.patience,
+         "for time limits: how long to time the first frames on this machine's device, if the folder has none yet (default 0: no rehearsal)"},
+        OPTION_DEVICE(&c),
+        OPTION_SET(&c),
+        OPTION_FROM(&c),
+        OPTION_WEDGE(&s->wedge),
+        OPTION_PROGRESS(&c),
+        OPTION_JSON(&c),
     };
     TRY(options_parse(&usage_submit, options, sizeof options / sizeof *options, argc, argv, &operands,
                       &help));
     if (help)
         goto done;
-    if (w.to < 0) {
-        st = fail(E_USAGE, "submit: --to is missing; give --to local, slurm, openjd or tasks");
+    if (s->to < 0) {
+        st = fail(E_USAGE, "submit: --to is missing: --to local, slurm, openjd, deadline or tasks");
         goto done;
     }
-    TRY(farm_load(operands.item[0], w.common.sets.item, w.common.sets.n, w.common.from, w.wedge, w.common.out,
-                  &farm));
+    if (asked.patience < 0) {
+        st = fail(E_USAGE, "submit: --rehearse %g: must be 0 seconds or more", asked.patience);
+        goto done;
+    }
+    TRY(take_extra(&operands, s));
+    s->device = c.device;
+    request.progress = c.progress;
+    request.json = c.json;
+    asked.path = operands.item[0];
+    TRY(farm_load(asked.path, c.sets.item, c.sets.n, c.from, s->wedge, c.out, &farm));
     for (size_t i = 0; i < farm.n_wedges && i < WARNED; i++)
         TRY(advice_log(farm.wedge[i].job));
-    for (size_t i = 0; i < farm.n_wedges; i++) {
-        TRY(farm_root(&farm, (int)farm.wedge[i].job->wedge.index, &root));
-        farm.wedge[i].frame_seconds = farm_frame_seconds(root.text, farm.wedge[i].job->name);
-    }
+    TRY(time_frames(&asked, s->to == TO_SLURM ? NULL : s->device, &farm));
     TRY(farm_graph(&farm));
-    TRY(dispatch(&w, &operands, &farm));
+    TRY(submit_tasks(&request, &farm));
 done:
     farm_free(&farm);
     arguments_free(&operands);
-    common_free(&w.common);
+    common_free(&c);
     return st;
 }

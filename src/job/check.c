@@ -352,6 +352,23 @@ done:
     return st;
 }
 
+/* Lists of arguments for programs: a list or mapping among them would arrive as its YAML. */
+static status check_farm_arguments(const struct yaml *root)
+{
+    static const char *const kinds[] = {"sim", "derive", "preview", "finish", NULL};
+    const struct yaml *farm = yaml_get(root, "farm");
+    for (size_t k = 0; farm && k < sizeof kinds / sizeof *kinds; k++) {
+        const struct yaml *map = kinds[k] ? yaml_get(farm, kinds[k]) : farm,
+                          *list = map ? yaml_get(map, kinds[k] ? "sbatch" : "on_done") : NULL;
+        for (const struct yaml *item = list ? list->first : NULL; item; item = item->next)
+            if (item->kind != YAML_SCALAR)
+                return yaml_fail(
+                    item, NULL,
+                    "is not an argument: write one text for each, in quotes where it holds ':' or '#'");
+    }
+    return OK;
+}
+
 static status check_aov_layers(const struct yaml *root, const struct job *job)
 {
     status st = OK;
@@ -513,6 +530,7 @@ status check_job(const struct yaml *root, const struct job *job)
     TRY(check_camera_names(root, job));
     TRY(check_farm_cameras(root, job));
     TRY(check_farm_show(root, job));
+    TRY(check_farm_arguments(root));
 done:
     return st;
 }

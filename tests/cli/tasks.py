@@ -1,5 +1,5 @@
-"""Tasks as JSON: a generic farm that runs each command after its dependencies completes the job. The requirements are true: with --device cpu
-no task asks for a GPU."""
+"""Tasks as JSON: a generic farm that runs each command after its dependencies completes the job. The requirements are those of the plan: with
+--device cpu no task asks for a GPU."""
 import json
 import os
 import shlex
@@ -17,7 +17,10 @@ farm = json.loads(said[said.index("{"):])
 tasks = {t["name"]: t for t in farm["tasks"]}
 ok(code == 0 and farm["format"] == 1 and os.path.exists("out/farm/job.yaml") and len(tasks) == farm["task_count"], "the tasks, and the job they read", said)
 ok(all(set(t["after"]) <= set(tasks) for t in tasks.values()), "each waits for tasks that there are")
-ok(not any(t["gpu"] for t in tasks.values()) and tasks["sim.1001-1002"]["memory_bytes"] > 5e7, "without a GPU none is asked for")
+ok(not any(t["gpu"] for t in tasks.values()) and all(t["gpu_memory_bytes"] == 0 for t in tasks.values()), "with --device cpu no task requests a GPU")
+ok(all(t["memory_bytes"] >= 1.19 * t["peak_bytes"] > 4e7 for t in tasks.values()), "memory is the planned peak and a fifth", {k: t["peak_bytes"] for k, t in tasks.items()})
+ok(tasks["sim.1001-1002"]["environment"] == {"OMP_NUM_THREADS": "4", "LP_NUM_THREADS": "4"} and tasks["sim.1001-1002"]["cpus"] == 4, "threads are the cores requested")
+ok([t["name"] for t in tasks.values() if t["after_any"]] == ["end"], "only the end runs after failures too")
 done, order = set(), []
 while len(done) < len(tasks):
     ready = [t for t in tasks.values() if t["name"] not in done and set(t["after"]) <= done]
@@ -25,10 +28,12 @@ while len(done) < len(tasks):
         break
     # the last task first: only dependencies may matter
     t = ready[-1]
-    run = subprocess.run(t["argv"], capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd="/")
+    run = subprocess.run(t["argv"], capture_output=True, text=True, stdin=subprocess.DEVNULL, cwd="/", env={**os.environ, **t["environment"]})
     if run.returncode:
         ok(False, f"{t['name']} ends with 0", shlex.join(t["argv"]), run.stderr)
         break
+    missing = [p for p in t["outputs"] if not os.path.exists(os.path.join(farm["folder"], p))]
+    ok(not missing, f"{t['name']} makes the outputs it names, {len(t['outputs'])}", missing)
     done.add(t["name"])
     order.append(t["name"])
 ok(len(done) == len(tasks), f"all {len(tasks)} are run, one by one", order)
@@ -40,12 +45,33 @@ code, said = hoodoo("submit", JOB, "--to", "tasks", "--out", "out", "--dry-run",
 gpu = {t["name"]: t["gpu"] for t in json.loads(said[said.index("{"):])["tasks"]}
 ok(code == 0 and gpu["sim.1001-1002"] and not any(v for k, v in gpu.items() if k.startswith("mesh")), "with any device simulations ask for one, and meshes do not", gpu)
 code, said = hoodoo("plan", JOB, "--device", "none", "--json", *SMALL)
-ok(code == 0 and all(t["argv"] for t in json.loads(said)["tasks"]), "plan --json has the commands", said)
+plan = json.loads(said)
+ok(code == 0 and plan["format"] == 1 and all(t["argv"] and "environment" in t and "outputs" in t for t in plan["tasks"]), "plan --json has the same", said)
+code, said = hoodoo("submit", JOB, "--to", "local", "--out", "out", "--dry-run", "--json", *SMALL)
+ok(code == 0 and {t["name"] for t in json.loads(said)["tasks"]} == set(tasks), "and submit --dry-run --json", said)
+ok(not any(t["time_limit_seconds"] for t in plan["tasks"] if t["name"].startswith("sim")), "without a frame time no limit is requested")
+KEYS = ["--set", "farm.sim.sbatch=[--partition=long, '--comment=a b: c']", "--set", "farm.derive.cpus=3", "--set", "farm.derive.hours=1.5", "--set", "farm.derive.memory_GB=2"]
 for device, wanted in (("cpu", 0), ("slurm", 4)):
-    code, said = hoodoo("submit", JOB, "--to", "slurm", "--device", device, "--out", "other", "--dry-run", *SMALL)
-    ok(code == 0 and said.count("--gres=gpu:1") == wanted, f"Slurm with --device {device}: {wanted} jobs ask for a GPU", said)
+    code, said = hoodoo("submit", JOB, "--to", "slurm", "--device", device, "--out", "other", "--dry-run", "--json", *SMALL, *KEYS, "--", "--qos=x", "--mail-type=END",
+                        "--mail-user", "me")
+    jobs = {j["name"]: shlex.split(j["command"]) for j in json.loads(said[said.index("{"):])["would_submit"]}
+    ok(code == 0 and said.count("--gres=gpu:1") == wanted, f"Slurm with --device {device}: {wanted} jobs request a GPU", said)
+    sim, mesh, end = (jobs[name] for name in ("sim.1001-1002", "mesh.1001-1002", "end"))
+    ok("--cpus-per-task=" + ("4" if device == "cpu" else "2") in sim and "--partition=long" in sim and "--comment=a b: c" in sim and "--partition=long" not in mesh,
+       "options of a kind are its own", sim)
+    ok({"--cpus-per-task=3", "--time=90", "--mem=1908M"} <= set(mesh) and any(a.startswith("--mem=") for a in sim), "cores, memory and time of a kind", mesh)
+    ok([name for name, argv in jobs.items() if "--mail-type=END" in argv] == ["end"] and end[end.index("--mail-user") + 1] == "me" and
+       all("--qos=x" in argv for argv in jobs.values()) and not any("me" in argv for argv in (sim, mesh)), "mail for the whole job, all else for every task", jobs)
+    ok(any(a.startswith("--dependency=afterany:") for a in end) and not any(a.startswith("--time") for a in sim), "the end runs after any outcome", end)
     code, said = hoodoo("submit", JOB, "--to", "openjd", *(["--device", "cpu"] if device == "cpu" else []), "--out", "other", "--dry-run", *SMALL)
-    amounts = [a["name"] for s in json.loads(said[said.index("{"):])["steps"] for a in s.get("hostRequirements", {}).get("amounts", [])]
-    ok(code == 0 and amounts.count("amount.worker.gpu") == wanted and amounts.count("amount.worker.memory") == 4, f"OpenJD likewise, {device}", amounts)
+    steps = json.loads(said[said.index("{"):])["steps"]
+    amounts = [a["name"] for s in steps for a in s["hostRequirements"]["amounts"]]
+    ok(code == 0 and amounts.count("amount.worker.gpu") == wanted and amounts.count("amount.worker.memory") == amounts.count("amount.worker.vcpu") == len(steps) == 6,
+       f"OpenJD likewise, {device}", amounts)
+code, said = hoodoo("submit", JOB, "--to", "slurm", "--out", "out", "--dry-run", "--json", *SMALL, "--set", "frames=1001-1006")
+ok(code == 0 and "--time=" in said, "frame times in the folder give a time limit", said)
+for bad in ("farm.sim.sbatch=[[a, b]]", "farm.on_done=[{a: b}]"):
+    code, said = hoodoo("plan", JOB, "--device", "none", "--set", bad)
+    ok(code == 2 and "not an argument" in said, f"{bad} is refused", said)
 ok(not os.path.exists("other"), "a dry run leaves nothing")
 finish()

@@ -71,6 +71,18 @@ code, said = ask(OPENJD, "run", template, "--step", "Mesh_1007-1012", "-p", "Wed
 ok(code == 0 and len(os.listdir(f"{out}/w0001/mesh")) == 3 * 6 + 1, "meshes in chunks", said)
 ok(not any("pwned" in names for _, _, names in os.walk(".")), "no path was taken for a command")
 
+# A job of a million frames, and one on CPUs: what it requires of a worker.
+code, said = ask(HOODOO, "submit", "job.yaml", "--to", "openjd", "--out", "million", "--set", "frames=1-1000000", "--set", "farm.block_frames=10000", "--set", "farm.still_every=7",
+                 "--set", "farm.chunk_frames=100", "--set", "farm.on_done=[echo, done]")
+ok(code == 0, "a template of a million frames is written", said)
+code, said = ask(OPENJD, "check", "million/twelve.openjd.json")
+ok(code == 0, "openjd check of a million frames", said)
+code, said = ask(OPENJD, "summary", "million/twelve.openjd.json")
+ok(code == 0 and "Total steps: 204" in said, "openjd summary", said[-2000:])
+with open(template) as f:
+    amounts = {a["name"]: a["min"] for a in json.load(f)["steps"][0]["hostRequirements"]["amounts"]}
+ok(set(amounts) == {"amount.worker.vcpu", "amount.worker.memory"} and amounts["amount.worker.memory"] > 150, "with --device cpu a worker needs no GPU", amounts)
+
 # Cancelled, then run again.
 code, said = ask(HOODOO, "submit", "long.yaml", "--to", "openjd", "--device", "cpu", "--out", "long")
 run = [OPENJD, "run", "long/twelve.openjd.json", "--step", "Sim_1001-1006"]

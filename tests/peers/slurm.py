@@ -25,7 +25,7 @@ def hoodoo(*words):
 def write_job(path, wedges):
     with open(os.path.join(TOP, "tests/restart/twelve.yaml")) as f:
         text = f.read()
-    text += "farm: {block_frames: 4, chunk_frames: 2, meshes: true, still_every: 3, turntable: 4}\n"
+    text += "farm: {block_frames: 4, chunk_frames: 2, meshes: true, still_every: 3, turntable: 4, sim: {cpus: 1}}\n"
     if wedges:
         text += "wedge: {over: [{key: seed, values: [3, 4]}, {key: wind.abrasion, values: [0.55, 0.7]}]}\n"
     with open(path, "w") as f:
@@ -70,9 +70,9 @@ def job_id(out, task):
         return re.search(r'"task": "%s",\s*"job": "([0-9_]+)"' % re.escape(task), f.read())[1]
 
 
-def mend(sign, obstacle):
-    """Takes the obstacle away once the sign of a failure is there."""
-    while not os.path.exists(sign):
+def mend(tries, obstacle):
+    """Takes the obstacle away once a try has failed."""
+    while not os.path.exists(tries) or '"exit": 4' not in open(tries).read():
         time.sleep(0.05)
     os.remove(obstacle)
 
@@ -87,10 +87,10 @@ def whole_job():
         if not ok(done.returncode == 0, "a job of two wedges is submitted", done.stdout):
             return
         log = f"{out}/log/farm/w0001.mesh.1001-1002.log"
-        mender = threading.Thread(target=mend, args=(log + ".failed", out + "/w0001/mesh"), daemon=True)
+        mender = threading.Thread(target=mend, args=(log.replace(".log", ".jsonl"), out + "/w0001/mesh"), daemon=True)
         mender.start()
         again = hoodoo("submit", "job.yaml", "--to", "slurm", "--device", "cpu", "--out", out)
-        ok(again.returncode == 0 and re.search(r"queued already +3[0-9]", again.stdout), "submitting again submits nothing twice", again.stdout)
+        ok(again.returncode == 0 and re.search(r"queued already +40", again.stdout), "submitting again submits nothing twice", again.stdout)
 
         # One block is requeued, one signalled, one killed, each after it has made a frame.
         slurm.wait_for(lambda: frames(out + "/w0001", "twelve") >= 1, "a frame", 90)
@@ -110,7 +110,7 @@ def whole_job():
         slurm.wait_for(lambda: not queue(slurm.ask), "an empty queue", 420)
         said = hoodoo("status", out)
         ok(said.returncode == 0 and re.search(r"tasks +none", said.stdout), "in the end all tasks are done", said.stdout,
-           "\n".join(open(f"{out}/log/farm/{n}").read()[-700:] for n in sorted(os.listdir(out + "/log/farm")) if n.endswith(".failed") or "sim" in n))
+           "\n".join(open(f"{out}/log/farm/{n}").read()[-700:] for n in sorted(os.listdir(out + "/log/farm")) if n.endswith(".log")))
         more = hoodoo("submit", "job.yaml", "--to", "slurm", "--device", "cpu", "--out", out)
         ok(more.returncode == 0 and not queue(slurm.ask), "and nothing is left to submit", more.stdout)
 

@@ -258,6 +258,13 @@ static void tasks_stand_behind_what_they_wait_for(void **state)
             for (size_t k = 0; k < g.n && t->kind == FARM_TURNTABLE; k++)
                 if (g.task[k].kind == FARM_VIEW && g.task[k].wedge == t->wedge)
                     assert_true(waits_for(&g, i, k));
+            /* The task that ends the job is the last one, and no other ends after it starts. */
+            assert_int_equal(t->kind == FARM_END, i == g.n - 1);
+            for (size_t k = 0, at = 0; k < i && t->kind == FARM_END; k++) {
+                const bool waits = at < t->n_after && g.after[t->after + at] == k;
+                at += waits;
+                assert_int_equal(waits, g.task[k].kind != FARM_SIM || k == last_sim[g.task[k].wedge]);
+            }
             for (size_t k = 0; k < i; k++)
                 assert_string_not_equal(g.task[k].name, t->name);
             assert_int_equal(strspn(t->name, "abcdefghijklmnopqrstuvwxyz0123456789.-"), strlen(t->name));
@@ -274,7 +281,7 @@ static void kinds_say_what_is_needed(void **state)
     struct farm_command c;
     for (int k = 0; k < FARM_KINDS; k++) {
         const struct farm_kind_info *kind = &farm_kinds[k];
-        assert_true(*kind->name && *kind->stage && *kind->step && *kind->command);
+        assert_true(*kind->name && *farm_stage_name((enum farm_kind)k) && *kind->step && *kind->command);
         if (kind->cut == CUT_CHUNKS || kind->cut == CUT_LIST)
             assert_non_null(kind->takes);
         if (kind->cut == CUT_ONCE || kind->cut == CUT_LAST || kind->cut == CUT_VIEWS) {
@@ -286,12 +293,14 @@ static void kinds_say_what_is_needed(void **state)
         assert_int_equal(kind->cut == CUT_VIEWS, strstr(kind->command, "{view}") != NULL);
         assert_int_equal(farm_kind_is_cut((enum farm_kind)k) && kind->cut != CUT_VIEWS,
                          strstr(kind->command, "{frames}") != NULL);
-        assert_int_equal(kind->cut == CUT_ALL_WEDGES, strstr(kind->command, "{wedge}") == NULL);
+        assert_int_equal(kind->cut == CUT_ALL_WEDGES || kind->cut == CUT_JOB,
+                         strstr(kind->command, "{wedge}") == NULL);
+        assert_int_equal(kind->side_by_side, kind->cut == CUT_LIST || kind->cut == CUT_VIEWS);
         /* Words without a value are left out, and no brace is left. */
         assert_ok(command_fill("hoodoo", (enum farm_kind)k, &none, &c));
         for (size_t i = 1; i < c.n; i++)
             assert_null(strpbrk(c.argv[i], "{}"));
-        assert_string_equal(c.argv[c.n - 1], "--progress=none");
+        assert_string_equal(c.argv[c.n - 1], kind->cut == CUT_JOB ? "--end" : "--progress=none");
     }
 }
 
