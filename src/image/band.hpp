@@ -1,4 +1,4 @@
-/* Some rows of an image, as numbers as they are stored. In decode_shim.cpp alone. */
+/* A band of rows of an image, as stored numbers. Included by decode_shim.cpp only. */
 #ifndef HOODOO_IMAGE_BAND_HPP
 #define HOODOO_IMAGE_BAND_HPP
 
@@ -36,7 +36,7 @@ double number_at(const void *bytes, OIIO::TypeDesc type, size_t i)
     }
 }
 
-/* Halves are read as floats. */
+/* OpenImageIO converts half floats to floats. */
 OIIO::TypeDesc type_of(const OIIO::ImageSpec &spec, int channel)
 {
     const OIIO::TypeDesc t = spec.channelformat(channel);
@@ -68,8 +68,8 @@ double white_of(OIIO::TypeDesc type)
     }
 }
 
-/* The numbers of one channel of some rows: where they are is decoded once where all wanted channels are of one type and
- * near each other, else for each of them. */
+/* The stored numbers of some channels, for a band of rows. The channels are decoded in one call if they have the same type and are
+ * close to each other, otherwise in one call each. */
 class band
 {
   public:
@@ -102,8 +102,8 @@ class band
         return true;
     }
 
-    /* Row `y` of what was read, of the wanted channel `i`, whose number is `channel`. */
-    void take(size_t y, size_t i, int channel, std::vector<double> &out) const
+    /* Copies row y of the band, of the i-th wanted channel, whose number in the file is `channel`. */
+    void row(size_t y, size_t i, int channel, std::vector<double> &out) const
     {
         const size_t s = store.size() == 1 ? 0 : i, skip = size_t(channel - low[s]), n = size_t(spec.width);
         const OIIO::TypeDesc type = type_of(spec, channel);

@@ -14,7 +14,7 @@
 #include "reader/limits.h"
 #include "reader/translate.h"
 
-/* What the ends of names mean: a form that is read as it is, or the driver of GDAL. Each is one file. */
+/* Extensions that are raw values, or that a driver of GDAL reads from a single file. */
 static const struct {
     const char *end, *form, *driver, *what;
 } forms[] = {
@@ -27,7 +27,7 @@ static const struct {
     {".bt", "tiff", "BT", "a Binary Terrain"},
 };
 
-/* The last line that it said. */
+/* The last line that the program wrote to `fd`. */
 static void last_line(int fd, char *out, size_t size)
 {
     char said[1000];
@@ -45,7 +45,7 @@ static void last_line(int fd, char *out, size_t size)
 static status run(const char *file, size_t form, int out, int err)
 {
     status st = OK;
-    char program[BESIDE_PATH], said[300];
+    char program[BESIDE_PATH], last[300];
     struct child child = {0};
     struct stat info;
     int how = 0;
@@ -59,15 +59,15 @@ static status run(const char *file, size_t form, int out, int err)
     const bool ended = child_wait(&child, 1, 4 * reader_cpu_seconds((uint64_t)info.st_size), &how) == 0;
     child_kill(&child);
     if (!ended)
-        return fail(E_INPUT, "%s: converting it takes too long; it is damaged or hostile", file);
-    last_line(err, said, sizeof said);
+        return fail(E_INPUT, "%s: converting it takes too long: the file is damaged or hostile", file);
+    last_line(err, last, sizeof last);
     if (WIFEXITED(how) && WEXITSTATUS(how) == CHILD_NO_PROGRAM)
         return fail(
             E_INPUT,
-            "%s: %s is read through gdal_translate, which is not installed (Debian: gdal-bin); or make it a TIFF elsewhere: gdal_translate -if %s %s heights.tif",
+            "%s: %s is read through gdal_translate, which is not installed (Debian: gdal-bin). Install it, or convert the file elsewhere: gdal_translate -if %s %s heights.tif",
             file, forms[form].what, forms[form].driver, file);
     if (!WIFEXITED(how) || WEXITSTATUS(how) != 0)
-        return fail(E_INPUT, "%s: not %s that gdal_translate can read: %s", file, forms[form].what, said);
+        return fail(E_INPUT, "%s: gdal_translate cannot read it as %s: %s", file, forms[form].what, last);
 done:
     return st;
 }
@@ -79,17 +79,17 @@ static status convert(const char *file, size_t form, struct converted *c)
     const int out = memfd_create("hoodoo-converted", MFD_CLOEXEC),
               err = memfd_create("hoodoo-said", MFD_CLOEXEC);
     if (out < 0 || err < 0) {
-        st = fail(E_MEMORY, "%s: no memory to convert it in: %s", file, strerror(errno));
+        st = fail(E_MEMORY, "%s: no memory for converting it: %s", file, strerror(errno));
         goto done;
     }
     TRY(run(file, form, out, err));
     if (fstat(out, &info) != 0 || info.st_size <= 0) {
-        st = fail(E_INPUT, "%s: gdal_translate makes nothing of it", file);
+        st = fail(E_INPUT, "%s: gdal_translate wrote an empty TIFF", file);
         goto done;
     }
     void *bytes = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, out, 0);
     if (bytes == MAP_FAILED) {
-        st = fail(E_MEMORY, "%s: no memory for the %lld bytes that it converts to", file,
+        st = fail(E_MEMORY, "%s: no memory for the converted TIFF of %lld bytes", file,
                   (long long)info.st_size);
         goto done;
     }

@@ -1,4 +1,4 @@
-/* OpenImageIO's door. It is in hoodoo-read-image alone; ask through image_read(). */
+/* Decodes with OpenImageIO. Linked into hoodoo-read-image only; other code calls image_read(). */
 #ifndef HOODOO_IMAGE_DECODE_H
 #define HOODOO_IMAGE_DECODE_H
 
@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* Decodes made->open. E_INPUT: it is no image, or damaged. E_USAGE: it has no such part or channel. */
-MUST_USE status image_decode(struct image_made *made);
+/* Decodes made->open_path into made->value. E_INPUT: not an image, or damaged. E_USAGE: it has no such part or channel. */
+MUST_USE status image_decode(struct image_decoding *made);
 
 #ifdef __cplusplus
 }

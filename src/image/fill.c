@@ -1,5 +1,6 @@
-/* From coarse to fine: each level has the averages of what is known of four pixels of the finer one, is filled itself, gives the finer
- * one's gaps their first values, and these are relaxed towards the mean of their neighbours, as a soap film. */
+/* A pyramid, filled from coarse to fine. A pixel of a coarser level is the average of the known ones of four finer pixels. The filled
+ * coarse level gives the gaps of the finer one their first values, which Gauss-Seidel sweeps relax towards the mean of their neighbours
+ * (Laplace's equation, a soap film over the gap). */
 #include "image/fill.h"
 
 #include <math.h>
@@ -46,8 +47,8 @@ static void average(const struct level *fine, struct level *coarse)
         }
 }
 
-/* Bilinear between the coarse pixels' middles. */
-static float between(const struct level *coarse, size_t x, size_t y)
+/* The coarse level at pixel (x, y) of the finer one, bilinear between pixel centres. */
+static float upsample(const struct level *coarse, size_t x, size_t y)
 {
     const double px = fmin(fmax(((double)x + 0.5) / 2 - 0.5, 0), (double)(coarse->width - 1));
     const double py = fmin(fmax(((double)y + 0.5) / 2 - 0.5, 0), (double)(coarse->height - 1));
@@ -91,7 +92,7 @@ static status fill(struct level *l)
     average(l, &coarse);
     TRY(fill(&coarse));
     for (size_t i = 0; i < n; i++)
-        l->value[gap[i]] = between(&coarse, gap[i] % l->width, gap[i] / l->width);
+        l->value[gap[i]] = upsample(&coarse, gap[i] % l->width, gap[i] / l->width);
     for (int sweep = 0; sweep < SWEEPS; sweep++)
         relax(l, gap, n);
 done:

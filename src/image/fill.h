@@ -1,4 +1,4 @@
-/* Pixels without a value, from those around them. */
+/* Fills pixels without a value smoothly from the pixels around them. */
 #ifndef HOODOO_IMAGE_FILL_H
 #define HOODOO_IMAGE_FILL_H
 
@@ -6,8 +6,8 @@
 
 #include "base/status.h"
 
-/* Puts smooth values where there is NaN, the same ones each time; all others stay as they are. At least one is not NaN.
- * E_MEMORY. */
+/* Replaces the NaNs of value[height][width] by smooth values, the same in each run; all other values remain. At least one value
+ * must not be NaN. E_MEMORY. */
 MUST_USE status image_fill(size_t width, size_t height, float *value);
 
 #endif

@@ -9,7 +9,7 @@
 
 #include "image/image.h"
 
-/* ---- TIFF: the tags of GeoTIFF and GDAL, which libtiff does not know by itself */
+/* ---- TIFF: the tags of GeoTIFF and GDAL, which must be registered with libtiff */
 
 enum {
     PIXEL_SCALE = 33550,
@@ -20,7 +20,7 @@ enum {
     GDAL_NO_DATA = 42113
 };
 
-/* The keys in GEO_KEYS, and their values. */
+/* Keys of GEO_KEYS and their values. */
 enum {
     KEY_MODEL = 1024,
     KEY_RASTER = 1025,
@@ -71,7 +71,7 @@ static double unit_of(unsigned code)
     return code == UNIT_FOOT ? 0.3048 : code == UNIT_SURVEY_FOOT ? 1200.0 / 3937 : 1;
 }
 
-/* Pixel size and first corner in the map's own unit. */
+/* Pixel size and first corner, in the map's unit. */
 static enum image_map find_place(TIFF *tiff, struct image_hints *h)
 {
     const void *scale, *tie, *matrix;
@@ -103,7 +103,7 @@ static enum image_map find_place(TIFF *tiff, struct image_hints *h)
     return IMAGE_MAP_METRES;
 }
 
-/* Where no system of coordinates is said, pixels of a few thousandths about longitudes and latitudes are degrees. */
+/* Without a coordinate system, small pixels at coordinates that could be longitude and latitude are taken for degrees. */
 static bool looks_like_degrees(const struct image_hints *h)
 {
     return fabs(h->pixel[0]) < 0.05 && fabs(h->corner[0]) <= 360 && fabs(h->corner[1]) <= 90;
@@ -116,7 +116,7 @@ static void find_map(TIFF *tiff, struct image_hints *h)
     h->map = (int)find_place(tiff, h);
     h->has_system = kind == KIND_PROJECTED;
     if (geo_key(tiff, KEY_UNIT_UP))
-        h->up = up;
+        h->height_unit = up;
     if (h->map != IMAGE_MAP_METRES)
         return;
     if (kind == KIND_GEOGRAPHIC || (kind != KIND_PROJECTED && looks_like_degrees(h)))
@@ -127,7 +127,7 @@ static void find_map(TIFF *tiff, struct image_hints *h)
     }
 }
 
-/* Of <Item name="SCALE" sample="0" role="scale">0.1</Item> the number, where there is one for that sample. */
+/* The number in <Item name="SCALE" sample="0" role="scale">0.1</Item>, if there is such an item for that sample. */
 static bool find_item(const char *items, const char *name, int sample, struct image_hints *h, double *out)
 {
     char wanted[32];
@@ -159,7 +159,7 @@ static void find_meaning(TIFF *tiff, int channel, struct image_hints *h)
     }
 }
 
-/* A mask is a picture of its own, of the same size, behind the one it is for; and so are smaller copies of that. */
+/* A part's mask is the next part, of the same size; smaller copies of a part follow it, too. */
 static void find_mask(TIFF *tiff, int part, struct image_hints *h)
 {
     uint32_t width = 0, height = 0, w = 0, high = 0, kind = 0;
@@ -172,7 +172,7 @@ static void find_mask(TIFF *tiff, int part, struct image_hints *h)
     TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &high);
     if ((kind & FILETYPE_MASK) && w == width && high == height)
         h->mask = part + 1;
-    h->belongs = (kind & (FILETYPE_MASK | FILETYPE_REDUCEDIMAGE)) != 0;
+    h->next_is_related = (kind & (FILETYPE_MASK | FILETYPE_REDUCEDIMAGE)) != 0;
 }
 
 static void read_tiff(const char *path, int part, int channel, struct image_hints *h)
@@ -191,7 +191,7 @@ static void read_tiff(const char *path, int part, int channel, struct image_hint
     TIFFClose(tiff);
 }
 
-/* ---- PNG: its eXIf chunk holds a small TIFF, whose tag 274 says how the picture is turned */
+/* ---- PNG: its eXIf chunk holds a small TIFF, whose tag 274 is the orientation */
 
 static uint32_t number_of(const unsigned char *p, size_t n, bool big_endian)
 {

@@ -1,5 +1,5 @@
-/* What files say of their pixels beside what the decoders tell: TIFF's tags of GDAL and GeoTIFF, and PNG's eXIf. In
- * hoodoo-read-image alone. */
+/* Metadata about pixels that OpenImageIO does not report: the TIFF tags of GDAL and GeoTIFF, and PNG's eXIf chunk. Linked into
+ * hoodoo-read-image only. */
 #ifndef HOODOO_IMAGE_HINTS_H
 #define HOODOO_IMAGE_HINTS_H
 
@@ -13,20 +13,20 @@ extern "C" {
 
 struct image_hints {
     bool has_nodata, has_scale;
-    bool damaged_scale;   /* it has some, which is no number */
-    double nodata;        /* as it is stored */
-    double scale, offset; /* values mean offset + scale * what is stored */
-    double up;            /* m, the unit of heights; 0: not said */
-    int mask;             /* the part that is its mask, or -1 */
-    bool belongs;         /* the next part is its mask, or the same picture in small */
-    int orientation;      /* of EXIF; 0: not said */
+    bool damaged_scale;   /* a scale or offset is present but not a number */
+    double nodata;        /* as stored */
+    double scale, offset; /* a value is offset + scale * stored */
+    double height_unit;   /* m; 0: not stated */
+    int mask;             /* the part that is this part's mask, or -1 */
+    bool next_is_related; /* the next part is its mask or a smaller copy of it */
+    int orientation;      /* EXIF; 0: not stated */
     int map;              /* enum image_map */
-    bool has_system;      /* whose coordinates are in metres or feet by what it says */
-    double pixel[2];      /* m, to the right and down; negative where the picture is mirrored */
-    double corner[2];     /* m: of its first stored pixel */
+    bool has_system;      /* the file names a projected coordinate system, in metres or feet */
+    double pixel[2];      /* m, to the right and down; negative: mirrored */
+    double corner[2];     /* map coordinates of the first stored pixel's outer corner, m */
 };
 
-/* Of part `part` of the file, and of that its channel `channel`. What cannot be read says nothing. */
+/* The metadata of one channel of one part. Metadata that cannot be read counts as absent. */
 struct image_hints image_hints_read(const char *path, int part, int channel);
 
 #ifdef __cplusplus

@@ -13,7 +13,7 @@
 #include "base/text.h"
 #include "image/convert.h"
 #include "image/fill.h"
-#include "image/parts.h"
+#include "image/protocol.h"
 #include "reader/reader.h"
 
 #define SAME_CHOICES(S)                                                                                      \
@@ -21,26 +21,26 @@
         (int)S##_NODATA_REFUSE == (int)IMAGE_REFUSE && (int)S##_NODATA_EMPTY == (int)IMAGE_EMPTY &&          \
             (int)S##_NODATA_FILL == (int)IMAGE_FILL && (int)S##_ALPHA_COVERAGE == (int)IMAGE_COVERAGE &&     \
             (int)S##_ALPHA_IGNORE == (int)IMAGE_IGNORE,                                                      \
-        "PIXELS has other choices")
+        "the choices of PIXELS in job/keys.def and of image.h differ")
 SAME_CHOICES(HEIGHTFIELD);
 SAME_CHOICES(JOINTMAP);
 SAME_CHOICES(IMAGE);
 SAME_CHOICES(COVER);
 
-/* ---- what is said of files */
+/* ---- messages about files */
 
-void image_say(bool warn, const char *file, const char *what)
+void image_log(bool warn, const char *file, const char *what)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-    static uint64_t said[256];
+    static uint64_t logged[256];
     static size_t n;
     const uint64_t hash = hash_bytes(file, strlen(file)) ^ hash_bytes(what, strlen(what)) * 3;
     bool again = false;
     pthread_mutex_lock(&lock);
     for (size_t i = 0; i < n && i < 256; i++)
-        again |= said[i] == hash;
+        again |= logged[i] == hash;
     if (!again)
-        said[n++ % 256] = hash;
+        logged[n++ % 256] = hash;
     pthread_mutex_unlock(&lock);
     if (again)
         return;
@@ -50,13 +50,13 @@ void image_say(bool warn, const char *file, const char *what)
         log_info("%s: %s", file, what);
 }
 
-static void say_lines(const char *file, char *lines)
+static void log_lines(const char *file, char *lines)
 {
     for (char *line = lines, *end; line && *line; line = end) {
         end = strchr(line, '\n');
         if (end)
             *end++ = '\0';
-        image_say(*line == 'w', file, line + 1);
+        image_log(*line == 'w', file, line + 1);
     }
 }
 
@@ -64,33 +64,32 @@ static void say_lines(const char *file, char *lines)
 
 static const char *why_missing(uint32_t why)
 {
-    switch ((enum image_why)why) {
+    switch ((enum image_missing_why)why) {
     case WHY_FILE:
-        return "which the file says is no data";
+        return "which the file declares as no data";
     case WHY_JOB:
         return "which is the job's nodata_value";
     case WHY_ALPHA:
-        return "under an alpha of 0";
+        return "where alpha is 0";
     case WHY_MASK:
-        return "which the file's mask leaves out";
+        return "which the file's mask excludes";
     case WHY_NOT_FINITE:
         break;
     }
-    return "which is no number";
+    return "which is not a finite number";
 }
 
-static status refuse(const struct image_wish *w, const struct image_part *p)
+static status refuse(const struct image_request *w, const struct image_answer *p)
 {
     return fail(
         E_INPUT,
-        "%s: pixel (%" PRIu64 ", %" PRIu64 ") from the top left holds %.9g, %s; of %" PRIu64
-        " pixels %" PRIu64
-        " have no value: give the job nodata: empty (nothing is there) or nodata: fill (from around them)%s",
+        "%s: pixel (%" PRIu64 ", %" PRIu64 ") from the top left is %.9g, %s; of %" PRIu64 " pixels %" PRIu64
+        " have no value: set nodata: empty (nothing is there) or nodata: fill (from the pixels around them)%s",
         w->file, p->first_x, p->first_y, p->first_value, why_missing(p->why), p->width * p->height,
-        p->n_missing, p->why == WHY_ALPHA ? ", or alpha: ignore" : "");
+        p->n_missing, p->why == WHY_ALPHA ? ", or set alpha: ignore" : "");
 }
 
-static status meet_missing(const struct image_wish *w, const struct image_part *p, struct image *out)
+static status handle_missing(const struct image_request *w, const struct image_answer *p, struct image *out)
 {
     status st = OK;
     const size_t n = out->width * out->height;
@@ -103,10 +102,11 @@ static status meet_missing(const struct image_wish *w, const struct image_part *
     if (w->nodata == IMAGE_REFUSE)
         return refuse(w, p);
     if (missing == n)
-        return fail(E_INPUT, "%s: none of its %zu pixels has a value", w->file, n);
+        return fail(E_INPUT, "%s: none of its %zu pixels has a value: see nodata_value, alpha and channel",
+                    w->file, n);
     snprintf(what, sizeof what, "%zu of %zu pixels have no value and are %s", missing, n,
-             w->nodata == IMAGE_FILL ? "filled from those around them" : "left empty");
-    image_say(false, w->file, what);
+             w->nodata == IMAGE_FILL ? "filled from the pixels around them" : "left empty");
+    image_log(false, w->file, what);
     if (w->nodata == IMAGE_EMPTY && w->height)
         TRY(memory_alloc(n, 1, "an image", &out->has));
     for (size_t i = 0; i < n; i++) {
@@ -121,14 +121,14 @@ done:
     return st;
 }
 
-/* ---- question and answer */
+/* ---- request and answer */
 
-static const char *or_none(const char *word)
+static const char *or_empty(const char *text)
 {
-    return word ? word : "";
+    return text ? text : "";
 }
 
-static status ask(const struct image_wish *w, const struct converted *c, struct reader_answer *answer)
+static status ask(const struct image_request *w, const struct converted *c, struct reader_answer *answer)
 {
     static const char *const values[] = {
         [IMAGE_UNIT] = "unit", [IMAGE_STORED] = "stored", [IMAGE_METRES] = "metres"};
@@ -137,11 +137,11 @@ static status ask(const struct image_wish *w, const struct converted *c, struct 
     snprintf(offset, sizeof offset, "%.17g", w->offset);
     snprintf(width, sizeof width, "%.0f", w->size_px ? w->size_px[0] : 0);
     snprintf(height, sizeof height, "%.0f", w->size_px ? w->size_px[1] : 0);
-    const char *const word[ASK_WORDS + 1] = {
+    const char *const word[ASK_COUNT + 1] = {
         [ASK_FORM] = c->form,
-        [ASK_CHANNEL] = or_none(w->channel),
-        [ASK_PART] = or_none(w->part),
-        [ASK_NODATA_VALUE] = or_none(w->nodata_value),
+        [ASK_CHANNEL] = or_empty(w->channel),
+        [ASK_PART] = or_empty(w->part),
+        [ASK_NODATA_VALUE] = or_empty(w->nodata_value),
         [ASK_ALPHA] = w->alpha == IMAGE_COVERAGE ? "coverage" : "ignore",
         [ASK_OUTSIDE] = w->nodata == IMAGE_REFUSE ? "black" : "none",
         [ASK_USE] = w->height ? "height" : "mask",
@@ -160,17 +160,17 @@ static status ask(const struct image_wish *w, const struct converted *c, struct 
                       answer);
 }
 
-static status take(const struct image_wish *w, struct reader_answer *answer, struct image *out)
+static status read_answer(const struct image_request *w, struct reader_answer *answer, struct image *out)
 {
     status st = OK;
-    struct image_part p;
-    struct text said = {0};
+    struct image_answer p;
+    struct text lines = {0};
     TRY(reader_take(answer, &p, sizeof p));
     if (p.width < 1 || p.height < 1 || p.width > IMAGE_MAX_PIXELS / p.height || p.map > IMAGE_MAP_TURNED) {
         st = reader_bad_answer(answer);
         goto done;
     }
-    TRY(reader_take_text(answer, &said));
+    TRY(reader_take_text(answer, &lines));
     TRY(reader_take_array(answer, (size_t)(p.width * p.height), sizeof *out->value, &out->value));
     out->width = (size_t)p.width;
     out->height = (size_t)p.height;
@@ -182,14 +182,14 @@ static status take(const struct image_wish *w, struct reader_answer *answer, str
         if (out->map == IMAGE_MAP_METRES && !(p.pixel[a] > 0 && p.pixel[a] < 1e9 && fabs(p.corner[a]) < 1e15))
             out->map = IMAGE_NO_MAP;
     }
-    say_lines(w->file, said.data);
-    TRY(meet_missing(w, &p, out));
+    log_lines(w->file, lines.data);
+    TRY(handle_missing(w, &p, out));
 done:
-    text_free(&said);
+    text_free(&lines);
     return st;
 }
 
-status image_read(const struct image_wish *w, struct image *out)
+status image_read(const struct image_request *w, struct image *out)
 {
     status st = OK;
     struct reader_answer answer = {0};
@@ -197,7 +197,7 @@ status image_read(const struct image_wish *w, struct image *out)
     *out = (struct image){0};
     TRY(image_convert(w->file, &c));
     TRY(ask(w, &c, &answer));
-    TRY(take(w, &answer, out));
+    TRY(read_answer(w, &answer, out));
 done:
     reader_end(&answer);
     converted_free(&c);

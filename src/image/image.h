@@ -1,13 +1,13 @@
-/* Pictures from anywhere, as numbers: decoded by hoodoo-read-image (reader/reader.h), so that a hostile file costs an error
- * message and nothing else.
+/* Reads images as numbers: heights or masks. hoodoo-read-image (reader/reader.h) decodes them in a process of its own, so that a
+ * hostile file causes an error message and nothing else.
  *
- * The file is asked what its pixels mean, and the job may say otherwise (PIXELS in job/keys.def):
+ * The file states what its pixels mean, and the job may override it (PIXELS in job/keys.def):
  *
- * Picture    The display window of an EXR; what lies outside of its data window is black. Turned as the file's orientation says.
- * Values     Integers are 0..1 or as they are stored, with all their bits; floats are what the file holds. Never converted by
- *            colour spaces, except where `channel` is luminance, which is a sum of light.
- * No data    NaN, infinite, what the file names (GDAL_NODATA, a mask), what the job names, and heights under an alpha of 0.
- * Map        Pixel size and place of GeoTIFF.
+ * Picture    An EXR's display window; pixels outside of its data window are black. Rotated as the file's orientation says.
+ * Values     Integers become 0..1 or stay as stored, with all their bits; floats stay as stored. Values are never converted between
+ *            colour spaces, except for `channel: luminance`, which is a weighted sum of linear light.
+ * No data    NaN, infinity, values that the file (GDAL_NODATA, a mask) or the job declares as no data, and heights where alpha is 0.
+ * Map        Pixel size and position of GeoTIFF.
  */
 #ifndef HOODOO_IMAGE_H
 #define HOODOO_IMAGE_H
@@ -18,56 +18,59 @@
 #include "base/status.h"
 #include "job/job.h"
 
-/* Images of more pixels are refused before they are decoded: 16384 x 16384. */
+/* Larger images are refused before they are decoded: 16384 x 16384 pixels. */
 #define IMAGE_MAX_PIXELS ((size_t)1 << 28)
 
-/* The choices of PIXELS. */
+/* The choices of PIXELS in job/keys.def. */
 enum image_nodata { IMAGE_REFUSE, IMAGE_EMPTY, IMAGE_FILL };
 enum image_alpha { IMAGE_COVERAGE, IMAGE_IGNORE };
 
-/* What 1 is: white of integers; 1 as it is stored, or as the file says that it is scaled; or a metre, likewise. */
+/* The unit of values: the white of integers (floats as stored); stored values, after the file's own scale and offset; metres, also
+ * after the file's unit of height. */
 enum image_values { IMAGE_UNIT, IMAGE_STORED, IMAGE_METRES };
 
-struct image_wish {
-    const char *file, *channel, *part, *nodata_value; /* "" or NULL: as the file says */
+struct image_request {
+    const char *file, *channel, *part, *nodata_value; /* "" or NULL: left to the file */
     int nodata, alpha;
-    const double *size_px; /* [2] */
-    bool height;           /* else a mask: 0 is nothing */
+    const double *size_px; /* [2]: width and height of raw values; NULL or 0: from the file */
+    bool height;           /* heights; false: a mask, in which 0 means nothing */
     enum image_values values;
-    double scale, offset; /* values become offset + scale * value */
+    double scale, offset; /* the result is offset + scale * value */
 };
 
-/* Of a job's section that has PIXELS: 0..1. */
-#define IMAGE_WISH(job)                                                                                      \
-    ((struct image_wish){.file = (job)->file,                                                                \
-                         .channel = (job)->channel,                                                          \
-                         .part = (job)->part,                                                                \
-                         .nodata_value = (job)->nodata_value,                                                \
-                         .nodata = (job)->nodata,                                                            \
-                         .alpha = (job)->alpha,                                                              \
-                         .size_px = (job)->size_px,                                                          \
-                         .scale = 1})
+/* The request of a job section that has PIXELS, for values 0..1. */
+#define IMAGE_REQUEST(job)                                                                                   \
+    ((struct image_request){.file = (job)->file,                                                             \
+                            .channel = (job)->channel,                                                       \
+                            .part = (job)->part,                                                             \
+                            .nodata_value = (job)->nodata_value,                                             \
+                            .nodata = (job)->nodata,                                                         \
+                            .alpha = (job)->alpha,                                                           \
+                            .size_px = (job)->size_px,                                                       \
+                            .scale = 1})
 
+/* Whether the file has a position on a map: in metres, in degrees, or rotated against the map's axes. */
 enum image_map { IMAGE_NO_MAP, IMAGE_MAP_METRES, IMAGE_MAP_DEGREES, IMAGE_MAP_TURNED };
 
 struct image {
     size_t width, height;
-    float *value; /* top row first */
-    unsigned char *
-        has; /* of heights with nodata: empty, if some pixels have no value: 1 where there is one; else NULL. What has none
-                           is filled from around it all the same */
+    float *value; /* [height][width], top row first; filled smoothly where a pixel has no value */
+
+    /* [height][width]: does the pixel have a value? NULL if all have; only for heights with nodata: empty. */
+    unsigned char *has;
+
     enum image_map map;
-    bool map_named; /* the file names the map's system of coordinates; else metres are a guess */
-    double pixel[2],
-        corner[2]; /* m, with IMAGE_MAP_METRES: of a pixel; where the left bottom corner is on the map */
+    bool map_named;   /* the file names the map's coordinate system; else it is assumed to be in metres */
+    double pixel[2];  /* m, with IMAGE_MAP_METRES: pixel size */
+    double corner[2]; /* m, with IMAGE_MAP_METRES: map coordinates of the bottom left corner */
 };
 
-/* *out is freed with image_free(). E_INPUT names the file: missing, unreadable, too large, with pixels that have no value and nodata:
- * refuse, or its decoder crashed or ran away. E_USAGE: the job asks for what the file has not. */
-MUST_USE status image_read(const struct image_wish *wish, struct image *out);
+/* Free *out with image_free(). E_INPUT, with the file's name: it is missing, unreadable or too large, it has pixels without a value and
+ * the request says IMAGE_REFUSE, or its decoder crashed or exceeded a limit. E_USAGE: the file has no such part, channel or size. */
+MUST_USE status image_read(const struct image_request *request, struct image *out);
 void image_free(struct image *image);
 
-/* Says something of a file in the log, once however often it is read. */
-void image_say(bool warn, const char *file, const char *what);
+/* Logs a message about a file, once per process however often the file is read. */
+void image_log(bool warn, const char *file, const char *what);
 
 #endif

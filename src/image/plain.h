@@ -1,5 +1,5 @@
-/* Files that are little more than their numbers: raw values, and grey PGM, of which OpenImageIO 2.4 reads some 16-bit values as one less.
- * In hoodoo-read-image alone. */
+/* Decoders of raw values and of grey PGM, of which OpenImageIO 2.4 reads some 16-bit values as one less than stored. Linked into
+ * hoodoo-read-image only. */
 #ifndef HOODOO_IMAGE_PLAIN_H
 #define HOODOO_IMAGE_PLAIN_H
 
@@ -8,11 +8,12 @@
 #include "base/status.h"
 #include "image/rows.h"
 
-/* Binary grey PGM? */
+/* Is the file a binary grey PGM (P5)? */
 bool image_is_pgm(const char *path);
 
-/* Decodes made->open. E_INPUT: it ends early, or has not the size that was said. */
-MUST_USE status image_decode_pgm(struct image_made *made);
-MUST_USE status image_decode_raw(struct image_made *made);
+/* Decode made->open_path into made->value. E_INPUT: the file is truncated or damaged. E_USAGE: its size does not match size_px, or a
+ * channel or part that it does not have. */
+MUST_USE status image_decode_pgm(struct image_decoding *made);
+MUST_USE status image_decode_raw(struct image_decoding *made);
 
 #endif

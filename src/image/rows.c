@@ -9,24 +9,24 @@
 #include "base/memory.h"
 #include "image/image.h"
 
-void image_note(struct image_made *m, bool warn, const char *format, ...)
+void image_note(struct image_decoding *m, bool warn, const char *format, ...)
 {
-    const size_t at = strlen(m->said);
+    const size_t at = strlen(m->messages);
     va_list args;
-    if (sizeof m->said - at < 3)
+    if (sizeof m->messages - at < 3)
         return;
-    m->said[at] = warn ? 'w' : 'i';
+    m->messages[at] = warn ? 'w' : 'i';
     va_start(args, format);
-    vsnprintf(m->said + at + 1, sizeof m->said - at - 2, format, args);
+    vsnprintf(m->messages + at + 1, sizeof m->messages - at - 2, format, args);
     va_end(args);
-    strcat(m->said, "\n");
+    strcat(m->messages, "\n");
 }
 
-/* ---- what the numbers mean */
+/* ---- the meaning of stored numbers */
 
-static status set_nodata(struct image_made *m)
+static status set_nodata(struct image_decoding *m)
 {
-    const char *text = m->word[ASK_NODATA_VALUE];
+    const char *text = m->argument[ASK_NODATA_VALUE];
     char *end;
     if (*text) {
         m->nodata[m->n_nodata++] = strtod(text, &end);
@@ -38,108 +38,105 @@ static status set_nodata(struct image_made *m)
     return OK;
 }
 
-static status set_values(struct image_made *m)
+static status set_values(struct image_decoding *m)
 {
-    struct image_part *p = &m->part;
-    p->factor = strtod(m->word[ASK_SCALE], NULL);
-    p->offset = strtod(m->word[ASK_OFFSET], NULL);
-    if (image_asks(m, ASK_VALUES, "unit") && m->whole)
+    struct image_answer *p = &m->answer;
+    p->factor = strtod(m->argument[ASK_SCALE], NULL);
+    p->offset = strtod(m->argument[ASK_OFFSET], NULL);
+    if (image_argument_is(m, ASK_VALUES, "unit") && m->is_integer)
         p->factor /= m->white;
-    if (image_asks(m, ASK_VALUES, "unit"))
+    if (image_argument_is(m, ASK_VALUES, "unit"))
         return OK;
-    const bool metres = image_asks(m, ASK_VALUES, "metres");
-    const double up = metres && m->hints.up > 0 ? m->hints.up : 1;
+    const bool metres = image_argument_is(m, ASK_VALUES, "metres");
+    const double up = metres && m->hints.height_unit > 0 ? m->hints.height_unit : 1;
     if (m->hints.damaged_scale && metres)
-        return fail(E_INPUT,
-                    "%s: it says that its values are to be scaled, and not by what number: give scale_m",
-                    m->path);
+        return fail(E_INPUT, "%s: the scale or offset in its metadata is not a number: set scale_m", m->path);
     if (m->hints.damaged_scale)
-        image_note(m, true,
-                   "it says that its values are to be scaled, and not by what number, which is passed over");
+        image_note(m, true, "the scale or offset in its metadata is not a number and is ignored");
     if (m->hints.has_scale && !m->hints.damaged_scale) {
-        image_note(m, false, "its values are %.10g + %.10g times what it stores, by its own word",
+        image_note(m, false, "its metadata says that values are %.10g + %.10g times the stored numbers",
                    m->hints.offset, m->hints.scale);
         p->offset += p->factor * up * m->hints.offset;
         p->factor *= m->hints.scale;
     }
     if (up < 1)
-        image_note(m, false, "its heights are in feet, %.10g m each", up);
+        image_note(m, false, "its heights are in feet of %.10g m", up);
     p->factor *= up;
     return OK;
 }
 
-/* Where a file says its place on the map, how its rows lie follows from there. */
-static void set_turn(struct image_made *m)
+/* The map position of a file, if it has one, overrides its orientation. */
+static void set_orientation(struct image_decoding *m)
 {
     const struct image_hints *h = &m->hints;
-    struct image_part *p = &m->part;
-    int turn = m->orientation >= 1 && m->orientation <= 8 ? m->orientation : 1;
+    struct image_answer *p = &m->answer;
+    int orientation = m->orientation >= 1 && m->orientation <= 8 ? m->orientation : 1;
     p->map = (uint32_t)h->map;
     p->named = h->has_system;
     if (h->map == IMAGE_MAP_METRES || h->map == IMAGE_MAP_DEGREES) {
-        if (turn != 1)
-            image_note(
-                m, true,
-                "its orientation (%d) is passed over: it has a place on the map, which says how it lies",
-                turn);
-        turn = h->pixel[0] < 0 ? (h->pixel[1] < 0 ? 3 : 2) : (h->pixel[1] < 0 ? 4 : 1);
+        if (orientation != 1)
+            image_note(m, true, "its orientation (%d) is ignored: its map position says which way is north",
+                       orientation);
+        orientation = h->pixel[0] < 0 ? (h->pixel[1] < 0 ? 3 : 2) : (h->pixel[1] < 0 ? 4 : 1);
         p->corner[0] = fmin(h->corner[0], h->corner[0] + h->pixel[0] * (double)m->width);
         p->corner[1] = fmin(h->corner[1], h->corner[1] - h->pixel[1] * (double)m->height);
         p->pixel[0] = fabs(h->pixel[0]);
         p->pixel[1] = fabs(h->pixel[1]);
-    } else if (turn != 1) {
-        image_note(m, false, "it is turned as it says itself (orientation %d)", turn);
+    } else if (orientation != 1) {
+        image_note(m, false, "it is rotated as its metadata says (orientation %d)", orientation);
     }
-    /* From 5 on columns become rows, which are as long as the picture was high. */
+    /* Orientations 5 to 8 transpose: columns become rows. */
     static const int right[] = {0, 1, -1, -1, 1, 1, 1, -1, -1}, down[] = {0, 1, 1, -1, -1, 1, -1, -1, 1};
     const int64_t w = (int64_t)m->width, high = (int64_t)m->height;
-    const int64_t step_x = turn > 4 ? high : 1, step_y = turn > 4 ? 1 : w;
-    p->width = turn > 4 ? m->height : m->width;
-    p->height = turn > 4 ? m->width : m->height;
-    m->by_x = right[turn] * step_x;
-    m->by_y = down[turn] * step_y;
-    m->first = (right[turn] < 0 ? (w - 1) * step_x : 0) + (down[turn] < 0 ? (high - 1) * step_y : 0);
+    const int64_t step_x = orientation > 4 ? high : 1, step_y = orientation > 4 ? 1 : w;
+    p->width = orientation > 4 ? m->height : m->width;
+    p->height = orientation > 4 ? m->width : m->height;
+    m->by_x = right[orientation] * step_x;
+    m->by_y = down[orientation] * step_y;
+    m->first =
+        (right[orientation] < 0 ? (w - 1) * step_x : 0) + (down[orientation] < 0 ? (high - 1) * step_y : 0);
 }
 
-status image_begin(struct image_made *m)
+status image_begin(struct image_decoding *m)
 {
     status st = OK;
     if (m->width < 1 || m->height < 1 || m->width > m->max_pixels / m->height)
-        return fail(E_INPUT, "%s: %llu x %llu pixels, more than the %llu million allowed here", m->path,
+        return fail(E_INPUT, "%s: %llu x %llu pixels are more than the limit of %llu million", m->path,
                     (unsigned long long)m->width, (unsigned long long)m->height,
                     (unsigned long long)m->max_pixels / 1000000);
-    m->is_height = image_asks(m, ASK_USE, "height");
-    m->uses_alpha = image_asks(m, ASK_ALPHA, "coverage");
-    m->drops_outside = image_asks(m, ASK_OUTSIDE, "none");
+    m->is_height = image_argument_is(m, ASK_USE, "height");
+    m->uses_alpha = image_argument_is(m, ASK_ALPHA, "coverage");
+    m->drops_outside = image_argument_is(m, ASK_OUTSIDE, "none");
     TRY(set_nodata(m));
     TRY(set_values(m));
-    set_turn(m);
+    set_orientation(m);
     TRY(memory_alloc(m->width * m->height, sizeof *m->value, "an image", &m->value));
-    m->part.n_outside = m->width * m->height;
-    m->part.first_y = UINT64_MAX;
-    const float outside = m->drops_outside && m->is_height ? NAN : (float)(m->is_height ? m->part.offset : 0);
+    m->answer.n_outside = m->width * m->height;
+    m->answer.first_y = UINT64_MAX;
+    const float outside =
+        m->drops_outside && m->is_height ? NAN : (float)(m->is_height ? m->answer.offset : 0);
     for (uint64_t i = 0; i < m->width * m->height; i++)
         m->value[i] = outside;
 done:
     return st;
 }
 
-/* Floats that a text had to name are equal within its rounding, of which the largest ones get more. */
-static bool is_equal(const struct image_made *m, double stored, double nodata)
+/* GDAL_NODATA is text: floats are compared within its rounding, which is coarser for the largest numbers. */
+static bool is_equal(const struct image_decoding *m, double stored, double nodata)
 {
     const double rounding = fabs(nodata) > 1e30 ? 1e-4 : 4e-7;
-    return stored == nodata || (!m->whole && fabs(stored - nodata) <= rounding * fabs(nodata));
+    return stored == nodata || (!m->is_integer && fabs(stored - nodata) <= rounding * fabs(nodata));
 }
 
-static bool is_missing(const struct image_made *m, double stored, const double *alpha, const double *mask,
-                       enum image_why *why)
+static bool is_missing(const struct image_decoding *m, double stored, const double *alpha, const double *mask,
+                       enum image_missing_why *why)
 {
     *why = WHY_NOT_FINITE;
     if (!isfinite(stored))
         return true;
     for (unsigned i = 0; i < m->n_nodata; i++)
         if (is_equal(m, stored, m->nodata[i])) {
-            *why = i == 0 && *m->word[ASK_NODATA_VALUE] ? WHY_JOB : WHY_FILE;
+            *why = i == 0 && *m->argument[ASK_NODATA_VALUE] ? WHY_JOB : WHY_FILE;
             return true;
         }
     *why = WHY_MASK;
@@ -149,9 +146,9 @@ static bool is_missing(const struct image_made *m, double stored, const double *
     return alpha && m->uses_alpha && m->is_height && *alpha == 0;
 }
 
-static void miss(struct image_made *m, uint64_t to, double stored, enum image_why why)
+static void mark_missing(struct image_decoding *m, uint64_t to, double stored, enum image_missing_why why)
 {
-    struct image_part *p = &m->part;
+    struct image_answer *p = &m->answer;
     const uint64_t x = to % p->width, y = to / p->width;
     p->n_missing++;
     m->value[to] = NAN;
@@ -163,7 +160,7 @@ static void miss(struct image_made *m, uint64_t to, double stored, enum image_wh
     p->why = why;
 }
 
-void image_row(struct image_made *m, int64_t x, int64_t y, size_t n, const double *stored,
+void image_row(struct image_decoding *m, int64_t x, int64_t y, size_t n, const double *stored,
                const double *alpha, const double *mask)
 {
     y += m->top;
@@ -171,14 +168,14 @@ void image_row(struct image_made *m, int64_t x, int64_t y, size_t n, const doubl
         return;
     for (size_t i = 0; i < n; i++) {
         const int64_t column = x + m->left + (int64_t)i;
-        enum image_why why;
+        enum image_missing_why why;
         if (column < 0 || column >= (int64_t)m->width)
             continue;
         const uint64_t to = (uint64_t)(m->first + column * m->by_x + y * m->by_y);
         double v = stored[i];
-        m->part.n_outside--;
+        m->answer.n_outside--;
         if (is_missing(m, v, alpha ? alpha + i : NULL, mask ? mask + i : NULL, &why)) {
-            miss(m, to, v, why);
+            mark_missing(m, to, v, why);
             continue;
         }
         if (alpha && m->uses_alpha) {
@@ -187,8 +184,8 @@ void image_row(struct image_made *m, int64_t x, int64_t y, size_t n, const doubl
             else if (!m->is_height && !m->premultiplied)
                 v *= alpha[i];
         }
-        m->value[to] = (float)(m->part.offset + m->part.factor * v);
+        m->value[to] = (float)(m->answer.offset + m->answer.factor * v);
         if (!isfinite(m->value[to]))
-            miss(m, to, stored[i], WHY_NOT_FINITE);
+            mark_missing(m, to, stored[i], WHY_NOT_FINITE);
     }
 }

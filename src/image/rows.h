@@ -1,60 +1,60 @@
-/* From rows of numbers as files store them to a picture: turned, cropped, scaled, and without what is no data. Decoders
- * (decode.h, plain.h) send their rows here. In hoodoo-read-image alone.
+/* Assembles the result image from rows of stored numbers: rotates, crops and scales, and detects no data. The decoders (decode.h,
+ * plain.h) send their rows here. Linked into hoodoo-read-image only.
  *
- * Calling sequence   fill in what the decoder has to say; image_begin(); image_row() for each row; value is the caller's to free.
+ * Calling sequence   Fill in the decoder's fields; image_begin(); image_row() for each row. The caller frees value with free().
  */
 #ifndef HOODOO_IMAGE_ROWS_H
 #define HOODOO_IMAGE_ROWS_H
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 #include "image/hints.h"
-#include "image/parts.h"
+#include "image/protocol.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* The picture under way. */
-struct image_made {
-    const char *const *word; /* the question, ASK_WORDS */
-    const char *path, *open; /* for sentences; and where the bytes are */
+/* One request being decoded. */
+struct image_decoding {
+    const char *const *argument;  /* [ASK_COUNT], the request */
+    const char *path, *open_path; /* the file's name for messages; the file to open */
     uint64_t max_pixels;
     struct image_hints hints;
-    struct image_part part;
-    float *value;
-    char said[2000];
-    /* set by who decodes, before image_begin() */
-    int orientation;           /* of EXIF, 1 to 8; 0: none */
-    uint64_t width, height;    /* of the picture, before it is turned */
-    int64_t left, top;         /* where its first stored pixel is in it */
-    double white;              /* of integers, as they are stored; 0: floats */
-    bool whole, premultiplied; /* integers; alpha is in the values already */
-    /* its own */
+    struct image_answer answer;
+    float *value;        /* [answer.height][answer.width], top row first */
+    char messages[2000]; /* lines as protocol.h says */
+    /* Set by the decoder before image_begin(): */
+    int orientation;                /* EXIF, 1 to 8; 0: none */
+    uint64_t width, height;         /* of the display window, before rotation */
+    int64_t left, top;              /* position of the first stored pixel in the display window */
+    double white;                   /* the stored value of white, of integers; 0: floats */
+    bool is_integer, premultiplied; /* the values are already multiplied by alpha */
+    /* Private to rows.c: */
     double nodata[2];
     unsigned n_nodata;
-    int64_t first, by_x, by_y; /* where a pixel goes */
+    int64_t first, by_x, by_y; /* pixel (x, y) goes to value[first + x * by_x + y * by_y] */
     bool is_height, uses_alpha, drops_outside;
 };
 
-static inline bool image_asks(const struct image_made *made, enum image_word word, const char *what)
+/* Is this argument of the request `what`? */
+static inline bool image_argument_is(const struct image_decoding *made, enum image_argument which,
+                                     const char *what)
 {
-    const char *said = made->word[word];
-    while (*said && *said == *what)
-        said++, what++;
-    return *said == *what;
+    return strcmp(made->argument[which], what) == 0;
 }
 
-/* E_INPUT: the picture is too large. E_USAGE: a nodata_value that is no number. */
-MUST_USE status image_begin(struct image_made *made);
+/* Allocates value. E_INPUT: the picture is too large, or its scale is damaged. E_USAGE: nodata_value is not a number. E_MEMORY. */
+MUST_USE status image_begin(struct image_decoding *made);
 
-/* n numbers of row y, as they are stored, from column x on. alpha (0..1) and mask (0: no data) may be NULL. */
-void image_row(struct image_made *made, int64_t x, int64_t y, size_t n, const double *stored,
+/* Adds stored[n] of row y from column x on, of the stored picture. alpha[n] (0..1) and mask[n] (0: no data) may be NULL. */
+void image_row(struct image_decoding *made, int64_t x, int64_t y, size_t n, const double *stored,
                const double *alpha, const double *mask);
 
-/* A line for the log. */
-void image_note(struct image_made *made, bool warn, const char *format, ...) PRINTF_LIKE(3, 4);
+/* Adds a message about the file, for hoodoo's log. */
+void image_note(struct image_decoding *made, bool warn, const char *format, ...) PRINTF_LIKE(3, 4);
 
 #ifdef __cplusplus
 }

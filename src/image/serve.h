@@ -1,4 +1,4 @@
-/* Pictures in their reader: what is asked and answered is in parts.h. */
+/* The image decoder's side of protocol.h. */
 #ifndef HOODOO_IMAGE_SERVE_H
 #define HOODOO_IMAGE_SERVE_H
 

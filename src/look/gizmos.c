@@ -144,7 +144,7 @@ static void cylinder(const struct drawing *d, const struct job_cylinder *c)
 
 static void node(struct drawing *d, const struct placement *parent, const struct job_node *n)
 {
-    const struct placement place = placement_below(parent, n);
+    const struct placement place = placement_child(parent, n);
     const struct placement *before = d->place;
     d->place = &place;
     for (size_t i = 0; n->kind != NODE_SHAPE && i < n->n_child; i++)

@@ -1,11 +1,11 @@
-/* Triangles that are there more than once: programs that draw both sides of faces write each face twice. */
+/* Triangles that occur more than once: programs that draw both sides of faces export each face twice. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "meshinput/edges.h"
 
-/* A triangle by its corners in order, those but the lowest. */
+/* A triangle's corners in ascending order, without the lowest. */
 struct item {
     uint32_t middle, highest, triangle;
 };
@@ -32,7 +32,7 @@ static void in_order(const uint32_t t[3], uint32_t out[3])
             }
 }
 
-/* All triangles by their lowest corner: those of v are item[begin[v]] up to item[begin[v + 1]]. */
+/* Sorts triangles by their lowest corner: those of v are item[begin[v] .. begin[v + 1]). */
 static void list(const struct mesh *mesh, size_t *begin, struct item *item)
 {
     uint32_t c[3];
@@ -48,25 +48,25 @@ static void list(const struct mesh *mesh, size_t *begin, struct item *item)
     }
 }
 
-status mesh_drop_twins(struct mesh *mesh, size_t *dropped)
+status mesh_drop_duplicates(struct mesh *mesh, size_t *dropped)
 {
     status st = OK;
     size_t *begin = NULL, n = 0;
     struct item *item = NULL;
-    unsigned char *again = NULL;
+    unsigned char *is_duplicate = NULL;
     *dropped = 0;
     TRY(memory_alloc(mesh->n_vertices + 2, sizeof *begin, "the triangles of a mesh", &begin));
     TRY(memory_alloc(mesh->n_triangles, sizeof *item, "the triangles of a mesh", &item));
-    TRY(memory_alloc(mesh->n_triangles, sizeof *again, "the triangles of a mesh", &again));
+    TRY(memory_alloc(mesh->n_triangles, sizeof *is_duplicate, "the triangles of a mesh", &is_duplicate));
     list(mesh, begin, item);
     for (size_t v = 0; v < mesh->n_vertices; v++) {
         qsort(item + begin[v], begin[v + 1] - begin[v], sizeof *item, compare);
         for (size_t i = begin[v] + 1; i < begin[v + 1]; i++)
-            again[item[i].triangle] =
+            is_duplicate[item[i].triangle] =
                 item[i].middle == item[i - 1].middle && item[i].highest == item[i - 1].highest;
     }
     for (size_t t = 0; t < mesh->n_triangles; t++) {
-        if (again[t])
+        if (is_duplicate[t])
             continue;
         memmove(mesh->triangle[n++], mesh->triangle[t], sizeof *mesh->triangle);
     }
@@ -75,6 +75,6 @@ status mesh_drop_twins(struct mesh *mesh, size_t *dropped)
 done:
     free(begin);
     free(item);
-    free(again);
+    free(is_duplicate);
     return st;
 }

@@ -13,10 +13,10 @@ static int compare(const void *a, const void *b)
         return p->to < q->to ? -1 : 1;
     if (p->triangle != q->triangle)
         return p->triangle < q->triangle ? -1 : 1;
-    return p->turn - q->turn;
+    return p->direction - q->direction;
 }
 
-/* Most corners have a handful. */
+/* Insertion sort for the few half-edges that most vertices have. */
 static void sort_sides(struct mesh_side *side, size_t n)
 {
     if (n > 32) {
@@ -38,7 +38,7 @@ status mesh_edges_create(const struct mesh *mesh, struct mesh_edges *out)
     *out = (struct mesh_edges){.n_vertices = mesh->n_vertices};
     TRY(memory_alloc(mesh->n_vertices + 2, sizeof *out->begin, "the edges of a mesh", &out->begin));
     TRY(memory_alloc(3 * mesh->n_triangles, sizeof *out->side, "the edges of a mesh", &out->side));
-    /* begin[v + 2] counts; then begin[v + 1] is where the next side of v goes, and v + 1 begins in the end. */
+    /* Counting sort. First begin[v + 2] counts; then begin[v + 1] is where v's next half-edge goes, which ends at the begin of v + 1. */
     for (size_t i = 0; i < 3 * mesh->n_triangles; i++) {
         const uint32_t a = mesh->triangle[i / 3][i % 3], b = mesh->triangle[i / 3][(i + 1) % 3];
         out->begin[(a < b ? a : b) + 2]++;
@@ -66,12 +66,12 @@ void mesh_edges_free(struct mesh_edges *edges)
     *edges = (struct mesh_edges){0};
 }
 
-size_t mesh_edge_end(const struct mesh_edges *edges, size_t v, size_t first, int *turns)
+size_t mesh_edge_end(const struct mesh_edges *edges, size_t v, size_t first, int *directions)
 {
     size_t i = first;
-    *turns = 0;
+    *directions = 0;
     for (; i < edges->begin[v + 1] && edges->side[i].to == edges->side[first].to; i++)
-        *turns += edges->side[i].turn;
+        *directions += edges->side[i].direction;
     return i;
 }
 
@@ -80,13 +80,13 @@ status mesh_find_open(const struct mesh *mesh, struct mesh_open *out)
     status st = OK;
     struct mesh_edges edges = {0};
     size_t capacity = 0;
-    int turns;
+    int directions;
     *out = (struct mesh_open){0};
     TRY(mesh_edges_create(mesh, &edges));
     for (size_t v = 0; v < edges.n_vertices; v++)
         for (size_t i = edges.begin[v], end; i < edges.begin[v + 1]; i = end) {
-            end = mesh_edge_end(&edges, v, i, &turns);
-            if (turns == 0)
+            end = mesh_edge_end(&edges, v, i, &directions);
+            if (directions == 0)
                 continue;
             TRY(memory_grow(&out->edge, &capacity, out->n + 1, sizeof *out->edge,
                             "the open edges of a mesh"));

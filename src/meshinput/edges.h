@@ -1,14 +1,14 @@
-/* The edges of a mesh, and what follows from them: whether it is closed, and which way its faces are turned. */
+/* The edges of a mesh; from them, whether it is closed and whether its faces are oriented consistently. */
 #ifndef HOODOO_MESHINPUT_EDGES_H
 #define HOODOO_MESHINPUT_EDGES_H
 
 #include "meshinput/mesh.h"
 
-/* Each triangle's sides stand with their lower corner: those of corner v are side[begin[v]] up to side[begin[v + 1]], by their other
- * corner, which is all that equal edges differ by. */
+/* A half-edge: one side of one triangle. The half-edges whose lower vertex is v are side[begin[v] .. begin[v + 1]), sorted by their other
+ * vertex `to`, then by triangle. */
 struct mesh_side {
     uint32_t to, triangle;
-    int turn; /* 1: the triangle goes from the lower corner to the higher, -1: back */
+    int direction; /* 1: the triangle runs from the lower vertex to the higher, -1: back */
 };
 
 struct mesh_edges {
@@ -17,43 +17,46 @@ struct mesh_edges {
     struct mesh_side *side;
 };
 
+/* Free *out with mesh_edges_free(). E_MEMORY. */
 MUST_USE status mesh_edges_create(const struct mesh *mesh, struct mesh_edges *out);
 void mesh_edges_free(struct mesh_edges *edges);
 
-/* The sides from `first` on that are of one edge: the index behind the last. `v` is their lower corner; *turns is the sum of theirs,
- * 0 where an edge is closed. */
-size_t mesh_edge_end(const struct mesh_edges *edges, size_t v, size_t first, int *turns);
+/* The end of the run of half-edges from `first` on that belong to one edge; v is its lower vertex. *directions is the sum of their
+ * directions: 0 if the edge is closed. */
+size_t mesh_edge_end(const struct mesh_edges *edges, size_t v, size_t first, int *directions);
 
-/* Edges at which the surface ends: as many triangles do not go one way along them as the other. */
+/* Open edges, at which the surface ends: those whose directions do not add up to 0. */
 struct mesh_open {
     size_t n;
     uint32_t (*edge)[2]; /* freed with free() */
 };
+/* The caller frees out->edge. E_MEMORY. */
 MUST_USE status mesh_find_open(const struct mesh *mesh, struct mesh_open *out);
 
-/* Joins vertices of open edges that are at most `tolerance` apart, m, and drops triangles without three corners. */
+/* Joins vertices of open edges that are at most `tolerance` apart, m, and drops triangles that then have fewer than three corners.
+ * E_MEMORY. */
 struct mesh_welded {
-    size_t n;        /* vertices that went */
-    double farthest; /* m: that one went */
+    size_t n;        /* vertices that were joined to another one */
+    double farthest; /* m, the largest distance between two that were joined */
 };
 MUST_USE status mesh_weld_open(struct mesh *mesh, const struct mesh_open *open, double tolerance,
                                struct mesh_welded *out);
 
-/* Turns faces over that are turned the other way than their neighbours, the smaller part of each patch by its area, and
- * says how many. */
-MUST_USE status mesh_turn_alike(struct mesh *mesh, size_t *turned);
+/* Flips faces so that neighbours are oriented alike: of each edge-connected patch, the orientation with the smaller area. *flipped: the
+ * number of faces. E_MEMORY. */
+MUST_USE status mesh_orient_consistently(struct mesh *mesh, size_t *flipped);
 
-/* Turns parts over that are inside out: all of the mesh if what its parts hold adds up to less than nothing, then each part that
- * closed, holds less than nothing and is no cavity in others. Says of how many parts. `open`: its open edges. */
-MUST_USE status mesh_turn_outwards(struct mesh *mesh, const struct mesh_open *open, size_t *turned);
+/* Flips parts (connected components) that are inside out: first the whole mesh if its volume is negative, then each closed part of
+ * negative volume that is not a cavity in other parts. `open`: the mesh's open edges. *flipped: the number of parts. E_MEMORY. */
+MUST_USE status mesh_orient_outwards(struct mesh *mesh, const struct mesh_open *open, size_t *flipped);
 
-/* Leaves one of the triangles that have the same corners, and says how many went. */
-MUST_USE status mesh_drop_twins(struct mesh *mesh, size_t *dropped);
+/* Keeps one of the triangles that have the same three corners. *dropped: the number of the others. E_MEMORY. */
+MUST_USE status mesh_drop_duplicates(struct mesh *mesh, size_t *dropped);
 
-/* m3, of a closed mesh: what is counter-clockwise from outside holds more than nothing. */
+/* The volume of a closed mesh, m3: positive if its faces are counter-clockwise from outside. */
 double mesh_volume(const struct mesh *mesh);
 
-/* As long as its area, m2; outwards if it is counter-clockwise from outside. */
+/* The normal's length is the area, m2; it points outwards if the face is counter-clockwise from outside. */
 void mesh_triangle_normal(const struct mesh *mesh, size_t triangle, double normal[3]);
 double mesh_triangle_area(const struct mesh *mesh, size_t triangle);
 

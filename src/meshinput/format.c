@@ -1,4 +1,4 @@
-/* What kind of file a mesh is in, and meshes that programs of their own read. */
+/* Recognises the format of a mesh file, and reads meshes through the programs that decode them. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,28 +10,28 @@
 #include "reader/mesh_part.h"
 #include "reader/reader.h"
 
-/* What a file's first bytes say, where they say it for certain. */
-struct mark {
+/* A format by its first bytes (magic number). */
+struct magic {
     const char *bytes, *what;
     size_t n;
 };
 
 #define CONVERT "convert it to OBJ, PLY, STL, GLB or OFF"
 
-/* What these are, and what to do. */
-static const struct mark refused[] = {
+/* Formats that are not supported, and the remedy. */
+static const struct magic refused[] = {
     {"PXR-USDC", "a USD file: usdcat and usdview read it, and Blender's File > Import > USD: " CONVERT, 8},
     {"#usda", "a USD file: usdcat and usdview read it, and Blender's File > Import > USD: " CONVERT, 5},
-    {"PK\3\4", "a zip archive (USDZ and 3MF are): " CONVERT, 4},
+    {"PK\3\4", "a zip archive (perhaps USDZ or 3MF): " CONVERT, 4},
     {"Ogawa", "an Alembic file: Blender's File > Import > Alembic reads it: " CONVERT, 5},
-    {"\x89HDF", "an HDF5 file (old Alembic is): " CONVERT, 4},
+    {"\x89HDF", "an HDF5 file (perhaps an old Alembic file): " CONVERT, 4},
     {"Kaydara FBX", "an FBX file: Blender's File > Import > FBX reads it: " CONVERT, 11},
     {"; FBX", "an FBX file: Blender's File > Import > FBX reads it: " CONVERT, 5},
-    {"BLENDER", "a file of Blender's: its File > Export writes OBJ, PLY, STL and GLB", 7},
-    {"<?xml", "an XML file (COLLADA and X3D are): " CONVERT, 5},
-    {" BDV\0\0\0\0", "an OpenVDB file: the shape volume reads it", 8},
-    {"\x76\x2f\x31\x01", "an image: the shape heightfield reads it", 4},
-    {"\x89PNG", "an image: the shape heightfield reads it", 4},
+    {"BLENDER", "a Blender file: Blender's File > Export writes OBJ, PLY, STL and GLB", 7},
+    {"<?xml", "an XML file (perhaps COLLADA or X3D): " CONVERT, 5},
+    {" BDV\0\0\0\0", "an OpenVDB file: use the shape 'volume' for it", 8},
+    {"\x76\x2f\x31\x01", "an image: use the shape 'heightfield' for it", 4},
+    {"\x89PNG", "an image: use the shape 'heightfield' for it", 4},
 };
 
 static bool ends_in(const char *path, const char *ending)
@@ -40,7 +40,7 @@ static bool ends_in(const char *path, const char *ending)
     return n >= k && strcasecmp(path + n - k, ending) == 0;
 }
 
-/* A binary STL's header may say anything, "solid" too; its size is what its count says. */
+/* A binary STL's header is arbitrary and may start with "solid", but the file's size follows from its count of triangles. */
 static bool is_stl(const char *path, const char *head, size_t n, uint64_t size)
 {
     uint32_t count = 0;
@@ -68,13 +68,13 @@ static enum mesh_format format_of(const char *path, const char *head, size_t n, 
     return strncmp(at, "OFF", 3) == 0 || ends_in(path, ".off") ? MESH_OFF : MESH_OBJ;
 }
 
-status mesh_kind(const char *path, enum mesh_format *format)
+status mesh_format_of(const char *path, enum mesh_format *format)
 {
     char head[1025] = "";
     *format = MESH_OBJ;
     FILE *f = fopen(path, "rb");
     if (!f)
-        return OK; /* whoever reads it says why */
+        return OK; /* file_read() will report why */
     const size_t n = fread(head, 1, sizeof head - 1, f);
     const bool sized = fseeko(f, 0, SEEK_END) == 0;
     const uint64_t size = sized ? (uint64_t)ftello(f) : 0;
@@ -86,8 +86,8 @@ status mesh_kind(const char *path, enum mesh_format *format)
     return OK;
 }
 
-/* Are corners usable numbers, and the triangles' theirs? */
-static bool makes_sense(const struct mesh *mesh)
+/* Are all coordinates finite and all indices in range? */
+static bool is_valid(const struct mesh *mesh)
 {
     for (size_t i = 0; i < mesh->n_vertices; i++)
         for (int a = 0; a < 3; a++)
@@ -100,8 +100,8 @@ static bool makes_sense(const struct mesh *mesh)
     return true;
 }
 
-status mesh_ask(const char *program, const char *kind, const char *path, const char *const *word,
-                struct mesh_part *part, struct mesh *mesh)
+status mesh_read_by(const char *program, const char *kind, const char *path, const char *const *word,
+                    struct mesh_part *part, struct mesh *mesh)
 {
     status st = OK;
     struct reader_answer answer = {0};
@@ -110,7 +110,7 @@ status mesh_ask(const char *program, const char *kind, const char *path, const c
         &answer));
     TRY(reader_take(&answer, part, sizeof *part));
     if (part->n_vertices > UINT32_MAX || part->n_triangles > UINT32_MAX / 2) {
-        st = fail(E_INPUT, "%s: a mesh of more than 2^31 triangles", path);
+        st = fail(E_INPUT, "%s: the mesh has more than 2^31 triangles or 2^32 vertices: reduce it", path);
         goto done;
     }
     TRY(reader_take_array(&answer, (size_t)part->n_vertices, sizeof *mesh->vertex, &mesh->vertex));
@@ -118,8 +118,11 @@ status mesh_ask(const char *program, const char *kind, const char *path, const c
     mesh->n_vertices = (size_t)part->n_vertices;
     mesh->n_triangles = (size_t)part->n_triangles;
     part->grid[sizeof part->grid - 1] = '\0';
-    if (!makes_sense(mesh))
-        st = fail(E_INPUT, "%s: a corner that is not a usable number, or a face without its corners", path);
+    if (!is_valid(mesh))
+        st = fail(
+            E_INPUT,
+            "%s: damaged mesh: a coordinate is not finite, or a face refers to a vertex that does not exist",
+            path);
 done:
     reader_end(&answer);
     return st;

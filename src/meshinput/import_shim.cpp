@@ -1,4 +1,4 @@
-/* Assimp's door. It is in hoodoo-read-mesh alone; ask through mesh_read(). */
+/* Decodes glTF with assimp. Linked into hoodoo-read-mesh only; other code calls mesh_read(). */
 #include "meshinput/serve.h"
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct collected {
     std::vector<uint32_t> triangle;
 };
 
-/* Faces of three corners; what is a point or a line is passed over. */
+/* Adds the mesh's faces as triangles. */
 void add_mesh(const aiMesh &mesh, const aiMatrix4x4 &place, collected *out)
 {
     const size_t first = out->vertex.size() / 3;
@@ -39,7 +39,7 @@ void add_mesh(const aiMesh &mesh, const aiMatrix4x4 &place, collected *out)
     }
 }
 
-/* Nodes place meshes, as often as they name them. */
+/* Adds the meshes that a node and its children refer to, transformed. */
 void add_node(const aiScene &scene, const aiNode &node, const aiMatrix4x4 &above, collected *out)
 {
     const aiMatrix4x4 place = above * node.mTransformation;
@@ -56,13 +56,13 @@ extern "C" status mesh_import(const char *path, const char *format, const void *
     try {
         Assimp::Importer importer;
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-        /* From memory it can open no other file. */
+        /* Read from memory, so that assimp opens no other file. */
         const aiScene *scene =
             importer.ReadFileFromMemory(bytes, n, aiProcess_Triangulate | aiProcess_SortByPType, format);
         if (!scene || !scene->mRootNode)
-            return fail(
-                E_INPUT, "%s: it cannot be read as %s: %.300s%s", path, format, importer.GetErrorString(),
-                *format == 'g' ? " (what a .gltf keeps in other files is not read: export it as .glb)" : "");
+            return fail(E_INPUT, "%s: not readable as %s: %.300s%s", path, format, importer.GetErrorString(),
+                        *format == 'g' ? " (buffers in other files are not supported: export it as .glb)"
+                                       : "");
         collected all;
         add_node(*scene, *scene->mRootNode, aiMatrix4x4(), &all);
         struct mesh_part part = {};
@@ -77,8 +77,8 @@ extern "C" status mesh_import(const char *path, const char *format, const void *
     } catch (const std::bad_alloc &) {
         return fail(E_MEMORY, "%s: out of memory", path);
     } catch (const std::exception &e) {
-        return fail(E_INPUT, "%s: it cannot be read as %s: %.300s", path, format, e.what());
+        return fail(E_INPUT, "%s: not readable as %s: %.300s", path, format, e.what());
     } catch (...) {
-        return fail(E_INPUT, "%s: it cannot be read as %s", path, format);
+        return fail(E_INPUT, "%s: not readable as %s", path, format);
     }
 }

@@ -14,7 +14,7 @@
 
 #define MESH_FILE_LIMIT ((size_t)8 << 30)
 
-status reader_fail(const struct reader *r, const char *format, ...)
+status cursor_fail(const struct cursor *r, const char *format, ...)
 {
     char text[512];
     va_list args;
@@ -24,7 +24,7 @@ status reader_fail(const struct reader *r, const char *format, ...)
     return fail(E_INPUT, "%s:%zu: %s", r->path, r->line, text);
 }
 
-bool reader_at_line_end(struct reader *r)
+bool cursor_at_line_end(struct cursor *r)
 {
     for (; r->at < r->end; r->at++) {
         if (*r->at == '\n')
@@ -42,15 +42,15 @@ bool reader_at_line_end(struct reader *r)
     return true;
 }
 
-void reader_next_line(struct reader *r)
+void cursor_next_line(struct cursor *r)
 {
     const char *newline = memchr(r->at, '\n', (size_t)(r->end - r->at));
     r->at = newline ? newline + 1 : r->end;
     r->line += newline != NULL;
 }
 
-/* What stands here, short enough for a message. */
-static const char *here(const struct reader *r, char out[24])
+/* The token at the cursor, shortened for a message. */
+static const char *token(const struct cursor *r, char out[24])
 {
     size_t n = 0;
     while (n < 20 && r->at + n < r->end && r->at[n] > ' ')
@@ -60,30 +60,30 @@ static const char *here(const struct reader *r, char out[24])
     return n ? out : "nothing";
 }
 
-status reader_number(struct reader *r, double *out)
+status cursor_number(struct cursor *r, double *out)
 {
     char text[24], *stop;
-    if (reader_at_line_end(r))
-        return reader_fail(r, "the line ends where a number should stand");
+    if (cursor_at_line_end(r))
+        return cursor_fail(r, "a number is missing at the end of the line");
     double value = strtod(r->at, &stop); /* the bytes end in a NUL */
     if (stop == r->at)
-        return reader_fail(r, "'%s' where a number should stand", here(r, text));
+        return cursor_fail(r, "expected a number, found '%s'", token(r, text));
     if (!(fabs(value) <= 1e30))
-        return reader_fail(r, "'%s' is not a usable number", here(r, text));
+        return cursor_fail(r, "'%s' is not finite or larger than 1e30", token(r, text));
     r->at = stop;
     *out = value;
     return OK;
 }
 
-status reader_integer(struct reader *r, int64_t *out)
+status cursor_integer(struct cursor *r, int64_t *out)
 {
     char text[24], *stop;
-    if (reader_at_line_end(r))
-        return reader_fail(r, "the line ends where a whole number should stand");
+    if (cursor_at_line_end(r))
+        return cursor_fail(r, "an integer is missing at the end of the line");
     errno = 0;
     long long value = strtoll(r->at, &stop, 10);
     if (stop == r->at || errno != 0)
-        return reader_fail(r, "'%s' where a whole number should stand", here(r, text));
+        return cursor_fail(r, "expected an integer, found '%s'", token(r, text));
     r->at = stop;
     *out = value;
     return OK;
@@ -93,7 +93,7 @@ status mesh_add_vertex(struct mesh *mesh, const double x[3])
 {
     status st = OK;
     if (mesh->n_vertices >= UINT32_MAX)
-        return fail(E_INPUT, "more than %u vertices in a mesh", UINT32_MAX);
+        return fail(E_INPUT, "the mesh has more than %u vertices", UINT32_MAX);
     TRY(memory_grow(&mesh->vertex, &mesh->vertex_capacity, mesh->n_vertices + 1, sizeof *mesh->vertex,
                     "a mesh"));
     memcpy(mesh->vertex[mesh->n_vertices++], x, sizeof *mesh->vertex);
@@ -114,7 +114,7 @@ done:
 
 status mesh_read(const char *path, struct mesh *mesh)
 {
-    static status (*const read[])(struct reader *, struct mesh *) = {
+    static status (*const read[])(struct cursor *, struct mesh *) = {
         [MESH_OBJ] = obj_read, [MESH_PLY] = ply_read, [MESH_STL] = stl_read, [MESH_OFF] = off_read};
     status st = OK;
     char *bytes = NULL;
@@ -122,18 +122,20 @@ status mesh_read(const char *path, struct mesh *mesh)
     enum mesh_format format;
     struct mesh_part part;
     *mesh = (struct mesh){0};
-    TRY(mesh_kind(path, &format));
+    TRY(mesh_format_of(path, &format));
     if (format == MESH_GLTF || format == MESH_GLB) {
         const char *const word[] = {format == MESH_GLB ? "glb" : "gltf", NULL};
-        TRY(mesh_ask("hoodoo-read-mesh", "mesh", path, word, &part, mesh));
+        TRY(mesh_read_by("hoodoo-read-mesh", "mesh", path, word, &part, mesh));
         mesh->y_up = true;
     } else {
         TRY(file_read(path, MESH_FILE_LIMIT, &bytes, &size));
-        struct reader r = {.path = path, .begin = bytes, .at = bytes, .end = bytes + size, .line = 1};
+        struct cursor r = {.path = path, .begin = bytes, .at = bytes, .end = bytes + size, .line = 1};
         TRY(read[format](&r, mesh));
     }
     if (mesh->n_triangles == 0)
-        st = fail(E_INPUT, "%s: no faces: no OBJ, PLY, STL, glTF, GLB or OFF mesh, or an empty one", path);
+        st = fail(E_INPUT,
+                  "%s: it has no faces: it is not an OBJ, PLY, STL, glTF, GLB or OFF mesh, or an empty one",
+                  path);
 done:
     free(bytes);
     if (st != OK)

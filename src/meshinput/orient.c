@@ -1,4 +1,4 @@
-/* Which way faces are turned: neighbours alike, then parts outwards. */
+/* The orientation of faces: consistent with their neighbours, then outwards. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "meshinput/edges.h"
 #include "meshinput/winding.h"
 
-static void turn_over(uint32_t triangle[3])
+static void flip(uint32_t triangle[3])
 {
     const uint32_t b = triangle[1];
     triangle[1] = triangle[2];
@@ -43,19 +43,19 @@ double mesh_volume(const struct mesh *mesh)
     return volume;
 }
 
-/* ---- neighbours alike */
+/* ---- consistent with neighbours */
 
-enum { UNSEEN, AS_IT_IS, OVER };
+enum { UNSEEN, KEPT, FLIPPED };
 
 struct patches {
     const struct mesh *mesh;
     const struct mesh_edges *edges;
-    unsigned char *way; /* by triangle */
+    unsigned char *state; /* [n_triangles]: UNSEEN, KEPT or FLIPPED */
     uint32_t *queue;
     size_t n_queue;
 };
 
-/* The first side of an edge of the triangle, and its lower corner. */
+/* The first half-edge of edge k of triangle t, and the edge's lower vertex. */
 static size_t side_of(const struct patches *p, size_t t, int k, size_t *v)
 {
     const uint32_t a = p->mesh->triangle[t][k], b = p->mesh->triangle[t][(k + 1) % 3];
@@ -72,92 +72,93 @@ static size_t side_of(const struct patches *p, size_t t, int k, size_t *v)
     return lo;
 }
 
-/* Joins the neighbours of a triangle to its patch, turned as it is. Edges of more than two triangles part patches. */
+/* Adds the neighbours of a triangle to its patch, oriented like it. Edges of more than two triangles separate patches. */
 static void visit(struct patches *p, size_t t)
 {
     for (int k = 0; k < 3; k++) {
         size_t v;
-        int turns;
+        int directions;
         const size_t first = side_of(p, t, k, &v);
-        if (mesh_edge_end(p->edges, v, first, &turns) != first + 2)
+        if (mesh_edge_end(p->edges, v, first, &directions) != first + 2)
             continue;
         const struct mesh_side *s = p->edges->side + first;
         const size_t other = s[0].triangle == t ? s[1].triangle : s[0].triangle;
-        if (p->way[other] != UNSEEN)
+        if (p->state[other] != UNSEEN)
             continue;
-        const bool alike = s[0].turn != s[1].turn;
-        p->way[other] = alike ? p->way[t] : p->way[t] == OVER ? AS_IT_IS : OVER;
+        const bool alike = s[0].direction != s[1].direction;
+        p->state[other] = alike ? p->state[t] : p->state[t] == FLIPPED ? KEPT : FLIPPED;
         p->queue[p->n_queue++] = (uint32_t)other;
     }
 }
 
-static void turn_patch(struct mesh *mesh, const struct patches *p, size_t *turned)
+static void flip_patch(struct mesh *mesh, const struct patches *p, size_t *flipped)
 {
     double area[3] = {0};
     for (size_t i = 0; i < p->n_queue; i++)
-        area[p->way[p->queue[i]]] += mesh_triangle_area(mesh, p->queue[i]);
-    const int less = area[OVER] <= area[AS_IT_IS] ? OVER : AS_IT_IS;
+        area[p->state[p->queue[i]]] += mesh_triangle_area(mesh, p->queue[i]);
+    const int minority = area[FLIPPED] <= area[KEPT] ? FLIPPED : KEPT;
     for (size_t i = 0; i < p->n_queue; i++)
-        if (p->way[p->queue[i]] == less) {
-            turn_over(mesh->triangle[p->queue[i]]);
-            ++*turned;
+        if (p->state[p->queue[i]] == minority) {
+            flip(mesh->triangle[p->queue[i]]);
+            ++*flipped;
         }
 }
 
-static bool are_alike(const struct mesh_edges *edges)
+static bool is_consistent(const struct mesh_edges *edges)
 {
-    int turns;
+    int directions;
     for (size_t v = 0; v < edges->n_vertices; v++)
         for (size_t i = edges->begin[v], end; i < edges->begin[v + 1]; i = end) {
-            end = mesh_edge_end(edges, v, i, &turns);
-            if (end == i + 2 && turns != 0)
+            end = mesh_edge_end(edges, v, i, &directions);
+            if (end == i + 2 && directions != 0)
                 return false;
         }
     return true;
 }
 
-status mesh_turn_alike(struct mesh *mesh, size_t *turned)
+status mesh_orient_consistently(struct mesh *mesh, size_t *flipped)
 {
     status st = OK;
     struct mesh_edges edges = {0};
     struct patches p = {.mesh = mesh, .edges = &edges};
-    *turned = 0;
+    *flipped = 0;
     TRY(mesh_edges_create(mesh, &edges));
-    if (are_alike(&edges))
+    if (is_consistent(&edges))
         goto done;
-    TRY(memory_alloc(mesh->n_triangles, sizeof *p.way, "a mesh's faces", &p.way));
+    TRY(memory_alloc(mesh->n_triangles, sizeof *p.state, "a mesh's faces", &p.state));
     TRY(memory_alloc(mesh->n_triangles, sizeof *p.queue, "a mesh's faces", &p.queue));
     for (size_t t = 0; t < mesh->n_triangles; t++) {
-        if (p.way[t] != UNSEEN)
+        if (p.state[t] != UNSEEN)
             continue;
         p.n_queue = 0;
-        p.way[t] = AS_IT_IS;
+        p.state[t] = KEPT;
         p.queue[p.n_queue++] = (uint32_t)t;
         for (size_t i = 0; i < p.n_queue; i++)
             visit(&p, p.queue[i]);
-        turn_patch(mesh, &p, turned);
+        flip_patch(mesh, &p, flipped);
     }
 done:
     mesh_edges_free(&edges);
-    free(p.way);
+    free(p.state);
     free(p.queue);
     return st;
 }
 
-/* ---- parts outwards */
+/* ---- outwards */
 
-enum { ASKED = 16, MOST_ASKED = 100000 };
+/* Triangles of a part whose winding number is computed; of all parts together, before it is one a part. */
+enum { SAMPLES = 16, MAX_SAMPLES = 100000 };
 
 struct part {
     double volume, area;
     size_t n; /* triangles */
-    bool open, over;
+    bool open, flipped;
 };
 
 struct parts {
     size_t n;
     struct part *part;
-    uint32_t *of; /* by vertex: its part */
+    uint32_t *of; /* [n_vertices]: the vertex's part */
 };
 
 static uint32_t root_of(uint32_t *parent, uint32_t i)
@@ -167,7 +168,7 @@ static uint32_t root_of(uint32_t *parent, uint32_t i)
     return i;
 }
 
-/* What corners join is a part. */
+/* Parts are the connected components of vertices (union-find). */
 static status find_parts(const struct mesh *mesh, struct parts *out)
 {
     status st = OK;
@@ -181,7 +182,7 @@ static status find_parts(const struct mesh *mesh, struct parts *out)
         for (int k = 1; k < 3; k++) {
             const uint32_t a = root_of(out->of, mesh->triangle[t][0]),
                            b = root_of(out->of, mesh->triangle[t][k]);
-            out->of[a > b ? a : b] = a > b ? b : a; /* roots are the lowest of their parts */
+            out->of[a > b ? a : b] = a > b ? b : a; /* the root is the part's lowest vertex */
         }
     for (size_t v = 0; v < mesh->n_vertices; v++)
         out->of[v] = root_of(out->of, (uint32_t)v);
@@ -196,7 +197,7 @@ done:
     return st;
 }
 
-/* Volumes are about the mesh's middle: what parts with holes hold is about what they would without, seen from there. */
+/* Volumes are integrated about the mesh's centroid, from where the missing volume of a hole is small. */
 static void measure(const struct mesh *mesh, const struct mesh_open *open, struct parts *p)
 {
     double middle[3] = {0};
@@ -216,14 +217,15 @@ static void measure(const struct mesh *mesh, const struct mesh_open *open, struc
         p->part[p->of[open->edge[i][0]]].open = true;
 }
 
-/* Does it hold less than nothing, and not by rounding? Of parts with holes nobody knows. */
+/* Is the part's volume negative, by more than rounding? The volume of an open part does not tell. */
 static bool is_negative(const struct part *p)
 {
     return !p->open && p->volume < -1e-9 * p->area * sqrt(p->area);
 }
 
-/* The winding number of all other parts at a triangle of a part that is inside out, whose own is 0 on one side and -1 on the other. */
-static double others_at(const struct mesh *mesh, const struct winding *w, size_t t)
+/* The winding number of all other parts at triangle t of a part that is inside out. The part's own winding number is 0 on one side of t
+ * and -1 on the other, -0.5 on average. */
+static double winding_of_others(const struct mesh *mesh, const struct winding *w, size_t t)
 {
     double n[3], x[2][3], sum = 0;
     mesh_triangle_normal(mesh, t, n);
@@ -234,26 +236,26 @@ static double others_at(const struct mesh *mesh, const struct winding *w, size_t
             for (int k = 0; k < 3; k++)
                 x[side][a] += mesh->vertex[mesh->triangle[t][k]][a] / 3;
         }
-        sum += (double)winding_at(w, x[side]) / 2;
+        sum += (double)winding_number(w, x[side]) / 2;
     }
     return sum + 0.5;
 }
 
-/* Some of a part's triangles, evenly spread, all lie in other parts: it is a cavity. */
-static status find_cavities(const struct mesh *mesh, struct parts *p, size_t n_negative)
+/* A part of negative volume is a cavity if some of its triangles, evenly spread, are all inside other parts; otherwise it is flipped. */
+static status flip_unless_cavity(const struct mesh *mesh, struct parts *p, size_t n_negative)
 {
     status st = OK;
     struct winding *w = NULL;
     size_t *seen = NULL;
-    const size_t asked = n_negative * ASKED <= MOST_ASKED ? ASKED : 1;
+    const size_t samples = n_negative * SAMPLES <= MAX_SAMPLES ? SAMPLES : 1;
     TRY(memory_alloc(p->n, sizeof *seen, "a mesh's parts", &seen));
     TRY(winding_create((const double(*)[3])mesh->vertex, mesh->n_vertices,
                        (const uint32_t(*)[3])mesh->triangle, mesh->n_triangles, 2, &w));
     for (size_t t = 0; t < mesh->n_triangles; t++) {
         struct part *part = &p->part[p->of[mesh->triangle[t][0]]];
-        const size_t i = seen[part - p->part]++, step = (part->n + asked - 1) / asked;
-        if (is_negative(part) && !part->over && i % step == 0)
-            part->over = others_at(mesh, w, t) < 0.5;
+        const size_t i = seen[part - p->part]++, step = (part->n + samples - 1) / samples;
+        if (is_negative(part) && !part->flipped && i % step == 0)
+            part->flipped = winding_of_others(mesh, w, t) < 0.5;
     }
 done:
     free(seen);
@@ -261,30 +263,30 @@ done:
     return st;
 }
 
-status mesh_turn_outwards(struct mesh *mesh, const struct mesh_open *open, size_t *turned)
+status mesh_orient_outwards(struct mesh *mesh, const struct mesh_open *open, size_t *flipped)
 {
     status st = OK;
     struct parts p = {0};
-    double whole = 0;
+    double volume = 0;
     size_t n_negative = 0;
-    *turned = 0;
+    *flipped = 0;
     TRY(find_parts(mesh, &p));
     measure(mesh, open, &p);
     for (size_t i = 0; i < p.n; i++)
-        whole += p.part[i].volume;
-    for (size_t t = 0; whole < 0 && t < mesh->n_triangles; t++)
-        turn_over(mesh->triangle[t]);
+        volume += p.part[i].volume;
+    for (size_t t = 0; volume < 0 && t < mesh->n_triangles; t++)
+        flip(mesh->triangle[t]);
     for (size_t i = 0; i < p.n; i++) {
-        p.part[i].volume *= whole < 0 ? -1 : 1;
+        p.part[i].volume *= volume < 0 ? -1 : 1;
         n_negative += is_negative(&p.part[i]) ? 1 : 0;
     }
     if (n_negative > 0)
-        TRY(find_cavities(mesh, &p, n_negative));
+        TRY(flip_unless_cavity(mesh, &p, n_negative));
     for (size_t t = 0; t < mesh->n_triangles; t++)
-        if (p.part[p.of[mesh->triangle[t][0]]].over)
-            turn_over(mesh->triangle[t]);
+        if (p.part[p.of[mesh->triangle[t][0]]].flipped)
+            flip(mesh->triangle[t]);
     for (size_t i = 0; i < p.n; i++)
-        *turned += p.part[i].over != (whole < 0);
+        *flipped += p.part[i].flipped != (volume < 0);
 done:
     free(p.part);
     free(p.of);

@@ -1,5 +1,4 @@
-/* PLY (Turk 1994): a text header that declares elements and their properties, then their values as text or
- * binary. */
+/* PLY (Turk 1994): a text header declares elements and their properties; their values follow, as text or binary. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +26,7 @@ struct element {
 };
 
 struct ply {
-    struct reader *r;
+    struct cursor *r;
     struct mesh *mesh;
     enum ply_encoding encoding;
     size_t n_elements, n_vertices;
@@ -68,15 +67,15 @@ static status read_element(struct ply *ply, const char *line)
     int used = 0;
     if (sscanf(line, "element %63s %19llu%n", name, &n, &used) != 2 || line[used] != '\0' ||
         strchr(line, '-'))
-        return reader_fail(ply->r, "an element should read: element NAME COUNT");
+        return cursor_fail(ply->r, "malformed element: expected 'element NAME COUNT'");
     if (ply->n_elements == MAX_ELEMENTS)
-        return reader_fail(ply->r, "more than %d elements", MAX_ELEMENTS);
+        return cursor_fail(ply->r, "the header has more than %d elements", MAX_ELEMENTS);
     struct element *e = &ply->element[ply->n_elements++];
     e->n = (size_t)n;
     e->is_vertex = strcmp(name, "vertex") == 0;
     e->is_face = strcmp(name, "face") == 0;
     if (e->is_vertex && ply->n_vertices > 0)
-        return reader_fail(ply->r, "a second element vertex");
+        return cursor_fail(ply->r, "the header declares the element vertex twice");
     if (e->is_vertex)
         ply->n_vertices = e->n;
     return OK;
@@ -87,46 +86,46 @@ static status read_property(struct ply *ply, const char *line)
     char type[64], count[64], name[64];
     struct property p = {PLY_NONE, PLY_NONE, PLY_IGNORED};
     if (ply->n_elements == 0)
-        return reader_fail(ply->r, "a property before any element");
+        return cursor_fail(ply->r, "a property is declared before any element");
     struct element *e = &ply->element[ply->n_elements - 1];
     if (e->n_properties == MAX_PROPERTIES)
-        return reader_fail(ply->r, "more than %d properties", MAX_PROPERTIES);
+        return cursor_fail(ply->r, "an element has more than %d properties", MAX_PROPERTIES);
     if (sscanf(line, "property list %63s %63s %63s", count, type, name) == 3) {
         p.count = type_named(count);
         if (p.count == PLY_NONE || p.count >= PLY_F32)
-            return reader_fail(ply->r, "a list's count cannot be of type '%s'", count);
+            return cursor_fail(ply->r, "a list's count must have an integer type, not '%s'", count);
     } else if (sscanf(line, "property %63s %63s", type, name) != 2) {
-        return reader_fail(ply->r,
-                           "a property should read: property TYPE NAME, or property list TYPE TYPE NAME");
+        return cursor_fail(
+            ply->r, "malformed property: expected 'property TYPE NAME' or 'property list TYPE TYPE NAME'");
     }
     p.type = type_named(type);
     if (p.type == PLY_NONE)
-        return reader_fail(ply->r, "no such type as '%s'", type);
+        return cursor_fail(ply->r, "unknown type '%s'", type);
     p.role = role_of(e, &p, name);
     for (size_t i = 0; p.role != PLY_IGNORED && i < e->n_properties; i++)
         if (e->property[i].role == p.role)
-            return reader_fail(ply->r, "a second property '%s'", name);
+            return cursor_fail(ply->r, "the property '%s' is declared twice", name);
     e->property[e->n_properties++] = p;
     return OK;
 }
 
 static status read_header(struct ply *ply)
 {
-    struct reader *r = ply->r;
+    struct cursor *r = ply->r;
     status st = OK;
     bool format = false;
     for (;;) {
         char line[256];
-        reader_next_line(r);
+        cursor_next_line(r);
         const char *newline = memchr(r->at, '\n', (size_t)(r->end - r->at));
         if (!newline)
-            return reader_fail(r, "the file ends inside the header");
+            return cursor_fail(r, "the file ends inside the header");
         size_t n = (size_t)(newline - r->at);
         bool comment = n >= 7 && (memcmp(r->at, "comment", 7) == 0 || memcmp(r->at, "obj_inf", 7) == 0);
         if (comment)
             continue;
         if (n >= sizeof line)
-            return reader_fail(r, "a header line of %zu bytes", n);
+            return cursor_fail(r, "a header line is too long: %zu bytes", n);
         memcpy(line, r->at, n);
         while (n > 0 && (line[n - 1] == '\r' || line[n - 1] == ' '))
             n--;
@@ -146,23 +145,24 @@ static status read_header(struct ply *ply)
             else if (strcmp(line, "format binary_big_endian 1.0") == 0)
                 ply->encoding = PLY_BIG;
             else
-                return reader_fail(r, "'%s' is not one of ascii, binary_little_endian, binary_big_endian 1.0",
-                                   line);
+                return cursor_fail(
+                    r, "unknown format '%s': expected ascii, binary_little_endian or binary_big_endian 1.0",
+                    line);
         } else if (n > 0) {
-            return reader_fail(r, "'%s' is no header line of a PLY file", line);
+            return cursor_fail(r, "'%s' is not a header line of a PLY file", line);
         }
     }
-    reader_next_line(r);
+    cursor_next_line(r);
     if (!format)
-        st = reader_fail(r, "the header names no format");
+        st = cursor_fail(r, "the header has no format line");
 done:
     return st;
 }
 
-/* Can the rest of the file hold what the header claims? Asked before anything is allocated. */
+/* Can the rest of the file hold what the header declares? Checked before anything is allocated. */
 static status check_sizes(const struct ply *ply)
 {
-    const struct reader *r = ply->r;
+    const struct cursor *r = ply->r;
     size_t left = (size_t)(r->end - r->at);
     for (size_t i = 0; i < ply->n_elements; i++) {
         const struct element *e = &ply->element[i];
@@ -172,33 +172,34 @@ static status check_sizes(const struct ply *ply)
             smallest += ply->encoding == PLY_ASCII ? 2 : type_size[p->count ? p->count : p->type];
             roles |= (size_t)1 << p->role;
         }
-        /* In text the very last value may lack its newline. */
+        /* The last value of a text file may lack its newline. */
         if (smallest > 0 && e->n > (left + 1) / smallest)
-            return reader_fail(r, "the header claims %zu items of at least %zu bytes, but %zu bytes are left",
-                               e->n, smallest, left);
+            return cursor_fail(
+                r, "the header declares %zu items of at least %zu bytes, but only %zu bytes follow", e->n,
+                smallest, left);
         left -= smallest * e->n < left ? smallest * e->n : left;
         if (e->is_vertex && (roles & 7) != 7)
-            return reader_fail(r, "vertices without x, y and z");
+            return cursor_fail(r, "the element vertex lacks x, y or z");
         if (e->is_face && !(roles >> PLY_CORNERS & 1))
-            return reader_fail(r, "faces without vertex_indices");
+            return cursor_fail(r, "the element face lacks vertex_indices");
     }
     return OK;
 }
 
 /* ---- values */
 
-static status binary_fail(const struct reader *r, const char *what)
+static status binary_fail(const struct cursor *r, const char *what)
 {
     return fail(E_INPUT, "%s: byte %zu: %s", r->path, (size_t)(r->at - r->begin), what);
 }
 
 static status read_binary(struct ply *ply, enum ply_type type, double *out)
 {
-    struct reader *r = ply->r;
+    struct cursor *r = ply->r;
     size_t n = type_size[type];
     uint64_t bits = 0;
     if ((size_t)(r->end - r->at) < n)
-        return binary_fail(r, "the file is cut off");
+        return binary_fail(r, "the file is truncated");
     for (size_t i = 0; i < n; i++)
         bits |= (uint64_t)(unsigned char)r->at[ply->encoding == PLY_BIG ? n - 1 - i : i] << (8 * i);
     r->at += n;
@@ -231,14 +232,14 @@ static status read_value(struct ply *ply, enum ply_type type, double *out)
 {
     if (ply->encoding != PLY_ASCII)
         return read_binary(ply, type, out);
-    while (ply->r->at < ply->r->end && reader_at_line_end(ply->r))
-        reader_next_line(ply->r);
-    return reader_number(ply->r, out);
+    while (ply->r->at < ply->r->end && cursor_at_line_end(ply->r))
+        cursor_next_line(ply->r);
+    return cursor_number(ply->r, out);
 }
 
 static status value_fail(const struct ply *ply, const char *what)
 {
-    return ply->encoding == PLY_ASCII ? reader_fail(ply->r, "%s", what) : binary_fail(ply->r, what);
+    return ply->encoding == PLY_ASCII ? cursor_fail(ply->r, "%s", what) : binary_fail(ply->r, what);
 }
 
 static status read_list(struct ply *ply, const struct property *p)
@@ -248,17 +249,17 @@ static status read_list(struct ply *ply, const struct property *p)
     uint32_t first = 0, last = 0;
     TRY(read_value(ply, p->count, &n));
     if (!(n >= 0) || n != floor(n))
-        return value_fail(ply, "a list's count is not a whole number");
+        return value_fail(ply, "a list's count is negative or not an integer");
     if (p->role == PLY_CORNERS && n < 3)
-        return value_fail(ply, "a face of fewer than 3 corners");
+        return value_fail(ply, "a face has fewer than 3 corners");
     if (n > (double)(ply->r->end - ply->r->at))
-        return value_fail(ply, "a list longer than the rest of the file");
+        return value_fail(ply, "a list is longer than the rest of the file");
     for (size_t i = 0; i < (size_t)n; i++) {
         TRY(read_value(ply, p->type, &value));
         if (p->role != PLY_CORNERS)
             continue;
         if (!(value >= 0 && value < (double)ply->n_vertices) || value != floor(value))
-            return value_fail(ply, "a face uses a vertex that is not there");
+            return value_fail(ply, "a face refers to a vertex that does not exist");
         uint32_t corner = (uint32_t)value;
         if (i == 0)
             first = corner;
@@ -284,7 +285,7 @@ static status read_item(struct ply *ply, const struct element *e)
         if (p->role > PLY_Z)
             continue;
         if (!(fabs(value) <= 1e30))
-            return value_fail(ply, "a vertex that is not a usable number");
+            return value_fail(ply, "a coordinate is not finite or larger than 1e30");
         x[p->role] = value;
     }
     if (e->is_vertex)
@@ -293,14 +294,14 @@ done:
     return st;
 }
 
-status ply_read(struct reader *r, struct mesh *mesh)
+status ply_read(struct cursor *r, struct mesh *mesh)
 {
     status st = OK;
     struct ply ply = {.r = r, .mesh = mesh};
     TRY(read_header(&ply));
     TRY(check_sizes(&ply));
     if (ply.n_vertices > UINT32_MAX)
-        return reader_fail(r, "%zu vertices: more than an index can name", ply.n_vertices);
+        return cursor_fail(r, "the header declares %zu vertices, more than 2^32 - 1", ply.n_vertices);
     for (size_t i = 0; i < ply.n_elements; i++)
         for (size_t k = 0; k < ply.element[i].n && ply.element[i].n_properties > 0; k++)
             TRY(read_item(&ply, &ply.element[i]));

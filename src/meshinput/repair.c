@@ -7,28 +7,28 @@
 #include "base/log.h"
 #include "base/memory.h"
 
-struct tidy {
+struct repair {
     const char *path;
     struct mesh *mesh;
     struct mesh_open *open;
 };
 
-static status find_open(struct tidy *w)
+static status find_open(struct repair *w)
 {
     status st = OK;
-    size_t turned = 0;
+    size_t flipped = 0;
     free(w->open->edge);
     *w->open = (struct mesh_open){0};
-    TRY(mesh_turn_alike(w->mesh, &turned));
+    TRY(mesh_orient_consistently(w->mesh, &flipped));
     TRY(mesh_find_open(w->mesh, w->open));
-    if (turned > 0)
-        log_info("%s: %zu of %zu triangles were turned the other way than their neighbours: turned over",
-                 w->path, turned, w->mesh->n_triangles);
+    if (flipped > 0)
+        log_info("%s: %zu of %zu triangles were oriented against their neighbours: flipped", w->path, flipped,
+                 w->mesh->n_triangles);
 done:
     return st;
 }
 
-/* Does it hold nothing, but for rounding? */
+/* Is its volume 0 except for rounding? */
 static bool is_flat(const struct mesh *mesh)
 {
     double area = 0;
@@ -37,9 +37,9 @@ static bool is_flat(const struct mesh *mesh)
     return fabs(mesh_volume(mesh)) <= 1e-9 * area * sqrt(area);
 }
 
-/* Faces that are there again, once for either side, cancel each other: one of them goes where that closes the surface, or where
- * nothing would be left of it. */
-static status drop_twins(struct tidy *w)
+/* Two copies of a face, one for either side, cancel each other. Duplicates are dropped if that leaves fewer open edges, or if the
+ * mesh has no volume with them. */
+static status drop_duplicates(struct repair *w)
 {
     status st = OK;
     const bool flat = is_flat(w->mesh);
@@ -50,13 +50,12 @@ static status drop_twins(struct tidy *w)
         return OK;
     TRY(memory_alloc(n_triangles, sizeof *before, "a mesh", &before));
     memcpy(before, w->mesh->triangle, n_triangles * sizeof *before);
-    TRY(mesh_drop_twins(w->mesh, &dropped));
+    TRY(mesh_drop_duplicates(w->mesh, &dropped));
     if (dropped == 0)
         goto done;
     TRY(find_open(w));
     if (flat || w->open->n < n_open) {
-        log_info("%s: %zu of %zu triangles were there more than once: dropped", w->path, dropped,
-                 n_triangles);
+        log_info("%s: %zu of %zu triangles were duplicates: dropped", w->path, dropped, n_triangles);
         goto done;
     }
     memcpy(w->mesh->triangle, before, n_triangles * sizeof *before);
@@ -67,12 +66,12 @@ done:
     return st;
 }
 
-status mesh_tidy(struct mesh *mesh, const char *path, double tolerance, struct mesh_open *open)
+status mesh_repair(struct mesh *mesh, const char *path, double tolerance, struct mesh_open *open)
 {
     status st = OK;
-    size_t turned = 0;
+    size_t flipped = 0;
     struct mesh_welded welded = {0};
-    struct tidy whole = {path, mesh, open}, *w = &whole;
+    struct repair repair = {path, mesh, open}, *w = &repair;
     *open = (struct mesh_open){0};
     TRY(mesh_weld(mesh));
     TRY(find_open(w));
@@ -80,25 +79,25 @@ status mesh_tidy(struct mesh *mesh, const char *path, double tolerance, struct m
         TRY(mesh_weld_open(mesh, open, tolerance, &welded));
     if (welded.n > 0) {
         log_info(
-            "%s: the surface is open along %zu edges, of which %zu corners are joined to others at most %.2g m away (up to %.2g m are)",
+            "%s: the surface was open along %zu edges: %zu of their vertices are joined to others, at most %.2g m away (the tolerance is %.2g m)",
             path, open->n, welded.n, welded.farthest, tolerance);
         TRY(find_open(w));
     }
-    TRY(drop_twins(w));
+    TRY(drop_duplicates(w));
     if (mesh->n_triangles == 0) {
-        st = fail(E_INPUT, "%s: every face is a point or a line", path);
+        st = fail(E_INPUT, "%s: all faces are degenerate (points or lines)", path);
         goto done;
     }
-    TRY(mesh_turn_outwards(mesh, open, &turned));
+    TRY(mesh_orient_outwards(mesh, open, &flipped));
     if (open->n == 0 && is_flat(mesh)) {
         st = fail(
             E_INPUT,
-            "%s: its faces cancel each other: there is one for either side of each: remove the doubles (in Blender: Mesh > Clean Up > Merge by Distance, or export without both sides)",
+            "%s: its faces cancel each other and enclose no volume, for each occurs once for either side: remove the duplicates (in Blender: Mesh > Clean Up > Merge by Distance, or export without both sides)",
             path);
         goto done;
     }
-    if (turned > 0)
-        log_info("%s: %zu of its parts were inside out: turned over", path, turned);
+    if (flipped > 0)
+        log_info("%s: %zu of its parts were inside out: flipped", path, flipped);
 done:
     return st;
 }

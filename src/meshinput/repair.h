@@ -1,12 +1,12 @@
-/* A mesh as files have it, made fit to tell inside from outside. */
+/* Repairs a mesh as files have it so that inside and outside can be told apart. */
 #ifndef HOODOO_MESHINPUT_REPAIR_H
 #define HOODOO_MESHINPUT_REPAIR_H
 
 #include "meshinput/edges.h"
 
-/* Joins corners at the same place, and of open edges those within `tolerance`, m; drops faces that are there twice, once for
- * either side; turns faces as their neighbours are, and closed parts outwards. Says in the log what it did. *open: where the
- * surface ends after that, freed by the caller, on failure too. E_INPUT: nothing is left. */
-MUST_USE status mesh_tidy(struct mesh *mesh, const char *path, double tolerance, struct mesh_open *open);
+/* Joins vertices at the same position, and those of open edges within `tolerance`, m; drops duplicate faces; orients faces like their
+ * neighbours and closed parts outwards. Logs what it changed; `path` is for messages. *open: the edges that are open after that; the
+ * caller frees open->edge, also on error. E_INPUT: no face with an area, or no volume, is left. E_MEMORY. */
+MUST_USE status mesh_repair(struct mesh *mesh, const char *path, double tolerance, struct mesh_open *open);
 
 #endif

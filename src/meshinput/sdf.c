@@ -5,12 +5,12 @@
 #include "base/library.h"
 #include "meshinput/sdf_make.h"
 
-/* Set before there is any distance field. */
+/* Functions of hoodoo-vdb.so, set before the first distance field exists. */
 static _Atomic(sdf_at_function *) at;
 static _Atomic(sdf_destroy_function *) destroy;
 static _Atomic(sdf_gap_function *) gap;
 
-status vdb_sdf_create(const struct sdf_question *question, struct vdb_sdf **out)
+status vdb_sdf_create(const struct sdf_request *question, struct vdb_sdf **out)
 {
     status st = OK;
     sdf_make_function *make = NULL;

@@ -1,10 +1,10 @@
 /* A triangle mesh as a solid: its signed distance on a sparse grid (OpenVDB).
  *
- * Size   from the triangles.
- * Sign   from their winding number: inside is where it is at least a half, of either sign. So parts may overlap or cut each
- *        other, faces may lie within, and what winds the other way around a cavity leaves it empty.
- * Gaps   Across a hole the sign changes where there is no triangle. How far from the nearest triangle it does tells how
- *        wide the hole is.
+ * Distance   to the nearest triangle.
+ * Sign       from the winding number: a point is inside if its absolute value is at least 1/2. So parts may overlap or intersect, there
+ *            may be faces inside the solid, and a part with the opposite orientation inside of another one is a cavity.
+ * Gaps       Across a hole the sign changes where there is no triangle. The distance to the nearest triangle there is half of the gap's
+ *            width.
  */
 #ifndef HOODOO_MESHINPUT_SDF_H
 #define HOODOO_MESHINPUT_SDF_H
@@ -19,41 +19,40 @@
 extern "C" {
 #endif
 
-/* The winding numbers of n points. */
+/* Computes the winding numbers of n points: winding_numbers(). */
 typedef void sdf_winding_function(const void *context, const double (*x)[3], size_t n, float *number);
 
-struct sdf_question {
+struct sdf_request {
     const double (*vertex)[3];
     size_t n_vertices;
     const uint32_t (*triangle)[3];
     size_t n_triangles;
-    double voxel, band; /* m; distances reach `band` to either side of the surface */
+    double voxel, band; /* m; distances are stored up to `band` from the surface */
     sdf_winding_function *winding;
     const void *context;
-    /* Edges at which the surface ends, and how far from them its sign may change where there is no triangle, m. */
-    const uint32_t (*open)[2];
+    const uint32_t (*open)[2]; /* open edges */
     size_t n_open;
-    double hole;
+    double hole; /* m: how far from an open edge the sign may change where there is no triangle */
 };
 
 struct vdb_sdf;
 
-/* Equal input gives equal bits, whatever the threads. */
-MUST_USE status vdb_sdf_create(const struct sdf_question *question, struct vdb_sdf **out);
+/* The same input gives the same bits, with any number of threads. E_MEMORY; E_INPUT: OpenVDB cannot make the grid. */
+MUST_USE status vdb_sdf_create(const struct sdf_request *question, struct vdb_sdf **out);
 void vdb_sdf_destroy(struct vdb_sdf **sdf);
 
-/* m, negative inside; +-band where the surface is farther than that. Safe from many threads. */
+/* m, negative inside; +-band where the surface is farther away. Thread-safe. */
 double vdb_sdf_at(const struct vdb_sdf *sdf, const double x[3]);
 
-/* The widest gap that was found, where: gaps narrower than two voxels are not. */
+/* The widest gap. Gaps narrower than two voxels are not detected. */
 struct sdf_gap {
-    double width, at[3]; /* m; 0: none. Twice the band: that, or wider */
+    double width, at[3]; /* m; width 0: there is none; twice the band: that or wider */
 };
 struct sdf_gap vdb_sdf_gap(const struct vdb_sdf *sdf);
 
-/* What closes the gaps: triangles across them, to half a voxel. Some vertices have none. */
+/* Triangles that close the gaps, within half a voxel. Some vertices are not used. E_MEMORY. */
 struct sdf_caps {
-    double (*vertex)[3]; /* freed with free(), both */
+    double (*vertex)[3]; /* the caller frees both */
     uint32_t (*triangle)[3];
     size_t n_vertices, n_triangles;
 };

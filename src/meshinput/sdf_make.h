@@ -1,4 +1,4 @@
-/* What sdf.h calls in hoodoo-vdb.so. */
+/* The functions of hoodoo-vdb.so behind sdf.h, which loads it when they are first called. */
 #ifndef HOODOO_MESHINPUT_SDF_MAKE_H
 #define HOODOO_MESHINPUT_SDF_MAKE_H
 
@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-typedef status sdf_make_function(const struct sdf_question *question, struct vdb_sdf **out);
+typedef status sdf_make_function(const struct sdf_request *question, struct vdb_sdf **out);
 typedef void sdf_destroy_function(struct vdb_sdf **sdf);
 typedef double sdf_at_function(const struct vdb_sdf *sdf, const double x[3]);
 typedef struct sdf_gap sdf_gap_function(const struct vdb_sdf *sdf);

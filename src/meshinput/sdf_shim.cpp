@@ -23,7 +23,7 @@
 struct vdb_sdf {
     openvdb::FloatGrid::Ptr grid;
     struct sdf_gap gap;
-    openvdb::MaskGrid::Ptr across; /* voxels beside a gap's middle */
+    openvdb::MaskGrid::Ptr across; /* voxels next to the middle of a gap */
 };
 
 namespace
@@ -33,8 +33,8 @@ using openvdb::FloatGrid;
 using openvdb::Vec3d;
 using leaf_node = openvdb::FloatTree::LeafNodeType;
 
-/* The voxel in the middle of the vertices' box. */
-Coord middle_of(const struct sdf_question &q)
+/* The voxel at the centre of the vertices' bounding box. */
+Coord centre_voxel(const struct sdf_request &q)
 {
     openvdb::BBoxd box;
     for (size_t i = 0; i < q.n_vertices; i++)
@@ -42,12 +42,12 @@ Coord middle_of(const struct sdf_question &q)
     return q.n_vertices ? Coord::round(box.getCenter() / q.voxel) : Coord();
 }
 
-/* Distances without signs. */
-FloatGrid::Ptr distances(const struct sdf_question &q)
+/* Unsigned distances. */
+FloatGrid::Ptr distances(const struct sdf_request &q)
 {
-    /* What the library has compiled takes floats. About the mesh's own middle, and that is a whole number of voxels off,
-     * they are as good as doubles. */
-    const Coord middle = middle_of(q);
+    /* The library's precompiled code takes floats. Relative to the mesh's own centre, rounded to whole voxels, they are as exact as
+     * doubles. */
+    const Coord middle = centre_voxel(q);
     std::vector<openvdb::Vec3s> point(q.n_vertices);
     for (size_t i = 0; i < q.n_vertices; i++)
         for (int a = 0; a < 3; a++)
@@ -68,17 +68,17 @@ FloatGrid::Ptr distances(const struct sdf_question &q)
 constexpr size_t LEAF = leaf_node::SIZE;
 constexpr uint32_t NO_LEAF = UINT32_MAX, NO_PART = UINT32_MAX;
 
-/* The grid's voxels, numbered leaf by leaf, and who is beside whom. */
+/* The grid's voxels, numbered leaf by leaf, and their neighbours. */
 struct voxels {
     std::vector<leaf_node *> leaf;
-    std::vector<std::array<uint32_t, 6>> beside; /* by leaf: the ones at -x, +x, -y and so on */
+    std::vector<std::array<uint32_t, 6>> beside; /* by leaf: its neighbours at -x, +x, -y, +y, -z, +z */
 
     explicit voxels(openvdb::FloatTree &tree)
     {
         tree.voxelizeActiveTiles(false);
         tree.getNodes(leaf);
         if (leaf.size() >= UINT32_MAX / LEAF)
-            throw std::runtime_error("its grid has more than 2^32 voxels");
+            throw std::runtime_error("the grid has more than 2^32 voxels");
         std::unordered_map<Coord, uint32_t, hash> number;
         for (size_t i = 0; i < leaf.size(); i++)
             number[leaf[i]->origin()] = uint32_t(i);
@@ -112,7 +112,7 @@ struct voxels {
         return leaf[v / LEAF]->offsetToGlobalCoord(v % LEAF);
     }
 
-    /* The active voxel beside v, or NO_PART. */
+    /* The active neighbour of v, or NO_PART. */
     uint32_t next(uint32_t v, int side) const
     {
         static const uint32_t step[3] = {LEAF / leaf_node::DIM, leaf_node::DIM, 1};
@@ -131,23 +131,24 @@ struct voxels {
     }
 };
 
-/* Does no triangle come between two neighbours, this far from the surface? Distances within 0.86 of a voxel are exact, farther ones may
- * be too long. Were the farther of the two really within 0.86, it would not seem to be beyond a voxel. Else a triangle between them
- * is within 0.14 of the nearer. */
-bool are_together(float a, float b, float voxel)
+/* Is there surely no triangle between two neighbouring voxels with these distances? Distances up to 0.86 voxels are exact, longer ones
+ * may be overestimated. If the farther voxel were within 0.86, its distance would be exact and not more than a voxel; so it is farther,
+ * and a triangle between the two would be within 0.14 voxels of the nearer one. */
+bool are_connected(float a, float b, float voxel)
 {
     return std::max(a, b) > 1.001f * voxel && std::min(a, b) > 0.25f * voxel;
 }
 
-/* Which voxels are so near to where the surface ends that their neighbours' side tells nothing of theirs: by coarse cells. */
-struct ends {
+/* The coarse cells around open edges, where a voxel may be on another side of the surface than its neighbours without a triangle
+ * between them. */
+struct open_cells {
     double side;
     bool everywhere = false;
     std::unordered_set<Coord, voxels::hash> cell;
 
-    ends(const struct sdf_question &q) : side(q.hole)
+    open_cells(const struct sdf_request &q) : side(q.hole)
     {
-        constexpr double MANY = 1e6; /* cells: then all is near */
+        constexpr double MANY = 1e6; /* with more cells than this, every voxel counts as close */
         for (size_t i = 0; i < q.n_open && !everywhere; i++) {
             openvdb::BBoxd box;
             box.expand(Vec3d(q.vertex[q.open[i][0]]));
@@ -162,30 +163,30 @@ struct ends {
                 cell.insert(*c);
         }
     }
-    bool are_near(const Vec3d &x) const
+    bool is_close(const Vec3d &x) const
     {
         return everywhere || (!cell.empty() && cell.count(Coord::floor(x / side)) > 0);
     }
 };
 
-/* Finds which voxels are on one side, asks about one of each such part, and tells which are inside. */
+/* Splits the voxels into connected parts that no triangle crosses, and takes the winding number of one voxel for the whole part. */
 struct signs {
-    const struct sdf_question &q;
+    const struct sdf_request &q;
     const voxels &all;
     const openvdb::math::Transform &transform;
-    const ends end;
-    std::vector<uint32_t> part;  /* by voxel */
-    std::vector<uint32_t> asked; /* by part: its voxel farthest from the surface */
-    std::vector<bool> inside;    /* by part */
+    const open_cells open;
+    std::vector<uint32_t> part;   /* by voxel */
+    std::vector<uint32_t> sample; /* by part: its voxel farthest from the surface */
+    std::vector<bool> inside;     /* by part */
 
-    signs(const struct sdf_question &question, const voxels &v, const openvdb::math::Transform &t)
-        : q(question), all(v), transform(t), end(question), part(v.leaf.size() * LEAF, NO_PART)
+    signs(const struct sdf_request &question, const voxels &v, const openvdb::math::Transform &t)
+        : q(question), all(v), transform(t), open(question), part(v.leaf.size() * LEAF, NO_PART)
     {
         std::vector<uint32_t> todo;
         for (uint32_t v = 0; v < part.size(); v++)
             if (part[v] == NO_PART && all.is_active(v))
                 grow(v, todo);
-        ask();
+        find_inside();
     }
 
     Vec3d at(uint32_t v) const
@@ -195,22 +196,22 @@ struct signs {
 
     void grow(uint32_t first, std::vector<uint32_t> &todo)
     {
-        const uint32_t number = uint32_t(asked.size());
+        const uint32_t number = uint32_t(sample.size());
         part[first] = number;
-        asked.push_back(first);
-        if (end.are_near(at(first)))
+        sample.push_back(first);
+        if (open.is_close(at(first)))
             return;
         todo.assign(1, first);
         while (!todo.empty()) {
             const uint32_t v = todo.back();
             todo.pop_back();
             const float d = all.value(v);
-            if (d > all.value(asked[number]))
-                asked[number] = v;
+            if (d > all.value(sample[number]))
+                sample[number] = v;
             for (int side = 0; side < 6; side++) {
                 const uint32_t to = all.next(v, side);
-                if (to == NO_PART || part[to] != NO_PART || !are_together(d, all.value(to), float(q.voxel)) ||
-                    end.are_near(at(to)))
+                if (to == NO_PART || part[to] != NO_PART ||
+                    !are_connected(d, all.value(to), float(q.voxel)) || open.is_close(at(to)))
                     continue;
                 part[to] = number;
                 todo.push_back(to);
@@ -218,16 +219,16 @@ struct signs {
         }
     }
 
-    void ask()
+    void find_inside()
     {
-        constexpr size_t TOGETHER = 1 << 16;
-        std::vector<double> x(3 * TOGETHER);
-        std::vector<float> number(TOGETHER);
-        inside.resize(asked.size());
-        for (size_t first = 0; first < asked.size(); first += TOGETHER) {
-            const size_t n = std::min(TOGETHER, asked.size() - first);
+        constexpr size_t BATCH = 1 << 16;
+        std::vector<double> x(3 * BATCH);
+        std::vector<float> number(BATCH);
+        inside.resize(sample.size());
+        for (size_t first = 0; first < sample.size(); first += BATCH) {
+            const size_t n = std::min(BATCH, sample.size() - first);
             for (size_t i = 0; i < n; i++) {
-                const Vec3d place = at(asked[first + i]);
+                const Vec3d place = at(sample[first + i]);
                 std::memcpy(&x[3 * i], place.asPointer(), 3 * sizeof(double));
             }
             q.winding(q.context, reinterpret_cast<const double(*)[3]>(x.data()), n, number.data());
@@ -242,7 +243,7 @@ struct signs {
     }
 };
 
-/* Makes what is inside negative. */
+/* Makes the distances inside negative. */
 void apply(const signs &s, voxels &all)
 {
     for (uint32_t v = 0; v < s.part.size(); v++)
@@ -250,11 +251,10 @@ void apply(const signs &s, voxels &all)
             all.leaf[v / LEAF]->setValueOnly(v % LEAF, -all.value(v));
 }
 
-/* The sign changes between these two, but no triangle is there: half of the gap's width, or 0. And they themselves are that near to the
- * surface which closes it. */
+/* Half the width of the gap between two neighbouring voxels, or 0: their signs differ, but no triangle is between them. */
 float half_gap(float a, float b, float voxel)
 {
-    const bool across = (a < 0) != (b < 0) && are_together(std::fabs(a), std::fabs(b), voxel);
+    const bool across = (a < 0) != (b < 0) && are_connected(std::fabs(a), std::fabs(b), voxel);
     return across ? std::max(std::fabs(a), std::fabs(b)) : 0;
 }
 
@@ -284,37 +284,37 @@ struct sdf_gap close_gaps(voxels &all, const FloatGrid &grid, float voxel, openv
     return gap;
 }
 
-/* Runs alone: where two triangles are equally near, the winner must not depend on who came first. */
-template <class work_fn> void alone(const work_fn &work)
+/* Runs `work` in a single thread: where two triangles are equally close, the result must not depend on timing. */
+template <class work_fn> void in_one_thread(const work_fn &work)
 {
     tbb::task_arena arena(1);
     arena.execute(work);
 }
 } // namespace
 
-extern "C" status sdf_make(const struct sdf_question *q, struct vdb_sdf **out)
+extern "C" status sdf_make(const struct sdf_request *q, struct vdb_sdf **out)
 {
     try {
         auto sdf = std::make_unique<vdb_sdf>();
-        alone([&] { sdf->grid = distances(*q); });
+        in_one_thread([&] { sdf->grid = distances(*q); });
         voxels all(sdf->grid->tree());
         apply(signs(*q, all, sdf->grid->transform()), all);
         sdf->across = openvdb::MaskGrid::create();
         sdf->gap = close_gaps(all, *sdf->grid, float(q->voxel), sdf->across->tree());
-        alone([&] {
+        in_one_thread([&] {
             openvdb::tools::signedFloodFillWithValues(sdf->grid->tree(), float(q->band), -float(q->band));
         });
         sdf->grid->setGridClass(openvdb::GRID_LEVEL_SET);
         *out = sdf.release();
         return OK;
     } catch (const std::bad_alloc &) {
-        return fail(E_MEMORY, "out of memory: sampling a mesh of %zu triangles at %g m", q->n_triangles,
+        return fail(E_MEMORY, "out of memory: voxelising a mesh of %zu triangles at %g m", q->n_triangles,
                     q->voxel);
     } catch (const std::exception &e) {
-        return fail(E_INPUT, "a mesh of %zu triangles cannot be sampled at %g m: %s", q->n_triangles,
+        return fail(E_INPUT, "a mesh of %zu triangles cannot be voxelised at %g m: %s", q->n_triangles,
                     q->voxel, e.what());
     } catch (...) {
-        return fail(E_INPUT, "a mesh of %zu triangles cannot be sampled at %g m", q->n_triangles, q->voxel);
+        return fail(E_INPUT, "a mesh of %zu triangles cannot be voxelised at %g m", q->n_triangles, q->voxel);
     }
 }
 
@@ -326,8 +326,7 @@ extern "C" void sdf_destroy(struct vdb_sdf **sdf)
 
 extern "C" double sdf_at(const struct vdb_sdf *sdf, const double x[3])
 {
-    /* An accessor of the unregistered kind costs nothing to make, and finds the other corners without the
-     * tree. */
+    /* An unregistered accessor costs nothing to make and caches the leaf for the other seven corners. */
     openvdb::FloatGrid::ConstUnsafeAccessor accessor(sdf->grid->constTree());
     const openvdb::Vec3d index = sdf->grid->transform().worldToIndex(openvdb::Vec3d(x[0], x[1], x[2]));
     return double(openvdb::tools::BoxSampler::sample(accessor, index));
@@ -344,7 +343,7 @@ extern "C" status sdf_caps(const struct vdb_sdf *sdf, struct sdf_caps *out)
         std::vector<openvdb::Vec3s> point;
         std::vector<openvdb::Vec3I> triangle;
         std::vector<openvdb::Vec4I> quad;
-        alone([&] { openvdb::tools::volumeToMesh(*sdf->grid, point, triangle, quad, 0, 0); });
+        in_one_thread([&] { openvdb::tools::volumeToMesh(*sdf->grid, point, triangle, quad, 0, 0); });
         for (const openvdb::Vec4I &f : quad) {
             triangle.emplace_back(f[0], f[1], f[2]);
             triangle.emplace_back(f[0], f[2], f[3]);

@@ -5,7 +5,7 @@
 #include "base/atomic_file.h"
 
 #define MEMORY ((uint64_t)1 << 30)
-#define LARGEST ((size_t)8 << 30)
+#define MAX_FILE ((size_t)8 << 30)
 
 static status read_mesh(const struct serve_question *question, struct serve_answer *answer)
 {
@@ -13,8 +13,10 @@ static status read_mesh(const struct serve_question *question, struct serve_answ
     char *bytes = NULL;
     size_t size = 0;
     if (question->n_arguments != 1)
-        return fail(E_INPUT, "%s: its reader was told too little", question->path);
-    TRY(file_read(question->path, LARGEST, &bytes, &size));
+        return fail(E_INPUT,
+                    "%s: hoodoo-read-mesh got %zu arguments: hoodoo and its readers are of different builds",
+                    question->path, question->n_arguments);
+    TRY(file_read(question->path, MAX_FILE, &bytes, &size));
     TRY(mesh_import(question->path, question->argument[0], bytes, size, answer));
 done:
     free(bytes);

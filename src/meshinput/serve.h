@@ -1,4 +1,4 @@
-/* hoodoo-read-mesh: how glTF is read (import_shim.cpp); what it answers is in reader/mesh_part.h. */
+/* hoodoo-read-mesh, which reads glTF with assimp (import_shim.cpp). reader/mesh_part.h has its answer. */
 #ifndef HOODOO_MESHINPUT_SERVE_H
 #define HOODOO_MESHINPUT_SERVE_H
 
@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/* Reads `bytes` as one of "gltf" or "glb" and answers. E_INPUT: damaged. */
+/* Decodes bytes[n] as `format`, "gltf" or "glb", and writes the answer. E_INPUT: damaged. E_MEMORY. */
 MUST_USE status mesh_import(const char *path, const char *format, const void *bytes, size_t n,
                             struct serve_answer *answer);
 

@@ -1,4 +1,4 @@
-/* Vertices that are meant to be one: exporters split them along texture seams and hard edges, and round either half. */
+/* Welds vertices that exporters have split along texture seams and hard edges, with each copy rounded by itself. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -28,7 +28,7 @@ static size_t hash_position(const double x[3])
     return (size_t)random_hash(low, word[4], word[5], 1) << 32 | random_hash(low, word[4], word[5], 2);
 }
 
-/* Gives triangles the vertices that theirs became, and drops those without three. */
+/* Replaces the triangles' vertices by those they were joined to, and drops degenerate triangles. */
 static void join(struct mesh *mesh, const uint32_t *joined)
 {
     size_t n = 0;
@@ -72,13 +72,13 @@ done:
     return st;
 }
 
-/* ---- near ones */
+/* ---- vertices within a tolerance */
 
-/* Vertices by the cell of a grid that they are in: a hash table of lists, the newest first. */
+/* Kept vertices by grid cell: a hash table of linked lists, the newest vertex first. */
 struct cells {
     double side;
     size_t size;
-    uint32_t *newest, *older; /* by slot, by vertex */
+    uint32_t *newest, *older; /* [size], [n_vertices] */
 };
 
 static size_t slot_of(const struct cells *c, const double cell[3])
@@ -89,7 +89,7 @@ static size_t slot_of(const struct cells *c, const double cell[3])
     return random_hash(word[0], word[1], word[2], 3) & (c->size - 1);
 }
 
-/* The nearest vertex there within `tolerance` of x, or FREE. */
+/* The nearest kept vertex within `tolerance` of x, or FREE; *square is its squared distance. */
 static uint32_t nearest(const struct mesh *mesh, const struct cells *c, const double x[3], double tolerance,
                         double *square)
 {
@@ -119,9 +119,9 @@ static uint32_t nearest(const struct mesh *mesh, const struct cells *c, const do
     return found;
 }
 
-/* Each vertex goes to the nearest one that stays, so that none moves farther than the tolerance, however many there are in a row. */
-static void join_near(const struct mesh *mesh, const bool *is_open, struct cells *c, double tolerance,
-                      uint32_t *joined, struct mesh_welded *out)
+/* Joins each vertex to the nearest one that is kept. Chains are not followed, so that no vertex moves farther than the tolerance. */
+static void join_close(const struct mesh *mesh, const bool *is_open, struct cells *c, double tolerance,
+                       uint32_t *joined, struct mesh_welded *out)
 {
     for (size_t v = 0; v < mesh->n_vertices; v++) {
         double square, cell[3];
@@ -158,7 +158,7 @@ status mesh_weld_open(struct mesh *mesh, const struct mesh_open *open, double to
     memset(c.newest, 0xff, c.size * sizeof *c.newest);
     for (size_t i = 0; i < open->n; i++)
         is_open[open->edge[i][0]] = is_open[open->edge[i][1]] = true;
-    join_near(mesh, is_open, &c, tolerance, joined, out);
+    join_close(mesh, is_open, &c, tolerance, joined, out);
     join(mesh, joined);
 done:
     free(is_open);

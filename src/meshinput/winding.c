@@ -1,4 +1,4 @@
-/* A complete binary tree over the triangles in the order of their places along a space-filling curve. */
+/* A complete binary tree over the triangles, sorted along the Morton curve. */
 #include "meshinput/winding.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 enum { LEAF = 6, DIGIT = 11, CURVE_BITS = 21 };
 
-/* What a node is from afar, about its middle: the sum of its areas' vectors and their first moments, symmetrical. */
+/* A node's series about its middle: the sum of its triangles' area vectors, and their first moments, symmetrised. */
 struct node {
     float middle[3], far_square, area[3], moment[6];
 };
@@ -17,13 +17,14 @@ struct node {
 struct winding {
     double origin[3];
     size_t n_leaves, n_triangles; /* n_leaves: a power of two */
-    float (*corner)[9];           /* from the origin, in the order of the curve */
+    float (*corner)[9];           /* [n_triangles], relative to the origin, in Morton order */
     struct node *node;            /* the children of i are 2i and 2i + 1; the root is 1 */
 };
 
-/* ---- the order */
+/* ---- Morton order */
 
-static uint64_t spread(uint64_t x)
+/* Inserts two zero bits after each of the lowest 21 bits. */
+static uint64_t spread_bits(uint64_t x)
 {
     x = (x | x << 32) & UINT64_C(0x1f00000000ffff);
     x = (x | x << 16) & UINT64_C(0x1f0000ff0000ff);
@@ -37,7 +38,7 @@ struct item {
     uint32_t triangle;
 };
 
-/* Least significant digits first; the sorted items are in `item` again. */
+/* Radix sort, least significant digit first. The result is in item[n]; other[n] is scratch. */
 static void sort_items(struct item *item, struct item *other, size_t n)
 {
     for (int shift = 0; shift < 3 * CURVE_BITS; shift += DIGIT) {
@@ -83,7 +84,7 @@ static status order(struct winding *w, const double (*vertex)[3], const uint32_t
             for (int k = 0; k < 3; k++)
                 x += vertex[triangle[t][k]][a] / 3;
             const double share = size > 0 ? (x - box->lo[a]) / size : 0;
-            item[t].key |= spread((uint64_t)(fmin(fmax(share, 0), 1) * ((1 << CURVE_BITS) - 1))) << a;
+            item[t].key |= spread_bits((uint64_t)(fmin(fmax(share, 0), 1) * ((1 << CURVE_BITS) - 1))) << a;
         }
     }
     sort_items(item, other, w->n_triangles);
@@ -99,7 +100,7 @@ done:
 
 /* ---- the tree */
 
-/* A node while the tree is built, from the leaves up. */
+/* A node while the tree is built bottom up. */
 struct sum {
     struct box box;
     double weight, middle[3], radius, area[3], moment[3][3]; /* weight: m2 */
@@ -121,7 +122,7 @@ static void area_of(const float corner[9], double area[3])
         area[a] = 0.5 * (u[(a + 1) % 3] * v[(a + 2) % 3] - u[(a + 2) % 3] * v[(a + 1) % 3]);
 }
 
-/* Adds `more` to a sum whose middle is set. */
+/* Adds `more` to `to`, shifting its moments to the middle of `to`. */
 static void add_about(struct sum *to, const struct sum *more)
 {
     for (int i = 0; i < 3; i++) {
@@ -137,7 +138,7 @@ static double distance(const double a[3], const double b[3])
                 (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-/* The weighted middle of n sums, or that of their box where they weigh nothing, and what they add up to. */
+/* The total of n sums, about their weighted middle, or the middle of their box if their weight is 0. */
 static struct sum sum_of(const struct sum *part, size_t n)
 {
     struct sum s = {.box = nothing};
@@ -252,7 +253,7 @@ void winding_destroy(struct winding **winding)
     *winding = NULL;
 }
 
-/* ---- at a point */
+/* ---- evaluation */
 
 /* Half the solid angle of a triangle (Van Oosterom and Strackee 1983). */
 static float half_angle(const float c[9], const float x[3])
@@ -274,8 +275,8 @@ static float half_angle(const float c[9], const float x[3])
     return volume != 0 || below < 0 ? atan2f(volume, below) : 0;
 }
 
-/* 4 pi times what the node's triangles add, seen from `square` > 0 away. */
-static float from_afar(const struct node *n, const float d[3], float square)
+/* The node's contribution times 4 pi, at offset d with square = |d|^2 > 0. */
+static float far_field(const struct node *n, const float d[3], float square)
 {
     const float *m = n->moment;
     const float inverse = 1 / square, cube = inverse / sqrtf(square);
@@ -285,9 +286,9 @@ static float from_afar(const struct node *n, const float d[3], float square)
     return cube * (d[0] * n->area[0] + d[1] * n->area[1] + d[2] * n->area[2] + trace - 3 * along * inverse);
 }
 
-float winding_at(const struct winding *w, const double x[3])
+float winding_number(const struct winding *w, const double x[3])
 {
-    size_t stack[64], n = 0; /* a tree of 2^32 leaves is 32 deep */
+    size_t stack[64], n = 0; /* 2^32 leaves make a depth of 32 */
     const float at[3] = {(float)(x[0] - w->origin[0]), (float)(x[1] - w->origin[1]),
                          (float)(x[2] - w->origin[2])};
     float near = 0, far = 0;
@@ -298,7 +299,7 @@ float winding_at(const struct winding *w, const double x[3])
         const float d[3] = {node->middle[0] - at[0], node->middle[1] - at[1], node->middle[2] - at[2]};
         const float square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
         if (square > node->far_square) {
-            far += from_afar(node, d, square);
+            far += far_field(node, d, square);
         } else if (i < w->n_leaves) {
             stack[n++] = 2 * i + 1;
             stack[n++] = 2 * i;
@@ -310,9 +311,9 @@ float winding_at(const struct winding *w, const double x[3])
     return (2 * near + far) / (float)(4 * M_PI);
 }
 
-void winding_of(const struct winding *w, const double (*x)[3], size_t n, float *number)
+void winding_numbers(const struct winding *w, const double (*x)[3], size_t n, float *number)
 {
 #pragma omp parallel for schedule(dynamic, 256)
     for (size_t i = 0; i < n; i++)
-        number[i] = winding_at(w, x[i]);
+        number[i] = winding_number(w, x[i]);
 }

@@ -79,7 +79,7 @@ status arenite_add_due(struct arenite *a, enum particles_due what, size_t n)
     TRY(particles_due(a->m.gpu, a->m.work, p, what, bits, &n));
     if (n == 0)
         goto done;
-    TRY(scene_source_make(a->source, bits, NULL, &rock));
+    TRY(scene_source_particles(a->source, bits, NULL, &rock));
     TRY(find_stress(a, &rock));
     TRY(reserve_particles(a, rock.n));
     TRY(particles_add(a->m.gpu, a->m.work, p, &rock));
@@ -100,9 +100,9 @@ status arenite_first_rock(struct arenite *a, struct rock *rock, uint32_t **deep,
     TRY(scene_source_create(a->m.whole, &source));
     if (arenite_may_be_deep(a->m.whole) && edits_of(a->m.whole, a->m.frame) != EDITS_ROCK) {
         TRY(alloc_bits(a, deep));
-        scene_source_whole(source, *deep, n_deep);
+        scene_source_uniform(source, *deep, n_deep);
     }
-    TRY(scene_source_make(source, NULL, *deep, rock));
+    TRY(scene_source_particles(source, NULL, *deep, rock));
     if (*n_deep) {
         a->source = source;
         source = NULL;
@@ -122,7 +122,7 @@ enum { GIVEN = sizeof given / sizeof *given };
 /* Deep particles as they are shown: without plants, which live on the surface. */
 static status make_deep(const void *source, const uint32_t *bits, struct rock *out)
 {
-    const status st = scene_source_make(source, bits, NULL, out);
+    const status st = scene_source_particles(source, bits, NULL, out);
     for (size_t i = 0; st == OK && out->vegetation && i < out->n; i++)
         out->vegetation[i] = 0;
     return st;
@@ -189,7 +189,7 @@ static status derive_all(struct arenite *a, struct frame_deep *deep)
     for (size_t word = 0; word < words;) {
         take_words(deep->bits, words, &word, next);
         rock_free(&made);
-        TRY(scene_source_make(a->source, next, NULL, &made));
+        TRY(scene_source_particles(a->source, next, NULL, &made));
         if (made.n)
             TRY(derive(a, &places, &made, first, deep));
         first += made.n;
@@ -244,7 +244,7 @@ status arenite_save_deep(struct arenite *a, struct checkpoint *out)
     const uint64_t hash = scene_source_hash(a->source);
     TRY(section_add(out, deep_voxels, 8, 1, &data));
     memcpy(data, &hash, sizeof hash);
-    TRY(scene_source_few(a->source, &few));
+    TRY(scene_source_sample(a->source, &few));
     TRY(section_add(out, deep_scene, 4, FEW_NUMBERS * few.n, &data));
     for (size_t i = 0; i < few.n; i++)
         few_numbers(&few, i, (float *)data + FEW_NUMBERS * i);
@@ -264,7 +264,7 @@ static status check_scene(const struct arenite *a, const struct checkpoint *c)
                     NULL));
     if (*(const uint64_t *)data != scene_source_hash(a->source))
         differs = "shape";
-    TRY(scene_source_few(a->source, &few));
+    TRY(scene_source_sample(a->source, &few));
     const struct section_rule rule = {
         deep_scene, SECTION_FLOAT, SECTION_ANY, FEW_NUMBERS, {SECTION_ALL, SECTION_ALL, SECTION_ALL}};
     size_t n;

@@ -303,7 +303,7 @@ status model_check_supported(const struct model *m, double lowest, bool whole)
     const struct ledger *l = &m->ledger;
     if (l->rock + l->deposit == 0 || (!whole && l->fallen > 0 && lowest < HUGE_VAL)) {
         if (lowest < HUGE_VAL)
-            return scene_floats(lowest);
+            return scene_fail_floating(lowest);
         return fail(
             E_USAGE,
             "scene: no voxel is at least half rock, so no rock is supported; lower domain.spacing_m (%.4g m) or make the shapes thicker",

@@ -6,9 +6,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "image/bilinear.h"
 #include "image/image.h"
 #include "scene/scene.h"
-#include "stacks/along.h"
+#include "stacks/intervals.h"
 
 status terrain_materials(const struct job *job, struct material table[MATERIALS_MAX], int *n)
 {
@@ -48,7 +49,7 @@ status terrain_create(const struct job *job, struct stacks *out)
     int n[2];
     double cell = cell_of(job);
     for (int a = 0; a < 2; a++)
-        n[a] = (int)fmin(fmax(round(job->domain.size_m[a] / cell), 1), STACKS_MOST);
+        n[a] = (int)fmin(fmax(round(job->domain.size_m[a] / cell), 1), STACKS_MAX);
     return stacks_create(n, cell, job->domain.size_m[2], out);
 }
 
@@ -87,7 +88,7 @@ static status fill_column(void *user, int i, int j, struct column *c)
     struct line line = {start->solid, {(i + 0.5) * cell, (j + 0.5) * cell}};
     TRY(intervals_find(0, start->height, cell / 4, NULL, false, depth_in_solid, &line, &in));
     for (size_t k = 0; k < in.n; k++)
-        TRY(column_put(c, stacks_quanta(start->s, in.at[k].lo), stacks_quanta(start->s, in.at[k].hi),
+        TRY(column_set(c, stacks_quanta(start->s, in.at[k].lo), stacks_quanta(start->s, in.at[k].hi),
                        MATERIAL_BEDROCK));
 done:
     free(in.at);
@@ -97,17 +98,11 @@ done:
 static status cover_column(void *user, int i, int j, struct column *c)
 {
     const struct start *start = user;
-    double u = (i + 0.5) / start->s->n[0] * (double)start->width - 0.5;
-    double v = (1 - (j + 0.5) / start->s->n[1]) * (double)start->rows - 0.5;
-    double x = fmin(fmax(u, 0), (double)start->width - 1), y = fmin(fmax(v, 0), (double)start->rows - 1);
-    size_t a = (size_t)x, b = (size_t)y;
-    size_t right = a + 1 < start->width ? 1 : 0, down = b + 1 < start->rows ? start->width : 0;
-    const float *p = start->image + b * start->width + a;
-    double above = (double)p[0] + (x - (double)a) * (double)(p[right] - p[0]);
-    double below = (double)p[down] + (x - (double)a) * (double)(p[down + right] - p[down]);
-    double thick = start->thickness * (above + (y - (double)b) * (below - above));
+    double px = (i + 0.5) / start->s->n[0] * (double)start->width;
+    double py = (1 - (j + 0.5) / start->s->n[1]) * (double)start->rows;
+    double thick = start->thickness * image_bilinear(start->image, start->width, start->rows, px, py);
     uint32_t top = c->n ? layer_top(c->layer[c->n - 1]) : 0, amount = stacks_quanta(start->s, thick);
-    return column_put(c, top, amount < STACK_TOP - top ? top + amount : (uint32_t)STACK_TOP, start->material);
+    return column_set(c, top, amount < STACK_TOP - top ? top + amount : (uint32_t)STACK_TOP, start->material);
 }
 
 static status cover(const struct job_cover *job, const struct material *table, int n_materials,
@@ -115,13 +110,13 @@ static status cover(const struct job_cover *job, const struct material *table, i
 {
     status st = OK;
     struct image image = {0};
-    const struct image_wish wish = IMAGE_WISH(job);
+    const struct image_request request = IMAGE_REQUEST(job);
     struct start start = {.s = s, .thickness = job->thickness_m};
     while (start.material < (uint32_t)n_materials && strcmp(table[start.material].name, job->material) != 0)
         start.material++;
     if (start.material == MATERIAL_AIR || start.material == (uint32_t)n_materials)
         return fail(E_USAGE, "arches.covers: there is no material '%.64s'", job->material);
-    TRY(image_read(&wish, &image));
+    TRY(image_read(&request, &image));
     start.image = image.value;
     start.width = image.width;
     start.rows = image.height;

@@ -105,17 +105,17 @@ static status check_inputs(struct context *v)
     TRY(scene_inputs(v->job, &in, &n));
     log_silence(false);
     for (size_t i = 0; i < n; i++) {
-        const double off = in[i].sampled_m3 / in[i].own_m3 - 1;
-        if (!(in[i].own_m3 > 0))
+        const double off = in[i].sampled_m3 / in[i].file_m3 - 1;
+        if (!(in[i].file_m3 > 0))
             log_info("%s: %.4g m3 as it is sampled every %g m", in[i].file, in[i].sampled_m3, h);
         else if (fabs(off) <= 0.05)
             log_info("%s: %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m", in[i].file,
-                     in[i].own_m3, in[i].sampled_m3, h);
+                     in[i].file_m3, in[i].sampled_m3, h);
         else
             TRY(add_advice(
                 v, "scene",
                 "%.300s holds %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m, %.0f %% %s",
-                in[i].file, in[i].own_m3, in[i].sampled_m3, h, 100 * fabs(off), off > 0 ? "more" : "less"));
+                in[i].file, in[i].file_m3, in[i].sampled_m3, h, 100 * fabs(off), off > 0 ? "more" : "less"));
     }
 done:
     log_silence(true);
@@ -490,7 +490,7 @@ status advice_collect(const struct job *job, bool log_inputs, struct advice_list
     log_silence(true);
     TRY(scene_estimate(job, &v.size));
     if (!job_model(job)->terrain)
-        TRY(scene_stands(job, job->goblins.floats, &v.size));
+        TRY(scene_check(job, job->goblins.floats, &v.size));
     bound_rock(&v);
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         if (v.size.n_points > 0 || checks[i] == check_domain)

@@ -14,16 +14,16 @@ struct coverage {
     uint8_t *share;
 };
 
-/* Points at which a voxel is probed: a rank-1 lattice of 64. As many as a 4 x 4 x 4 grid, but every axis sees
- * 64 different places instead of 4, so that a face along the axes is found to h/64; slanted planes come out
- * better too (rms 1.7 % of the voxel against 2.0 %). */
+/* Coordinate a of probe i in the unit voxel. The 64 probes are a rank-1 lattice: as many as in a 4 x 4 x 4 grid, but with 64 different
+ * coordinates on each axis instead of 4, so that axis-aligned faces are resolved to h/64. Slanted planes are more accurate, too (rms
+ * error 1.7 % of the voxel instead of 2.0 %). */
 static double probe(int i, int a)
 {
     static const int step[3] = {1, 47, 57};
     return ((i * step[a]) % COVERAGE_FULL + 0.5) / COVERAGE_FULL;
 }
 
-/* What of a box, in whole voxels, the solid holds: probes lie off the faces. */
+/* solid_in_box() of cell `at` of a grid of `side` voxels. Its faces may be the solid's, for no probe is on a face. */
 static enum solid_share in_voxels(const struct solid *solid, double h, const double at[3], double side)
 {
     double min[3], max[3];
@@ -34,7 +34,7 @@ static enum solid_share in_voxels(const struct solid *solid, double h, const dou
     return solid_in_box(solid, min, max);
 }
 
-/* Probes found in rock; no more than `enough` of them are looked for. */
+/* The number of probes inside the solid; stops at `enough`. */
 static unsigned count_probes(const struct solid *solid, double h, int i, int j, int k, unsigned enough)
 {
     const double corner[3] = {i * h, j * h, k * h};

@@ -1,4 +1,4 @@
-/* Edits of rock that is there already. */
+/* Edits of existing rock. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "geology/attitude.h"
 #include "scene/sampler.h"
 
-/* The voxel a particle lies in, as kernels see it. */
+/* The voxel of a particle, computed in floats like in the kernels. */
 static void voxel_of(const struct sampler *s, const struct rock *rock, size_t p, int voxel[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -16,7 +16,7 @@ static void voxel_of(const struct sampler *s, const struct rock *rock, size_t p,
     }
 }
 
-/* The n particles listed, then `more` zeroed ones. */
+/* Keeps the n listed particles and appends `more` zeroed ones. */
 static status rebuild(struct rock *rock, const size_t *list, size_t n, size_t more)
 {
     status st = OK;
@@ -61,15 +61,15 @@ done:
     return st;
 }
 
-/* A box of voxels, and what stands in each. */
+/* A box of voxels and their contents. */
 struct box {
     int low[3], size[3];
     size_t n;
-    double *fill;
-    size_t *owner; /* its particle of the lowest id; SIZE_MAX: none */
+    double *fill;  /* [n]: share of rock */
+    size_t *owner; /* [n]: the particle of the lowest id; SIZE_MAX: none */
 };
 
-/* SIZE_MAX: outside. */
+/* The index of a voxel in the box; SIZE_MAX: outside. */
 static size_t box_index(const struct box *b, const int voxel[3])
 {
     size_t index = 0;
@@ -113,8 +113,8 @@ done:
     return st;
 }
 
-/* The i-th voxel of the box, and how much of it the shape holds. */
-static double wanted(const struct sampler *s, const struct box *b, size_t i, int voxel[3])
+/* The i-th voxel of the box; returns its share inside the shape. */
+static double share_in_shape(const struct sampler *s, const struct box *b, size_t i, int voxel[3])
 {
     size_t row = (size_t)b->size[0], slab = row * (size_t)b->size[1];
     voxel[0] = b->low[0] + (int)(i % row);
@@ -123,12 +123,12 @@ static double wanted(const struct sampler *s, const struct box *b, size_t i, int
     return (double)coverage_at(s->coverage, voxel[0], voxel[1], voxel[2]) / COVERAGE_FULL;
 }
 
-static void put(const struct sampler *s, const struct job_addition *add, const int voxel[3], double share,
-                uint64_t id, struct rock *rock, size_t p)
+static void make_particle(const struct sampler *s, const struct job_addition *add, const int voxel[3],
+                          double share, uint64_t id, struct rock *rock, size_t p)
 {
     const struct paint_values bare = {1, 1, 1, 0, 0};
     double x[3];
-    sampler_place(s, voxel, rock->P + 4 * p);
+    sampler_position(s, voxel, rock->P + 4 * p);
     rock_position(rock, p, x);
     size_t layer = add->layer >= 0 ? (size_t)add->layer : attitude_layer(s->job, x);
     rock->id[p] = (uint32_t)id;
@@ -149,10 +149,10 @@ static status add_rock(const struct job *job, const struct job_addition *add, ui
     int voxel[3];
     double filled = 0;
     TRY(sampler_init(&s, job, add->shape, COVERAGE_REACH));
-    TRY(sampler_fill(&s, NULL, 0));
+    TRY(sampler_prepare(&s, NULL, 0));
     TRY(box_create(&s, rock, &box));
     for (size_t i = 0; i < box.n; i++) {
-        double share = wanted(&s, &box, i, voxel), lack = share - box.fill[i];
+        double share = share_in_shape(&s, &box, i, voxel), lack = share - box.fill[i];
         more += share > 0 && box.owner[i] == SIZE_MAX;
         if (box.owner[i] == SIZE_MAX || lack <= 0)
             continue;
@@ -161,8 +161,7 @@ static status add_rock(const struct job *job, const struct job_addition *add, ui
         filled += (double)(*viability - before);
     }
     if (next_id + more > UINT32_MAX) {
-        st = fail(E_MEMORY,
-                  "an edit makes more than 2^32 particles over the whole run: raise domain.spacing_m");
+        st = fail(E_MEMORY, "edits: more than 2^32 particles over the whole run: raise domain.spacing_m");
         goto done;
     }
     TRY(memory_alloc(n, sizeof *list, "an edit", &list));
@@ -170,9 +169,9 @@ static status add_rock(const struct job *job, const struct job_addition *add, ui
         list[p] = p;
     TRY(rebuild(rock, list, n, more));
     for (size_t i = 0; i < box.n; i++) {
-        double share = wanted(&s, &box, i, voxel);
+        double share = share_in_shape(&s, &box, i, voxel);
         if (share > 0 && box.owner[i] == SIZE_MAX) {
-            put(&s, add, voxel, share, next_id++, rock, n++);
+            make_particle(&s, add, voxel, share, next_id++, rock, n++);
             filled += share;
         }
     }
@@ -191,7 +190,7 @@ static status paint(const struct job *job, const struct job_edit *edit, struct r
     status st = OK;
     struct sampler s = {.job = job};
     TRY(paint_create(job, edit->paint, edit->n_paint, &s.paint));
-    sampler_see(&s, rock);
+    sampler_add_occluders(&s, rock);
 #pragma omp parallel for schedule(static)
     for (size_t p = 0; p < rock->n; p++) {
         double x[3];

@@ -1,5 +1,5 @@
-/* Do files come out as large as they say they are? Sampling may be too coarse for what is in them, or its inside another than was
- * meant: then a run is of a wrong rock, and nothing else tells. */
+/* Compares the volume of each file with what sampling makes of it. If sampling is too coarse for the file, or its inside and outside are
+ * not what was meant, a run would have the wrong rock and nothing else would show it. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,10 +8,10 @@
 #include "scene/coverage.h"
 #include "scene/scene.h"
 
-/* About so many voxels are looked at, each in a block of its own. */
-enum { LOOKED_AT = 1 << 15 };
+/* The approximate number of voxels to sample, one per block. */
+enum { SAMPLES = 1 << 15 };
 
-/* m3 of a solid with a finite box, sampled every h metres: one voxel of every block, at a place hashed from the block. */
+/* The volume of a solid with a finite bounding box, m3, from one voxel of h metres in every block, at a position hashed from the block. */
 static double sampled_volume(const struct solid *solid, double h)
 {
     double low[3], high[3], total = 1;
@@ -22,7 +22,7 @@ static double sampled_volume(const struct solid *solid, double h)
         n[a] = (int)ceil(high[a] / h) + 1 - first[a];
         total *= n[a];
     }
-    const int side = (int)ceil(cbrt(total / LOOKED_AT) - 1e-9);
+    const int side = (int)ceil(cbrt(total / SAMPLES) - 1e-9);
     int blocks[3];
     for (int a = 0; a < 3; a++)
         blocks[a] = (n[a] + side - 1) / side;
@@ -42,7 +42,7 @@ static double sampled_volume(const struct solid *solid, double h)
     return (double)sum / COVERAGE_FULL * pow(side * h, 3);
 }
 
-/* Where its placement makes it smaller or larger, that is measured too: both are in the world. */
+/* Both volumes are in world space, so that the scale of the placement is included. */
 static status measure(const struct job *job, const struct job_node *node, const char *file,
                       struct scene_input **out, size_t *n, size_t *capacity)
 {
@@ -51,7 +51,7 @@ static status measure(const struct job *job, const struct job_node *node, const 
     const double h = job->domain.spacing_m;
     TRY(solid_create(node, 0.5 * h, COVERAGE_REACH * h, &solid));
     TRY(memory_grow(out, capacity, *n + 1, sizeof **out, "the scene's files"));
-    (*out)[(*n)++] = (struct scene_input){file, solid_own_m3(solid), sampled_volume(solid, h)};
+    (*out)[(*n)++] = (struct scene_input){file, solid_file_m3(solid), sampled_volume(solid, h)};
 done:
     solid_destroy(&solid);
     return st;

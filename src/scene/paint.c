@@ -9,8 +9,8 @@
 #include "scene/scene.h"
 #include "shape/noise.h"
 
-/* Where one entry paints. */
-struct place {
+/* The mask of one entry. */
+struct mask {
     struct solid *shape;      /* or NULL */
     struct projection *image; /* or NULL */
     struct noise noise;
@@ -19,10 +19,10 @@ struct place {
 struct paint_set {
     size_t n;
     const struct job_paint *entry;
-    struct place *place;
+    struct mask *mask;
 };
 
-static status place_create(const struct job *job, const struct job_paint *e, struct place *out)
+static status mask_create(const struct job *job, const struct job_paint *e, struct mask *out)
 {
     status st = OK;
     double h = job->domain.spacing_m;
@@ -46,10 +46,10 @@ status paint_create(const struct job *job, const struct job_paint *entry, size_t
     struct paint_set *set = NULL;
     TRY(memory_alloc(1, sizeof *set, "paint", &set));
     set->entry = entry;
-    TRY(memory_alloc(n, sizeof *set->place, "paint", &set->place));
+    TRY(memory_alloc(n, sizeof *set->mask, "paint", &set->mask));
     for (size_t i = 0; i < n; i++) {
         set->n++;
-        TRY(place_create(job, &entry[i], &set->place[i]));
+        TRY(mask_create(job, &entry[i], &set->mask[i]));
     }
     *out = set;
     set = NULL;
@@ -63,27 +63,27 @@ void paint_destroy(struct paint_set **set)
     if (!*set)
         return;
     for (size_t i = 0; i < (*set)->n; i++) {
-        solid_destroy(&(*set)->place[i].shape);
-        projection_destroy(&(*set)->place[i].image);
+        solid_destroy(&(*set)->mask[i].shape);
+        projection_destroy(&(*set)->mask[i].image);
     }
-    free((*set)->place);
+    free((*set)->mask);
     free(*set);
     *set = NULL;
 }
 
-bool paint_sees(const struct paint_set *set)
+bool paint_needs_occluders(const struct paint_set *set)
 {
     for (size_t i = 0; i < set->n; i++)
-        if (set->place[i].image && projection_sees(set->place[i].image))
+        if (set->mask[i].image && projection_needs_occluders(set->mask[i].image))
             return true;
     return false;
 }
 
-void paint_see(struct paint_set *set, const double x[3])
+void paint_add_occluder(struct paint_set *set, const double x[3])
 {
     for (size_t i = 0; i < set->n; i++)
-        if (set->place[i].image)
-            projection_see(set->place[i].image, x);
+        if (set->mask[i].image)
+            projection_add_occluder(set->mask[i].image, x);
 }
 
 static double smoothstep(double t)
@@ -92,22 +92,22 @@ static double smoothstep(double t)
     return t * t * (3 - 2 * t);
 }
 
-/* 1 inside, down to 0 over the falloff outside. */
-static double cover(double distance, double falloff)
+/* 1 inside the shape, falling smoothly to 0 at the distance `falloff`. */
+static double edge_weight(double distance, double falloff)
 {
     if (distance <= 0)
         return 1;
     return distance < falloff ? smoothstep(1 - distance / falloff) : 0;
 }
 
-static double mask(const struct job_mask *m, const struct noise *noise, const double x[3])
+static double noise_weight(const struct job_mask *m, const struct noise *noise, const double x[3])
 {
     double above = noise_at(noise, x) - m->threshold;
     return m->soft > 0 ? smoothstep(above / m->soft + 0.5) : above >= 0;
 }
 
-/* A factor of 1, the default, leaves what other entries painted. */
-static double over(double below, double factor, double w)
+/* Blends `factor` over `below`. A factor of 1, the default, keeps what other entries painted. */
+static double blend(double below, double factor, double w)
 {
     return factor == 1 ? below : below + w * (factor - below);
 }
@@ -117,18 +117,18 @@ struct paint_values paint_at(const struct paint_set *set, const double x[3], dou
     struct paint_values v = {1, 1, 1, vegetation, 0};
     for (size_t i = 0; i < set->n; i++) {
         const struct job_paint *e = &set->entry[i];
-        const struct place *place = &set->place[i];
-        struct solid_point p = e->shape ? solid_at(place->shape, x) : (struct solid_point){0};
-        double edge = cover(p.distance, e->falloff_m), w = edge;
+        const struct mask *mask = &set->mask[i];
+        struct solid_point p = e->shape ? solid_at(mask->shape, x) : (struct solid_point){0};
+        double w = edge_weight(p.distance, e->falloff_m);
         if (w > 0 && e->image)
-            w *= projection_at(place->image, x);
+            w *= projection_at(mask->image, x);
         if (w > 0 && e->noise)
-            w *= mask(e->noise, &place->noise, x);
+            w *= noise_weight(e->noise, &mask->noise, x);
         if (w == 0)
             continue;
-        v.erodibility = over(v.erodibility, e->erodibility, w);
-        v.interlock = over(v.interlock, e->interlock, w);
-        v.viability = over(v.viability, e->viability, w);
+        v.erodibility = blend(v.erodibility, e->erodibility, w);
+        v.interlock = blend(v.interlock, e->interlock, w);
+        v.viability = blend(v.viability, e->viability, w);
         if (e->vegetation >= 0)
             v.vegetation += w * (e->vegetation - v.vegetation);
         v.inert |= p.distance <= 0 && w >= 0.5 && (e->inert || p.inert);

@@ -1,4 +1,4 @@
-/* Paint: a job's changes to particles, by shape, image and noise. */
+/* Paint: changes to the properties of particles, masked by a shape, an image and noise. */
 #ifndef HOODOO_PAINT_H
 #define HOODOO_PAINT_H
 
@@ -9,24 +9,24 @@
 
 struct paint_set;
 
-/* The n entries of a list, for particles of this job; both are borrowed. */
+/* The n entries of a list of the job. Job and entries must outlive the set. Errors of solid_create() and image_read(). */
 MUST_USE status paint_create(const struct job *job, const struct job_paint *entry, size_t n,
                              struct paint_set **out);
 void paint_destroy(struct paint_set **set);
 
-/* Images that reach only so deep must be shown every particle first: if paint_sees(), call paint_see() for each
- * before the first paint_at(), one at a time. */
-bool paint_sees(const struct paint_set *set);
-void paint_see(struct paint_set *set, const double x[3]);
+/* Images with a depth_m need to know which rock is in front: if paint_needs_occluders(), call paint_add_occluder() for every particle
+ * before the first paint_at(). Not thread-safe. */
+bool paint_needs_occluders(const struct paint_set *set);
+void paint_add_occluder(struct paint_set *set, const double x[3]);
 
 struct paint_values {
     double erodibility, interlock, viability; /* factors */
-    double vegetation;
+    double vegetation;                        /* share of the ground, 0..1 */
     int inert;
 };
 
-/* All entries laid over each other, at x, where plants cover `vegetation` of the ground; {1, 1, 1, vegetation, 0}
- * where nothing is painted. */
+/* All entries applied in order at x, where plants cover `vegetation` of the ground before. {1, 1, 1, vegetation, 0} where nothing is
+ * painted. Thread-safe. */
 struct paint_values paint_at(const struct paint_set *set, const double x[3], double vegetation);
 
 #endif

@@ -7,21 +7,21 @@
 #include "base/vector.h"
 #include "image/image.h"
 
-/* The first rock behind the picture is kept in cells of a spacing, at most this many a side. */
-#define MOST_CELLS 8192.0
+/* The depth of the first rock behind the image is stored in cells of a spacing, at most this many a side. */
+#define MAX_CELLS 8192.0
 
 struct projection {
     struct image image;                         /* its values, top row first */
     double corner[3], right[3], up[3], away[3]; /* m; unit vectors */
     double size[2];                             /* m */
-    double depth;                               /* m; 0: through and through */
+    double depth;                               /* m; 0: unlimited */
     double h, cell;                             /* m */
     size_t cells[2];
-    float *first; /* [cells]: how far behind the picture rock begins */
+    float *first; /* [cells[1]][cells[0]]: distance from the image to the first rock, m */
 };
 
-/* Right, up and away from the picture's corner, m. */
-static void place(const struct projection *p, const double x[3], double out[3])
+/* x relative to the image's corner, along its right, up and away vectors, m. */
+static void to_image_space(const struct projection *p, const double x[3], double out[3])
 {
     const double d[3] = {x[0] - p->corner[0], x[1] - p->corner[1], x[2] - p->corner[2]};
     out[0] = dot3(d, p->right);
@@ -33,9 +33,9 @@ status projection_create(const struct job_image *job, double h, struct projectio
 {
     status st = OK;
     struct projection *p = NULL;
-    const struct image_wish wish = IMAGE_WISH(job);
+    const struct image_request request = IMAGE_REQUEST(job);
     TRY(memory_alloc(1, sizeof *p, "an image", &p));
-    TRY(image_read(&wish, &p->image));
+    TRY(image_read(&request, &p->image));
     p->size[0] = sqrt(dot3(job->right_m, job->right_m));
     p->size[1] = sqrt(dot3(job->up_m, job->up_m));
     for (int a = 0; a < 3; a++) {
@@ -50,7 +50,7 @@ status projection_create(const struct job_image *job, double h, struct projectio
     p->h = h;
     p->depth = job->depth_m;
     if (p->depth > 0) {
-        p->cell = fmax(h, fmax(p->size[0], p->size[1]) / MOST_CELLS);
+        p->cell = fmax(h, fmax(p->size[0], p->size[1]) / MAX_CELLS);
         for (int a = 0; a < 2; a++)
             p->cells[a] = (size_t)fmax(1, ceil(p->size[a] / p->cell));
         TRY(memory_alloc(p->cells[0] * p->cells[1], sizeof *p->first, "an image's depths", &p->first));
@@ -74,16 +74,16 @@ void projection_destroy(struct projection **projection)
     *projection = NULL;
 }
 
-bool projection_sees(const struct projection *p)
+bool projection_needs_occluders(const struct projection *p)
 {
     return p->first != NULL;
 }
 
-/* A particle hides what is behind it within a spacing, so that jitter leaves no gaps between neighbours. */
-void projection_see(struct projection *p, const double x[3])
+/* A particle occludes cells within a spacing, so that jitter leaves no gaps between neighbours. */
+void projection_add_occluder(struct projection *p, const double x[3])
 {
     double at[3];
-    place(p, x, at);
+    to_image_space(p, x, at);
     if (!p->first || at[2] < 0)
         return;
     for (double dv = -1; dv <= 1; dv++)
@@ -99,7 +99,7 @@ void projection_see(struct projection *p, const double x[3])
         }
 }
 
-/* Bilinear between the pixels' middles. */
+/* Bilinear between pixel centres. */
 static double sample(const struct projection *p, double u, double v)
 {
     double x = fmin(fmax(u * (double)p->image.width - 0.5, 0), (double)(p->image.width - 1));
@@ -116,7 +116,7 @@ static double sample(const struct projection *p, double u, double v)
 double projection_at(const struct projection *p, const double x[3])
 {
     double at[3];
-    place(p, x, at);
+    to_image_space(p, x, at);
     double u = at[0] / p->size[0], v = at[1] / p->size[1];
     if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1 && at[2] >= 0))
         return 0;
@@ -124,7 +124,7 @@ double projection_at(const struct projection *p, const double x[3])
         size_t i = (size_t)(at[0] / p->cell), j = (size_t)(at[1] / p->cell);
         i = i < p->cells[0] ? i : p->cells[0] - 1;
         j = j < p->cells[1] ? j : p->cells[1] - 1;
-        /* A particle's rock begins half a spacing before its middle. */
+        /* A particle's rock begins half a spacing before its centre. */
         if (at[2] > (double)p->first[j * p->cells[0] + i] - p->h / 2 + p->depth)
             return 0;
     }

@@ -1,4 +1,4 @@
-/* What the rock is like at any voxel, and about how much of it there is. */
+/* Samples the scene at voxels, and estimates its size. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,13 +8,13 @@
 #include "scene/sampler.h"
 
 #define MAX_VOXELS 2147483648.0
-#define JITTER 0.25f /* of h, to either side of the voxel's middle */
+#define JITTER 0.25f /* in h, to either side of the voxel's centre */
 
 status scene_voxels(const struct job *job, int n[3])
 {
     double h = job->domain.spacing_m, total = 1, count[3];
     for (int a = 0; a < 3; a++) {
-        /* Pairs of voxels: a size within a millionth of a whole number of them is meant to be that. */
+        /* Pairs of voxels. A size within a millionth of an integer number of pairs is rounded to it. */
         double pairs = job->domain.size_m[a] / (2 * h), whole = fmax(1, round(pairs));
         count[a] = 2 * (fabs(pairs - whole) <= 1e-6 * whole ? whole : fmax(1, ceil(pairs)));
         total *= count[a];
@@ -22,14 +22,14 @@ status scene_voxels(const struct job *job, int n[3])
     if (!(total <= MAX_VOXELS))
         return fail(
             E_USAGE,
-            "domain: %.0f x %.0f x %.0f voxels are more than 2^31: raise domain.spacing_m above %.3g m, or make domain.size_m smaller",
+            "domain: %.0f x %.0f x %.0f voxels are more than 2^31: raise domain.spacing_m above %.3g m, or reduce domain.size_m",
             count[0], count[1], count[2], h * cbrt(total / MAX_VOXELS));
     for (int a = 0; a < 3; a++)
         n[a] = (int)count[a];
     return OK;
 }
 
-void sampler_place(const struct sampler *s, const int voxel[3], float P[4])
+void sampler_position(const struct sampler *s, const int voxel[3], float P[4])
 {
     for (int a = 0; a < 3; a++) {
         float share = random_float(
@@ -62,20 +62,20 @@ void rock_position(const struct rock *rock, size_t p, double x[3])
         x[a] = (double)rock->P[4 * p + a];
 }
 
-void sampler_see(const struct sampler *s, const struct rock *rock)
+void sampler_add_occluders(const struct sampler *s, const struct rock *rock)
 {
-    for (size_t p = 0; paint_sees(s->paint) && p < rock->n; p++) {
+    for (size_t p = 0; paint_needs_occluders(s->paint) && p < rock->n; p++) {
         double x[3];
         rock_position(rock, p, x);
-        paint_see(s->paint, x);
+        paint_add_occluder(s->paint, x);
     }
 }
 
-status scene_floats(double lowest)
+status scene_fail_floating(double lowest)
 {
     return fail(
         E_USAGE,
-        "scene: the rock floats in the air: lowest rock is at z = %.4g m, and the ground is z = 0: lower it, or add what it stands on",
+        "scene: the rock floats in the air: the lowest rock is at z = %.4g m, but the ground is at z = 0: lower it, or add rock below it",
         lowest);
 }
 
@@ -95,7 +95,7 @@ static status no_rock(const struct sampler *s)
     solid_bounds(s->solid, min, max);
     return fail(
         E_USAGE,
-        "scene: no rock in the domain: the scene spans x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g m, the domain x 0 to %.4g, y 0 to %.4g, z 0 to %.4g m: move the shapes into it, or check what a difference or intersection leaves",
+        "scene: there is no rock in the domain: the scene spans x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g m, the domain x 0 to %.4g, y 0 to %.4g, z 0 to %.4g m: move the shapes into the domain, or check what a difference or intersection leaves",
         min[0], max[0], min[1], max[1], min[2], max[2], size[0], size[1], size[2]);
 }
 
@@ -106,10 +106,10 @@ status sampler_check(const struct sampler *s, bool floats)
         lowest++;
     if (lowest == s->n[2])
         return no_rock(s);
-    return lowest > 0 && !floats ? scene_floats(lowest * s->h) : OK;
+    return lowest > 0 && !floats ? scene_fail_floating(lowest * s->h) : OK;
 }
 
-/* The scene without the beds of its rivers. */
+/* The scene minus the beds of its rivers. */
 static status solid_of_job(const struct job *job, double detail, double reach, struct solid **out)
 {
     status st = OK;
@@ -150,7 +150,7 @@ done:
     return st;
 }
 
-status sampler_fill(struct sampler *s, const struct job_paint *paint, size_t n)
+status sampler_prepare(struct sampler *s, const struct job_paint *paint, size_t n)
 {
     status st = OK;
     uint32_t seed = (uint32_t)s->job->seed;
@@ -184,13 +184,14 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
     status st = OK;
     struct sampler s;
     TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
-    TRY(sampler_fill(&s, job->paint, job->n_paint));
+    TRY(sampler_prepare(&s, job->paint, job->n_paint));
     TRY(sampler_check(&s, floats));
-    for (int k = 0; paint_sees(s.paint) && k < s.n[2]; k++)
+    for (int k = 0; paint_needs_occluders(s.paint) && k < s.n[2]; k++)
         for (int j = 0; j < s.n[1]; j++)
             for (int i = 0; i < s.n[0]; i++)
                 if (coverage_at(s.coverage, i, j, k) > 0)
-                    paint_see(s.paint, (const double[]){(i + 0.5) * s.h, (j + 0.5) * s.h, (k + 0.5) * s.h});
+                    paint_add_occluder(s.paint,
+                                       (const double[]){(i + 0.5) * s.h, (j + 0.5) * s.h, (k + 0.5) * s.h});
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k < s.n[2]; k++) {
         size_t v = (size_t)k * (size_t)s.n[1] * (size_t)s.n[0];
@@ -212,8 +213,8 @@ done:
     return st;
 }
 
-/* Is there air beside rock, on that side? Below the domain is ground. `deep`: nothing near is air. */
-static bool is_bare(const struct sampler *s, const int voxel[3], int side, bool deep)
+/* Is the neighbour of a rock voxel on that side air? Below the domain is ground. `deep`: all neighbours in the domain are rock. */
+static bool is_exposed(const struct sampler *s, const int voxel[3], int side, bool deep)
 {
     const int a = side / 2;
     int v[3] = {voxel[0], voxel[1], voxel[2]};
@@ -225,20 +226,19 @@ static bool is_bare(const struct sampler *s, const int voxel[3], int side, bool 
     return !deep && !coverage_holds_rock(s->solid, s->h, v[0], v[1], v[2]);
 }
 
-/* How many ends of rows along x a voxel of rock is, and whether any side of it is bare. */
-static size_t count_ends(const struct sampler *s, const int voxel[3], bool *bare)
+/* The number of sides in x of a rock voxel that are exposed, and whether any side is. */
+static size_t count_ends(const struct sampler *s, const int voxel[3], bool *exposed)
 {
     const double middle[3] = {(voxel[0] + 0.5) * s->h, (voxel[1] + 0.5) * s->h, (voxel[2] + 0.5) * s->h};
     const bool deep = solid_at(s->solid, middle).distance < -s->h;
-    const size_t ends = (size_t)is_bare(s, voxel, 0, deep) + (size_t)is_bare(s, voxel, 1, deep);
-    *bare = ends > 0;
-    for (int side = 2; side < 6 && !*bare; side++)
-        *bare = is_bare(s, voxel, side, deep);
+    const size_t ends = (size_t)is_exposed(s, voxel, 0, deep) + (size_t)is_exposed(s, voxel, 1, deep);
+    *exposed = ends > 0;
+    for (int side = 2; side < 6 && !*exposed; side++)
+        *exposed = is_exposed(s, voxel, side, deep);
     return ends;
 }
 
-/* Is there air, or the domain's end, within SCENE_NEAR voxels on every axis? Looked for at the corners and the faces' middles of the
- * cube of that size. */
+/* Is there air or the domain's boundary within SCENE_NEAR voxels? Probes the corners and face centres of the cube of that half-width. */
 static bool is_near(const struct sampler *s, const int voxel[3])
 {
     const double middle[3] = {(voxel[0] + 0.5) * s->h, (voxel[1] + 0.5) * s->h, (voxel[2] + 0.5) * s->h};
@@ -258,12 +258,11 @@ static bool is_near(const struct sampler *s, const int voxel[3])
     return false;
 }
 
-/* One voxel out of every block, at a place hashed from the block: exact for scenes of up to 2^18 voxels, but for how much of it is
- * near the surface. */
+/* Samples one voxel of every block, at a position hashed from the block. Exact for scenes of up to 2^18 voxels, except for n_near. */
 static status estimate(const struct sampler *s, struct scene_size *out)
 {
     status st = OK;
-    size_t total = 1, probes = 1, found = 0, bare = 0, near = 0, ends = 0, blocks[3],
+    size_t total = 1, probes = 1, found = 0, exposed = 0, near = 0, ends = 0, blocks[3],
            capacity = out->n_points;
     for (int a = 0; a < 3; a++)
         total *= (size_t)s->n[a];
@@ -273,10 +272,10 @@ static status estimate(const struct sampler *s, struct scene_size *out)
         blocks[a] = ((size_t)s->n[a] + (size_t)side - 1) / (size_t)side;
         probes *= blocks[a];
     }
-    /* is_near() costs more than all else, and a few thousand voxels tell its share within a percent or two. */
-    const uint32_t looked = (uint32_t)(probes / 16384) + 1;
+    /* is_near() is the most expensive part; one voxel in near_step is enough for an error of a percent or two. */
+    const uint32_t near_step = (uint32_t)(probes / 16384) + 1;
     TRY(memory_grow(&out->point, &capacity, out->n_points + probes, sizeof *out->point, "an estimate"));
-#pragma omp parallel for reduction(+ : bare, near, ends)
+#pragma omp parallel for reduction(+ : exposed, near, ends)
     for (size_t b = 0; b < probes; b++) {
         const size_t at[3] = {b % blocks[0], b / blocks[0] % blocks[1], b / blocks[0] / blocks[1]};
         int voxel[3], inside = 1;
@@ -291,11 +290,11 @@ static status estimate(const struct sampler *s, struct scene_size *out)
             continue;
         bool is_surface;
         ends += count_ends(s, voxel, &is_surface);
-        bare += is_surface;
+        exposed += is_surface;
         if (is_surface)
             near++;
-        else if (random_hash((uint32_t)s->job->seed, (uint32_t)b, 3, RANDOM_ESTIMATE) % looked == 0)
-            near += is_near(s, voxel) ? looked : 0;
+        else if (random_hash((uint32_t)s->job->seed, (uint32_t)b, 3, RANDOM_ESTIMATE) % near_step == 0)
+            near += is_near(s, voxel) ? near_step : 0;
 #pragma omp atomic capture
         place = found++;
         for (int a = 0; a < 3; a++)
@@ -303,7 +302,7 @@ static status estimate(const struct sampler *s, struct scene_size *out)
     }
     out->n_points += found;
     out->n_particles += found * weight;
-    out->n_surface += bare * weight;
+    out->n_surface += exposed * weight;
     out->n_near += near * weight;
     out->n_kept = out->n_particles;
     out->n_ends += ends * weight;
@@ -311,8 +310,8 @@ done:
     return st;
 }
 
-/* Voxel by voxel, from the ground up to where the estimate has seen rock. */
-status scene_stands(const struct job *job, bool floats, const struct scene_size *size)
+/* Examines all voxels, from the ground up to the lowest rock of the estimate. */
+status scene_check(const struct job *job, bool floats, const struct scene_size *size)
 {
     status st = OK;
     struct sampler s;
@@ -328,7 +327,7 @@ status scene_stands(const struct job *job, bool floats, const struct scene_size 
     if (!found && !size->n_points)
         st = no_rock(&s);
     else if (!floats && !(found && k == 1))
-        st = scene_floats(found ? (k - 1) * s.h : seen - 0.5 * s.h);
+        st = scene_fail_floating(found ? (k - 1) * s.h : seen - 0.5 * s.h);
 done:
     sampler_deinit(&s);
     return st;

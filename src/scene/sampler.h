@@ -1,4 +1,4 @@
-/* What turns voxels into particles: inside src/scene only. */
+/* From voxels to particles. Private to src/scene. */
 #ifndef HOODOO_SAMPLER_H
 #define HOODOO_SAMPLER_H
 
@@ -18,34 +18,34 @@ struct sampler {
     struct coverage *coverage;
     struct paint_set *paint;
     struct structure structure;
-    struct noise *noise; /* by layer */
-    uint32_t jitter[3];  /* what each axis hashes with */
+    struct noise *noise; /* [n_strata + 1] */
+    uint32_t jitter[3];  /* hash seed of each axis */
 };
 
-/* Of the scene, beds taken out; or of one shape, `node`. `reach`: how far from the surface distances will be asked
- * for, in spacings. */
+/* Makes the solid: of the shape `node`, or if NULL of the job's scene without its river beds. `reach`: how far from the surface distances
+ * are needed, in spacings. Free with sampler_deinit(), also on error. Errors of solid_create(). */
 MUST_USE status sampler_init(struct sampler *s, const struct job *job, const struct job_node *node,
                              double reach);
 
-/* What sampling needs beside the shape, with these n entries of paint. */
-MUST_USE status sampler_fill(struct sampler *s, const struct job_paint *paint, size_t n);
+/* Makes coverage, structure, noise and paint, with these n entries of paint. Errors of paint_create(). */
+MUST_USE status sampler_prepare(struct sampler *s, const struct job_paint *paint, size_t n);
 void sampler_deinit(struct sampler *s);
 
-/* Is there rock, and unless it `floats` on the ground? E_USAGE if not. */
+/* E_USAGE: there is no rock in the domain, or, unless it may float, none on the ground. */
 MUST_USE status sampler_check(const struct sampler *s, bool floats);
 
-/* Where a voxel's particle sits: its middle and a jitter that depends on the seed and the voxel alone. */
-void sampler_place(const struct sampler *s, const int voxel[3], float P[4]);
+/* The position of a voxel's particle: its centre plus a jitter that depends on seed and voxel only. P[3] = 0. */
+void sampler_position(const struct sampler *s, const int voxel[3], float P[4]);
 
-/* What the structure of the rock makes of a voxel's. */
+/* The effect of the geological structure on a voxel. */
 struct structure_rock sampler_structure(const struct sampler *s, const int voxel[3]);
 
-/* What paint and noise multiply the rates of the rock at x, of this layer, with; 0: inert. */
+/* The factor of paint and noise on all rates of the rock at x, of this layer; 0: inert. */
 double sampler_rate_factor(const struct sampler *s, size_t layer, const double x[3],
                            const struct paint_values *paint);
 
-/* Shows the paint every particle, if it wants to see them. */
-void sampler_see(const struct sampler *s, const struct rock *rock);
+/* Adds every particle as an occluder, if the paint needs them. */
+void sampler_add_occluders(const struct sampler *s, const struct rock *rock);
 
 void rock_position(const struct rock *rock, size_t p, double x[3]);
 

@@ -1,6 +1,5 @@
-/* CSG: shapes joined by union, intersection and difference. Placements are carried down to the shapes when
- * the tree is made, so that a point is asked about in the world and operators only compare numbers.
- */
+/* CSG: union, intersection and difference of shapes. Transforms are composed down to the shapes when the tree is made, so that operators
+ * only compare distances in world space. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +10,7 @@
 
 struct solid {
     enum job_node_kind kind;
-    double min[3], max[3]; /* m, a box around it */
+    double min[3], max[3]; /* m, bounding box */
     size_t n_child;
     struct solid **child;
     struct shape shape; /* NODE_SHAPE only */
@@ -41,14 +40,14 @@ static status create(const struct job_node *node, const struct placement *parent
 {
     status st = OK;
     struct solid *s = NULL;
-    struct placement place = placement_below(parent, node);
+    struct placement place = placement_child(parent, node);
     TRY(memory_alloc(1, sizeof *s, "a solid", &s));
     s->kind = node->kind;
     if (node->kind == NODE_SHAPE) {
         TRY(shape_init(&s->shape, node, &place, detail, reach));
     } else {
         if (node->n_child == 0) {
-            st = fail(E_USAGE, "scene: an operator without shapes: list at least one below it");
+            st = fail(E_USAGE, "scene: an operator has no shapes: list at least one below it");
             goto done;
         }
         TRY(memory_alloc(node->n_child, sizeof *s->child, "a solid", &s->child));
@@ -69,7 +68,7 @@ status solid_create(const struct job_node *node, double detail, double reach, st
     if (!node)
         return fail(
             E_USAGE,
-            "scene: no shape: give a box, sphere, cylinder, plane, mesh, volume, heightfield, function or jointmap");
+            "scene: there is no shape: add a box, sphere, cylinder, plane, mesh, volume, heightfield, function or jointmap");
     return create(node, &world, detail, reach, out);
 }
 
@@ -87,9 +86,9 @@ void solid_destroy(struct solid **solid)
     *solid = NULL;
 }
 
-double solid_own_m3(const struct solid *solid)
+double solid_file_m3(const struct solid *solid)
 {
-    return solid->kind == NODE_SHAPE ? solid->shape.own_m3 : (double)NAN;
+    return solid->kind == NODE_SHAPE ? solid->shape.file_m3 : (double)NAN;
 }
 
 void solid_bounds(const struct solid *solid, double min[3], double max[3])
@@ -100,7 +99,7 @@ void solid_bounds(const struct solid *solid, double min[3], double max[3])
     }
 }
 
-/* Is x at least `distance` away from the box around s? */
+/* Is x farther than `distance` from the bounding box of s? */
 static int beyond(const struct solid *s, const double x[3], double distance)
 {
     double square = 0;
@@ -111,8 +110,7 @@ static int beyond(const struct solid *s, const double x[3], double distance)
     return square > distance * distance;
 }
 
-/* The surfaces of meshes and stacks are interpolated in single precision, and not trusted to end with their
- * extents. */
+/* The surfaces of meshes and stacks are interpolated in single precision and may reach slightly beyond their extents. */
 static enum solid_share shape_in_box(const struct solid *s, const double min[3], const double max[3])
 {
     if (s->shape.kind == SHAPE_MESH || s->shape.kind == SHAPE_VOLUME || s->shape.kind == SHAPE_STACKS)
@@ -123,8 +121,8 @@ static enum solid_share shape_in_box(const struct solid *s, const double min[3],
     return shape_holds_box(&s->shape, min, max) ? SOLID_ALL : SOLID_SOME;
 }
 
-/* For a union a child that fills the box settles it, for the other two one that leaves it empty; what a difference
- * takes away counts as the opposite of what it is. */
+/* A child that fills the box decides a union; a child that leaves it empty decides an intersection or difference. The operands that a
+ * difference subtracts count inverted. */
 enum solid_share solid_in_box(const struct solid *s, const double min[3], const double max[3])
 {
     if (s->kind == NODE_SHAPE)
@@ -147,13 +145,13 @@ static struct solid_point at_union(const struct solid *s, const double x[3])
 {
     struct solid_point p = solid_at(s->child[0], x);
     for (size_t i = 1; i < s->n_child; i++) {
-        /* Inside already, only parts that hold x matter; outside, only nearer ones. */
+        /* If x is inside already, only parts that contain it matter; if outside, only nearer ones. */
         if (beyond(s->child[i], x, fmax(p.distance, 0)))
             continue;
         struct solid_point c = solid_at(s->child[i], x);
         if (c.distance <= 0 && p.distance <= 0) {
             p.inert |= c.inert;
-            p.loose &= c.loose; /* rock around it holds it */
+            p.loose &= c.loose; /* rock wins over loose material */
         } else if (c.distance < p.distance) {
             p.inert = c.inert;
             p.loose = c.loose;
@@ -177,7 +175,7 @@ struct solid_point solid_at(const struct solid *s, const double x[3])
             p.distance = fmax(p.distance, c.distance);
             p.inert |= c.inert;
         } else {
-            /* The face of what is taken away belongs to it: 0 counts as inside there too. */
+            /* The surface of the subtracted operand belongs to that operand: 0 counts as inside there, too. */
             p.distance = fmax(p.distance, c.distance == 0 ? DBL_MIN : -c.distance);
         }
     }

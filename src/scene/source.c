@@ -9,15 +9,15 @@
 
 struct scene_source {
     struct sampler s;
-    size_t across, words; /* of a row; of all */
-    uint32_t *rock;       /* [words]: bits of the voxels that hold rock */
-    uint32_t *before;     /* [words + 1]: how many of them there are before */
+    size_t row_words, words; /* of a row; of all rows */
+    uint32_t *rock;          /* [words]: the voxels that contain rock */
+    uint32_t *before;        /* [words + 1]: the number of such voxels in all words before */
 };
 
 static void voxel_at(const struct scene_source *src, size_t word, int bit, int voxel[3])
 {
-    const size_t row = word / src->across, ny = (size_t)src->s.n[1];
-    voxel[0] = (int)(32 * (word % src->across)) + bit;
+    const size_t row = word / src->row_words, ny = (size_t)src->s.n[1];
+    voxel[0] = (int)(32 * (word % src->row_words)) + bit;
     voxel[1] = (int)(row % ny);
     voxel[2] = (int)(row / ny);
 }
@@ -27,7 +27,7 @@ static int bits_in(uint32_t word)
     return __builtin_popcount(word);
 }
 
-/* Calls BODY for each bit of a word, lowest first; it has `bit`, its number. */
+/* Runs BODY for each set bit of a word, lowest first, with its number `bit`. */
 #define EACH_BIT(word, BODY)                                                                                 \
     for (uint32_t left = (word); left != 0; left &= left - 1) {                                              \
         const int bit = __builtin_ctz(left);                                                                 \
@@ -38,8 +38,8 @@ static status find_voxels(struct scene_source *src)
 {
     status st = OK;
     const int *n = src->s.n;
-    src->across = ((size_t)n[0] + 31) / 32;
-    src->words = src->across * (size_t)n[1] * (size_t)n[2];
+    src->row_words = ((size_t)n[0] + 31) / 32;
+    src->words = src->row_words * (size_t)n[1] * (size_t)n[2];
     TRY(memory_alloc(src->words, sizeof *src->rock, "the scene's voxels", &src->rock));
     TRY(memory_alloc(src->words + 1, sizeof *src->before, "the scene's voxels", &src->before));
 #pragma omp parallel for schedule(dynamic, 256)
@@ -53,25 +53,25 @@ static status find_voxels(struct scene_source *src)
     for (size_t w = 0; w < src->words; w++) {
         sum += (uint64_t)bits_in(src->rock[w]);
         if (sum > UINT32_MAX)
-            return fail(E_MEMORY, "scene: more than 2^32 particles: raise domain.spacing_m");
+            return fail(E_MEMORY, "scene: it has more than 2^32 particles: raise domain.spacing_m");
         src->before[w + 1] = (uint32_t)sum;
     }
 done:
     return st;
 }
 
-/* Shows the paint every particle, if it wants to see them. */
-static void show_paint(struct scene_source *src)
+/* Adds every particle as an occluder, if the paint needs them. */
+static void add_occluders(struct scene_source *src)
 {
-    if (!paint_sees(src->s.paint))
+    if (!paint_needs_occluders(src->s.paint))
         return;
     for (size_t w = 0; w < src->words; w++)
         EACH_BIT(src->rock[w], {
             int v[3];
             float P[4];
             voxel_at(src, w, bit, v);
-            sampler_place(&src->s, v, P);
-            paint_see(src->s.paint, (const double[]){(double)P[0], (double)P[1], (double)P[2]});
+            sampler_position(&src->s, v, P);
+            paint_add_occluder(src->s.paint, (const double[]){(double)P[0], (double)P[1], (double)P[2]});
         })
 }
 
@@ -81,10 +81,10 @@ status scene_source_create(const struct job *job, struct scene_source **out)
     struct scene_source *src = NULL;
     TRY(memory_alloc(1, sizeof *src, "the scene", &src));
     TRY(sampler_init(&src->s, job, NULL, COVERAGE_REACH));
-    TRY(sampler_fill(&src->s, job->paint, job->n_paint));
+    TRY(sampler_prepare(&src->s, job->paint, job->n_paint));
     TRY(sampler_check(&src->s, false));
     TRY(find_voxels(src));
-    show_paint(src);
+    add_occluders(src);
     *out = src;
     src = NULL;
 done:
@@ -121,7 +121,7 @@ static void make_particle(const struct scene_source *src, size_t word, int bit, 
     int v[3];
     double x[3];
     voxel_at(src, word, bit, v);
-    sampler_place(s, v, rock->P + 4 * p);
+    sampler_position(s, v, rock->P + 4 * p);
     rock_position(rock, p, x);
     struct paint_values paint = paint_at(s->paint, x, 0);
     rock->id[p] = id_of(src, word, bit);
@@ -134,27 +134,27 @@ static void make_particle(const struct scene_source *src, size_t word, int bit, 
     rock->vegetation[p] = (float)paint.vegetation;
 }
 
-static uint32_t chosen(const struct scene_source *src, const uint32_t *bits, const uint32_t *but, size_t word)
+static uint32_t selected(const struct scene_source *src, const uint32_t *bits, const uint32_t *but,
+                         size_t word)
 {
     return src->rock[word] & (bits ? bits[word] : ~0U) & ~(but ? but[word] : 0U);
 }
 
-static status check_room(size_t n)
+static status check_memory(size_t n)
 {
     size_t bytes = 0;
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (rock_field_table[f].keep == STATE && !rock_field_asked(f))
             bytes += rock_field_size((enum rock_field)f);
     if (n > memory_available() / bytes)
-        return fail(
-            E_MEMORY,
-            "the scene has %zu particles, which need %.3g GB, and %.3g GB are free: raise domain.spacing_m",
-            n, 1e-9 * (double)(n * bytes), 1e-9 * (double)memory_available());
+        return fail(E_MEMORY,
+                    "scene: %zu particles need %.3g GB, but only %.3g GB are free: raise domain.spacing_m", n,
+                    1e-9 * (double)(n * bytes), 1e-9 * (double)memory_available());
     return OK;
 }
 
-status scene_source_make(const struct scene_source *src, const uint32_t *bits, const uint32_t *but,
-                         struct rock *rock)
+status scene_source_particles(const struct scene_source *src, const uint32_t *bits, const uint32_t *but,
+                              struct rock *rock)
 {
     status st = OK;
     size_t *first = NULL;
@@ -165,15 +165,15 @@ status scene_source_make(const struct scene_source *src, const uint32_t *bits, c
     for (int k = 0; k < nz; k++) {
         first[k + 1] = first[k];
         for (size_t w = (size_t)k * slab; w < (size_t)(k + 1) * slab; w++)
-            first[k + 1] += (size_t)bits_in(chosen(src, bits, but, w));
+            first[k + 1] += (size_t)bits_in(selected(src, bits, but, w));
     }
-    TRY(check_room(first[nz]));
+    TRY(check_memory(first[nz]));
     TRY(rock_alloc(rock, first[nz], STATE));
 #pragma omp parallel for schedule(dynamic)
     for (int k = 0; k < nz; k++) {
         size_t p = first[k];
         for (size_t w = (size_t)k * slab; w < (size_t)(k + 1) * slab; w++)
-            EACH_BIT(chosen(src, bits, but, w), { make_particle(src, w, bit, rock, p++); })
+            EACH_BIT(selected(src, bits, but, w), { make_particle(src, w, bit, rock, p++); })
     }
 done:
     free(first);
@@ -186,20 +186,20 @@ status scene_sample(const struct job *job, struct rock *rock)
     struct scene_source *src = NULL;
     *rock = (struct rock){0};
     TRY(scene_source_create(job, &src));
-    TRY(scene_source_make(src, NULL, NULL, rock));
+    TRY(scene_source_particles(src, NULL, NULL, rock));
 done:
     scene_source_destroy(&src);
     return st;
 }
 
-/* ---- whole voxels */
+/* ---- uniform voxels */
 
 static bool is_full(const struct scene_source *src, const int v[3])
 {
     return coverage_at(src->s.coverage, v[0], v[1], v[2]) == COVERAGE_FULL;
 }
 
-static bool is_whole(const struct scene_source *src, size_t word, int bit)
+static bool is_uniform(const struct scene_source *src, size_t word, int bit)
 {
     const struct sampler *s = &src->s;
     int v[3];
@@ -207,20 +207,20 @@ static bool is_whole(const struct scene_source *src, size_t word, int bit)
     voxel_at(src, word, bit, v);
     if (!is_full(src, v))
         return false;
-    sampler_place(s, v, P);
+    sampler_position(s, v, P);
     const double x[3] = {(double)P[0], (double)P[1], (double)P[2]};
     return paint_at(s->paint, x, 0).vegetation <= 0 && !solid_at(s->solid, x).loose;
 }
 
-void scene_source_whole(const struct scene_source *src, uint32_t *bits, size_t *n)
+void scene_source_uniform(const struct scene_source *src, uint32_t *bits, size_t *n)
 {
     size_t sum = 0;
 #pragma omp parallel for schedule(dynamic, 64) reduction(+ : sum)
     for (size_t w = 0; w < src->words; w++) {
-        uint32_t whole = 0;
-        EACH_BIT(src->rock[w], { whole |= (uint32_t)is_whole(src, w, bit) << bit; })
-        bits[w] = whole;
-        sum += (size_t)bits_in(whole);
+        uint32_t uniform = 0;
+        EACH_BIT(src->rock[w], { uniform |= (uint32_t)is_uniform(src, w, bit) << bit; })
+        bits[w] = uniform;
+        sum += (size_t)bits_in(uniform);
     }
     *n = sum;
 }
@@ -245,7 +245,7 @@ uint64_t scene_source_hash(const struct scene_source *src)
     return hash_bytes(src->rock, src->words * sizeof *src->rock);
 }
 
-status scene_source_few(const struct scene_source *src, struct rock *rock)
+status scene_source_sample(const struct scene_source *src, struct rock *rock)
 {
     enum { ABOUT = 1000 };
     status st = OK;
@@ -255,7 +255,7 @@ status scene_source_few(const struct scene_source *src, struct rock *rock)
     for (size_t w = 0; w < src->words; w++)
         if (src->before[w] / every != src->before[w + 1] / every)
             bits[w] = src->rock[w] & (~src->rock[w] + 1);
-    TRY(scene_source_make(src, bits, NULL, rock));
+    TRY(scene_source_particles(src, bits, NULL, rock));
 done:
     free(bits);
     return st;

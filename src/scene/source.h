@@ -1,11 +1,10 @@
-/* The rock of a job's scene as a function: where its first particles are and what they are like, for any voxels and at any time.
+/* The rock of a job's scene as a function: the first particles of any set of voxels, at any time.
  *
- * Each voxel that holds rock has one particle: jittered inside its voxel by a hash of (seed, voxel), with the share of the voxel
- * inside the shape as its viability; its id is the number of such voxels before it, in the order of all voxels. So the particles
- * of some voxels, made late, are those that they would have been at first.
+ * Each voxel that contains rock has one particle (scene.h), whose id is the number of such voxels before it in voxel order. So particles
+ * that are made late are the same as if they had been made at the start.
  *
- * Voxels   are given as bits: 32 of a row along x to a word, rows upwards in y and then z, which start with a word each
- *          (particles/held.h has their number).
+ * Voxel sets   are bit sets: 32 voxels of a row along x per word; each row starts with a new word; rows in y, then z order
+ *              (particles/held.h has the number of words).
  */
 #ifndef HOODOO_SOURCE_H
 #define HOODOO_SOURCE_H
@@ -20,27 +19,26 @@
 
 struct scene_source;
 
-/* Reads the scene's files and finds its voxels. The job outlives it. Errors as scene_sample()'s. */
+/* Reads the scene's files and finds its voxels. The job must outlive the source. Errors of scene_sample(). */
 MUST_USE status scene_source_create(const struct job *job, struct scene_source **out);
 void scene_source_destroy(struct scene_source **source);
 
-/* Particles there are in all. */
+/* The number of all particles. */
 size_t scene_source_count(const struct scene_source *source);
 
-/* Which voxels are whole rock that nothing tells from any other: full, bare of plants, and not loose; and how many. */
-void scene_source_whole(const struct scene_source *source, uint32_t *bits, size_t *n);
+/* Sets `bits` to the uniform voxels, full of rock, without plants and not loose, and *n to their number. */
+void scene_source_uniform(const struct scene_source *source, uint32_t *bits, size_t *n);
 
-/* The particles of these voxels, so far as they have rock (`bits` NULL: of all that have), but of none in `but` (NULL: none): STATE
- * fields, in voxel order. *rock is the caller's to rock_free(). E_MEMORY says how many they would be. */
-MUST_USE status scene_source_make(const struct scene_source *source, const uint32_t *bits,
-                                  const uint32_t *but, struct rock *rock);
+/* Makes the particles of the voxels in `bits` (NULL: all) that contain rock, except those in `but` (NULL: none): STATE fields, in voxel
+ * order. Free *rock with rock_free(). E_MEMORY, with the number of particles. */
+MUST_USE status scene_source_particles(const struct scene_source *source, const uint32_t *bits,
+                                       const uint32_t *but, struct rock *rock);
 
-/* The ids of these voxels' particles, in voxel order. False: not all of the voxels are full of rock. */
+/* The ids of these voxels' particles, in voxel order. False: some of the voxels are not full of rock. */
 bool scene_source_ids(const struct scene_source *source, const uint32_t *bits, uint32_t *ids);
 
-/* What tells one scene from another: a hash of which voxels hold rock; and about a thousand of its particles, evenly spread, which
- * the caller frees. */
+/* A fingerprint of the scene: the hash of its voxel set, and about a thousand evenly spread particles; free *rock with rock_free(). */
 uint64_t scene_source_hash(const struct scene_source *source);
-MUST_USE status scene_source_few(const struct scene_source *source, struct rock *rock);
+MUST_USE status scene_source_sample(const struct scene_source *source, struct rock *rock);
 
 #endif

@@ -10,7 +10,7 @@
 #include "shape/function_make.h"
 #include "shape/noise.h"
 
-enum { PLACES = 1 << 15 };
+enum { POSITIONS = 1 << 15 };
 
 struct function {
     const struct job_function *job;
@@ -26,8 +26,8 @@ static double call_noise(const void *noise, const double x[3])
     return noise_at(noise, x);
 }
 
-/* The steepest rise from x along the axes, together. */
-static double rise(const struct function *f, const double x[3], double step)
+/* The length of the gradient at x, by differences over `step`. */
+static double slope_at(const struct function *f, const double x[3], double step)
 {
     const double here = f->at(f->formula, x);
     double square = 0;
@@ -40,27 +40,29 @@ static double rise(const struct function *f, const double x[3], double step)
     return isfinite(square) ? sqrt(square) : 0;
 }
 
-/* The steepest of many places, and whether any has a value at all. */
-static status measure(struct function *f, double step)
+/* Estimates the steepest slope from many positions, and checks that the expression has a value at any of them. */
+static status estimate_steepest(struct function *f, double step)
 {
     const double *lo = f->job->min_m, *hi = f->job->max_m;
     double steepest = 0;
     size_t numbers = 0;
 #pragma omp parallel for reduction(max : steepest) reduction(+ : numbers)
-    for (uint32_t i = 0; i < PLACES; i++) {
+    for (uint32_t i = 0; i < POSITIONS; i++) {
         double x[3];
         for (uint32_t a = 0; a < 3; a++)
             x[a] = lo[a] + (hi[a] - lo[a]) * (double)random_float(random_hash(i, a, 0, RANDOM_ESTIMATE));
         numbers += isfinite(f->at(f->formula, x)) ? 1 : 0;
-        steepest = fmax(steepest, fmax(rise(f, x, step), rise(f, x, step / 8)));
+        steepest = fmax(steepest, fmax(slope_at(f, x, step), slope_at(f, x, step / 8)));
     }
     if (numbers == 0)
-        return fail(E_USAGE, "scene: function: expression \"%.300s\" is no number anywhere in its box",
-                    f->job->expression);
+        return fail(
+            E_USAGE,
+            "scene: function: expression \"%.300s\" has no finite value anywhere in its box: check min_m, max_m and the expression",
+            f->job->expression);
     if (f->job->steepest > 0 && steepest > f->job->steepest * (1 + 1e-6))
         return fail(
             E_USAGE,
-            "scene: function: the value of \"%.300s\" rises by %.4g a metre somewhere in its box, and steepest is %.4g: raise it, or leave it out",
+            "scene: function: the value of \"%.300s\" rises by %.4g per metre in its box, more than function.steepest, %.4g: raise or omit steepest",
             f->job->expression, steepest, f->job->steepest);
     f->steepest = f->job->steepest > 0 ? f->job->steepest : fmax(2 * steepest, 1e-6);
     return OK;
@@ -79,7 +81,7 @@ status function_create(const struct job_function *job, double step, struct funct
     TRY(library_find("formula_at", &f->at));
     TRY(library_find("formula_destroy", &f->destroy));
     TRY(library_status(make(job->expression, call_noise, &f->noise, &f->formula)));
-    TRY(measure(f, step));
+    TRY(estimate_steepest(f, step));
     *out = f;
     f = NULL;
 done:
@@ -106,7 +108,7 @@ double function_distance(const struct function *f, const double x[3])
         inside = fmax(inside, d);
         outside += d > 0 ? d * d : 0;
     }
-    if (inside > 0) /* beyond the box the expression may be anything */
+    if (inside > 0) /* the expression only counts within the box */
         return sqrt(outside);
     const double value = f->at(f->formula, x);
     return isnan(value) ? DBL_MIN : fmax(inside, value / f->steepest);

@@ -27,7 +27,7 @@ double call_noise(void *data, double x, double y, double z)
     return c->noise(c->context, at);
 }
 
-/* One evaluator with variables of its own: two threads cannot use the same. */
+/* An evaluator with its own variables, for one thread at a time. */
 struct evaluator {
     mu::Parser parser;
     std::array<double, 3> x{};

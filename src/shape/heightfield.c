@@ -9,31 +9,30 @@
 
 #include "base/memory.h"
 #include "image/image.h"
-#include "image/spread.h"
+#include "image/sliding_max.h"
 
-enum { AWAY = 200 };
+enum { MAX_RIM_STEPS = 200 };
 
 struct heightfield {
     size_t width, height;
-    double min[3], max[3]; /* m; max[2]: of its highest point */
-    double dx, dy;         /* m, a pixel */
+    double min[3], max[3]; /* m; max[2]: its highest point */
+    double dx, dy;         /* m, size of a pixel */
     double reach;
-    double steepness;  /* sqrt(1 + the largest slope squared) */
-    float *z;          /* m, bottom row first */
-    float *low, *high; /* lowest and highest z within `reach` of a point in this pixel */
-    unsigned char *
-        away; /* bottom row first: steps to the nearest pixel of which one has a value and the other has none, in both
-                            directions at most AWAY; NULL: all have */
-    unsigned char *has;
+    double steepness; /* sqrt(1 + the largest slope squared) */
+    /* All [height][width], bottom row first: */
+    float *z;                 /* m */
+    float *low, *high;        /* m, the lowest and highest z within `reach` of any point of this pixel */
+    unsigned char *has;       /* does the pixel have a value? NULL: all have */
+    unsigned char *rim_steps; /* king's moves to the nearest pixel that differs in `has`, or MAX_RIM_STEPS */
 };
 
 static size_t pixels(double metres, double pixel, size_t limit)
 {
-    double n = ceil(metres / pixel) + 1; /* + 1: bilinear values lean on the next pixel */
+    double n = ceil(metres / pixel) + 1; /* + 1: bilinear interpolation uses the next pixel */
     return n < (double)limit ? (size_t)n : limit;
 }
 
-/* The extremes of the ground around each pixel, which bound the distance well even beside a cliff. */
+/* The extremes of the ground around each pixel bound the distance well even beside a cliff. */
 static status find_extremes(struct heightfield *f)
 {
     status st = OK;
@@ -45,8 +44,8 @@ static status find_extremes(struct heightfield *f)
         f->high[i] = f->z[i];
         f->low[i] = -f->z[i];
     }
-    TRY(spread_largest(f->width, f->height, rx, ry, f->high));
-    TRY(spread_largest(f->width, f->height, rx, ry, f->low));
+    TRY(sliding_max(f->width, f->height, rx, ry, f->high));
+    TRY(sliding_max(f->width, f->height, rx, ry, f->low));
     for (size_t i = 0; i < n; i++)
         f->low[i] = -f->low[i];
 done:
@@ -63,8 +62,8 @@ static double largest_slope(const struct heightfield *f, size_t step_x, size_t s
     return (double)largest / metres;
 }
 
-/* The image's bottom row first. */
-static status place_pixels(struct heightfield *f, const char *path, const struct image *image)
+/* Copies the image with its bottom row first, and checks the heights. */
+static status copy_pixels(struct heightfield *f, const char *path, const struct image *image)
 {
     f->max[2] = f->min[2];
     for (size_t y = 0; y < f->height; y++)
@@ -72,9 +71,10 @@ static status place_pixels(struct heightfield *f, const char *path, const struct
             const size_t from = (f->height - 1 - y) * f->width + x, to = y * f->width + x;
             const double z = (double)image->value[from];
             if (!(fabs(z) <= 1e7))
-                return fail(E_INPUT,
-                            "%s: pixel (%zu, %zu) from the top left is a height of %g m (at most 1e7)", path,
-                            x, f->height - 1 - y, z);
+                return fail(
+                    E_INPUT,
+                    "%s: pixel (%zu, %zu) from the top left has a height of %g m, beyond 1e7 m: check scale_m, nodata_value and max_m",
+                    path, x, f->height - 1 - y, z);
             f->z[to] = (float)z;
             if (f->has)
                 f->has[to] = image->has[from];
@@ -84,57 +84,60 @@ static status place_pixels(struct heightfield *f, const char *path, const struct
     return OK;
 }
 
-/* Steps of a king to where pixels stop having a value, or begin to, in two sweeps. */
-static void find_away(struct heightfield *f)
+/* Chebyshev distances (king's moves) by two raster sweeps. */
+static void find_rim_steps(struct heightfield *f)
 {
     const long w = (long)f->width, h = (long)f->height;
-    memset(f->away, AWAY, f->width * f->height);
+    memset(f->rim_steps, MAX_RIM_STEPS, f->width * f->height);
     for (long k = 0; k < 2 * w * h; k++) {
         const bool back = k >= w * h;
         const long i = back ? 2 * w * h - 1 - k : k, x = i % w, y = i / w, d = back ? 1 : -1;
-        const long near[4][2] = {{d, 0}, {-1, d}, {0, d}, {1, d}};
+        const long neighbour[4][2] = {{d, 0}, {-1, d}, {0, d}, {1, d}};
         for (int n = 0; n < 4; n++) {
-            const long u = x + near[n][0], v = y + near[n][1], j = v * w + u;
+            const long u = x + neighbour[n][0], v = y + neighbour[n][1], j = v * w + u;
             if (u < 0 || v < 0 || u >= w || v >= h)
                 continue;
             if (f->has[j] != f->has[i])
-                f->away[i] = f->away[j] = 1;
-            else if (f->away[j] < f->away[i])
-                f->away[i] = (unsigned char)(f->away[j] + 1);
+                f->rim_steps[i] = f->rim_steps[j] = 1;
+            else if (f->rim_steps[j] < f->rim_steps[i])
+                f->rim_steps[i] = (unsigned char)(f->rim_steps[j] + 1);
         }
     }
 }
 
-/* Where the file's own pixels are to say how large the picture is, they do; and the heights' meaning, where that is left to it. */
-static struct image_wish wish_of(const struct job_heightfield *job)
+/* Heights are stored values times scale_m, metres by the file's own metadata, or min_m.z to max_m.z for black to white. */
+static struct image_request request_of(const struct job_heightfield *job)
 {
-    struct image_wish wish = IMAGE_WISH(job);
-    wish.height = true;
+    struct image_request request = IMAGE_REQUEST(job);
+    request.height = true;
     if (job->scale_m != 0 || job_heights_are_metres(job)) {
-        wish.values = job->scale_m != 0 ? IMAGE_STORED : IMAGE_METRES;
-        wish.scale = job->scale_m != 0 ? job->scale_m : 1;
-        wish.offset = job->offset_m;
+        request.values = job->scale_m != 0 ? IMAGE_STORED : IMAGE_METRES;
+        request.scale = job->scale_m != 0 ? job->scale_m : 1;
+        request.offset = job->offset_m;
     } else {
-        wish.scale = job->max_m[2] - job->min_m[2];
-        wish.offset = job->min_m[2];
+        request.scale = job->max_m[2] - job->min_m[2];
+        request.offset = job->min_m[2];
     }
-    return wish;
+    return request;
 }
 
-static status take_extent(struct heightfield *f, const struct job_heightfield *job, const struct image *image)
+static status extent_from_map(struct heightfield *f, const struct job_heightfield *job,
+                              const struct image *image)
 {
     char what[400];
     if (image->map == IMAGE_NO_MAP)
         return fail(E_USAGE,
-                    "%s: max_m is left out, and the file does not say how large its pixels are: give max_m",
+                    "%s: max_m is omitted, but the file does not say how large its pixels are: set max_m",
                     job->file);
     if (image->map == IMAGE_MAP_TURNED)
-        return fail(E_USAGE, "%s: it lies askew on its map: give max_m, or turn it: gdalwarp %s straight.tif",
-                    job->file, job->file);
+        return fail(
+            E_USAGE,
+            "%s: it is rotated against its map's axes: set max_m, or straighten it: gdalwarp %s straight.tif",
+            job->file, job->file);
     if (image->map == IMAGE_MAP_DEGREES)
         return fail(
             E_USAGE,
-            "%s: its pixels are degrees of longitude and latitude, which have no size in metres: give max_m, or project it: gdalwarp -t_srs EPSG:326NN -r bilinear %s metres.tif, NN the UTM zone (327NN in the south)",
+            "%s: its pixels are in degrees of longitude and latitude, which have no size in metres: set max_m, or project it: gdalwarp -t_srs EPSG:326NN -r bilinear %s metres.tif, where NN is the UTM zone (327NN in the south)",
             job->file, job->file);
     for (int a = 0; a < 2; a++) {
         const size_t n = a ? f->height : f->width;
@@ -144,11 +147,11 @@ static status take_extent(struct heightfield *f, const struct job_heightfield *j
     }
     snprintf(
         what, sizeof what,
-        "%zu x %zu pixels of %.6g x %.6g m by its own word%s: x %.10g to %.10g, y %.10g to %.10g m; its left bottom corner is at (%.10g, %.10g) on its map",
+        "%zu x %zu pixels of %.6g x %.6g m by its metadata%s: x %.10g to %.10g, y %.10g to %.10g m; its bottom left corner is at (%.10g, %.10g) on its map",
         f->width, f->height, image->pixel[0], image->pixel[1],
-        image->map_named ? "" : ", which does not say that it means metres", f->min[0], f->max[0], f->min[1],
-        f->max[1], image->corner[0], image->corner[1]);
-    image_say(false, job->file, what);
+        image->map_named ? "" : ", which does not name its unit (metres are assumed)", f->min[0], f->max[0],
+        f->min[1], f->max[1], image->corner[0], image->corner[1]);
+    image_log(false, job->file, what);
     return OK;
 }
 
@@ -161,7 +164,7 @@ static status place_corners(struct heightfield *f, const struct job_heightfield 
         f->min[a] = job->min_m[a];
         f->max[a] = job->max_m[a];
     }
-    status st = job_sizes_heightfield(job) ? OK : take_extent(f, job, image);
+    status st = job_sizes_heightfield(job) ? OK : extent_from_map(f, job, image);
     f->dx = (f->max[0] - f->min[0]) / (double)f->width;
     f->dy = (f->max[1] - f->min[1]) / (double)f->height;
     return st;
@@ -172,21 +175,21 @@ status heightfield_create(const struct job_heightfield *job, double reach, struc
     status st = OK;
     struct heightfield *f = NULL;
     struct image image = {0};
-    const struct image_wish wish = wish_of(job);
+    const struct image_request request = request_of(job);
     TRY(memory_alloc(1, sizeof *f, "a heightfield", &f));
     f->reach = reach;
-    TRY(image_read(&wish, &image));
+    TRY(image_read(&request, &image));
     TRY(place_corners(f, job, &image));
     const size_t n = f->width * f->height;
     TRY(memory_alloc(n, sizeof *f->z, "a heightfield", &f->z));
     if (image.has) {
         TRY(memory_alloc(n, 1, "a heightfield", &f->has));
-        TRY(memory_alloc(n, 1, "a heightfield", &f->away));
+        TRY(memory_alloc(n, 1, "a heightfield", &f->rim_steps));
     }
-    TRY(place_pixels(f, job->file, &image));
+    TRY(copy_pixels(f, job->file, &image));
     image_free(&image);
-    if (f->away)
-        find_away(f);
+    if (f->rim_steps)
+        find_rim_steps(f);
     double slope_x = largest_slope(f, 1, 0, f->dx), slope_y = largest_slope(f, 0, 1, f->dy);
     f->steepness = sqrt(1 + slope_x * slope_x + slope_y * slope_y);
     TRY(find_extremes(f));
@@ -206,7 +209,7 @@ void heightfield_destroy(struct heightfield **field)
     free((*field)->low);
     free((*field)->high);
     free((*field)->has);
-    free((*field)->away);
+    free((*field)->rim_steps);
     free(*field);
     *field = NULL;
 }
@@ -219,7 +222,7 @@ void heightfield_bounds(const struct heightfield *field, double min[3], double m
     }
 }
 
-/* The integral of bilinear values whose outermost go on is the pixels' sum. */
+/* The integral of the bilinear surface, constant beyond the outermost pixel centres, is the sum over pixels. */
 double heightfield_volume(const struct heightfield *f)
 {
     double sum = 0;
@@ -246,16 +249,16 @@ static double height_at(const struct heightfield *f, double px, double py)
     return bottom + v * (top - bottom);
 }
 
-/* To where pixels stop having a value, negative in one that has. In pixel (i, j), beside one that differs, to the nearest such;
- * else, and at most, by whole pixels. */
+/* The distance to the rim between pixels with and without a value, negative where pixel (i, j) has one: exact next to the rim, else a
+ * lower bound in whole pixels. */
 static double rim_distance(const struct heightfield *f, double px, double py, size_t i, size_t j)
 {
     const size_t pixel = j * f->width + i;
     const double least = fmin(f->dx, f->dy);
-    double d = least * fmax(1, f->away[pixel] - 1);
-    for (int k = 0; f->away[pixel] == 1 && k < 9; k++) {
+    double d = least * fmax(1, f->rim_steps[pixel] - 1);
+    for (int k = 0; f->rim_steps[pixel] == 1 && k < 9; k++) {
         const size_t u = i + (size_t)(k % 3) - 1,
-                     v = j + (size_t)(k / 3) - 1; /* below 0: more than any width */
+                     v = j + (size_t)(k / 3) - 1; /* -1 wraps to more than any size */
         if (u >= f->width || v >= f->height || f->has[v * f->width + u] == f->has[pixel])
             continue;
         const double away_x = fmax(fmax((double)u - px, px - (double)u - 1), 0) * f->dx;
@@ -272,14 +275,13 @@ double heightfield_distance(const struct heightfield *f, const double x[3])
     size_t i = px < (double)f->width ? (size_t)px : f->width - 1;
     size_t j = py < (double)f->height ? (size_t)py : f->height - 1;
     size_t pixel = j * f->width + i;
-    /* Nearer than `reach`, the ground lies between low and high; in any case it is no steeper than its
-     * steepest. */
+    /* Two lower bounds: within `reach` the ground is between low and high, and nowhere is it steeper than its steepest slope. */
     double rise = x[2] - height_at(f, px, py), d = rise / f->steepness;
     if (rise > 0)
         d = fmax(d, fmin(f->reach, x[2] - f->high[pixel]));
     else
         d = fmin(d, fmax(-f->reach, x[2] - f->low[pixel]));
-    if (f->away)
+    if (f->rim_steps)
         d = fmax(d, rim_distance(f, px, py, i, j));
     d = fmax(d, f->min[2] - x[2]);
     d = fmax(d, fmax(f->min[0] - x[0], x[0] - f->max[0]));

@@ -1,7 +1,7 @@
-/* The ground below a grey image: solid where min_m.z <= z <= height(x, y), within the rectangle.
+/* The ground below a height image: solid where min_m.z <= z <= height(x, y), within the rectangle min_m to max_m.
  *
- * Values belong to the middles of pixels; between them bilinear, beyond the outermost the same. The image's
- * bottom row lies along min_m.y. With nodata: empty, the squares of pixels without a value hold no rock.
+ * Values are at pixel centres, bilinear between them and constant beyond the outermost. The image's bottom row is at min_m.y. With
+ * nodata: empty there is no rock in the squares of pixels without a value.
  */
 #ifndef HOODOO_SHAPE_HEIGHTFIELD_H
 #define HOODOO_SHAPE_HEIGHTFIELD_H
@@ -11,18 +11,18 @@
 
 struct heightfield;
 
-/* Distances are good up to `reach` metres (and may stop growing there). E_INPUT as image_read(). E_USAGE as image_read(), or the file
- * is to say how large it is and does not. */
+/* Distances are useful up to `reach` metres and may stop growing there. Errors of image_read(); E_INPUT: a height beyond 1e7 m; E_USAGE:
+ * max_m is omitted and the file does not state its extent in metres. */
 MUST_USE status heightfield_create(const struct job_heightfield *job, double reach, struct heightfield **out);
 void heightfield_destroy(struct heightfield **field);
 
-/* m, negative inside; the sign is exact, the size at most the true distance. */
+/* m, negative inside: exact in sign, in size a lower bound. */
 double heightfield_distance(const struct heightfield *field, const double x[3]);
 
-/* m3 between min_m.z and the ground, as the pixels have it. */
+/* The volume between min_m.z and the surface, integrated over the pixels, m3. */
 double heightfield_volume(const struct heightfield *field);
 
-/* A box around it, m. */
+/* Its bounding box, m. */
 void heightfield_bounds(const struct heightfield *field, double min[3], double max[3]);
 
 #endif

@@ -1,9 +1,7 @@
-/* Columns of rock between joints, from a grey image (Goblins, section 4): no rock where it is black, and
- * straight sides everywhere else.
+/* Columns of rock between joints, from a grey image (Goblins, section 4): no rock where it is black, and vertical sides.
  *
- * Values belong to the middles of pixels; the outline runs where the bilinear mask of rock is 1/2, so that it
- * is smooth at any voxel size. With `reach`, grey is how high a column reaches. The image's bottom row lies
- * along min_m.y.
+ * Values are at pixel centres. The outline is where the bilinear mask of rock is 1/2, so that it is smooth at any voxel size. With
+ * jointmap.reach, grey is the height of a column. The image's bottom row is at min_m.y.
  */
 #ifndef HOODOO_SHAPE_JOINTMAP_H
 #define HOODOO_SHAPE_JOINTMAP_H
@@ -13,11 +11,11 @@
 
 struct jointmap;
 
-/* E_INPUT as image_read(), or a pixel that is not a finite number. E_USAGE: all of it is black. */
+/* Errors of image_read(); E_INPUT: a value beyond 1e6; E_USAGE: the whole image is black. */
 MUST_USE status jointmap_create(const struct job_jointmap *job, struct jointmap **out);
 void jointmap_destroy(struct jointmap **map);
 
-/* m, negative inside; the sign is exact, the size at most the true distance. */
+/* m, negative inside: exact in sign, in size a lower bound. */
 double jointmap_distance(const struct jointmap *map, const double x[3]);
 
 #endif

@@ -12,19 +12,19 @@
 #include "meshinput/winding.h"
 #include "reader/mesh_part.h"
 
-/* Grid values a mesh may take, about 1 GiB with what building it needs on top. */
+/* Limit of a mesh's grid values: about 1 GiB, including the memory to build it. */
 #define MAX_GRID_VALUES 64e6
 
-/* Of an open mesh's area, how much may be sheets that nothing is behind. */
+/* Limit of the share of an open mesh's area that encloses nothing (sheets). */
 #define MAX_SHEETS 0.05
 
-/* What is known of the mesh on its way to a solid. */
+/* A mesh that is being made into a solid. */
 struct work {
     const char *path;
     struct mesh mesh;
     double min[3], max[3]; /* m */
     double voxel, band;    /* m */
-    double own_m3;
+    double file_m3;
     struct mesh_open open;
     struct winding *winding;
 };
@@ -44,8 +44,8 @@ static status place_vertices(struct mesh *mesh, const char *path, bool y_up, boo
             origin[a] = fmin(origin[a], mesh->vertex[i][a]);
     }
     if (auto_origin)
-        log_info("%s: its origin is put at the lowest corner around it, (%.10g, %.10g, %.10g) m with z up",
-                 path, origin[0], origin[1], origin[2]);
+        log_info("%s: origin auto: moved by minus its lowest corner, (%.10g, %.10g, %.10g) m with z up", path,
+                 origin[0], origin[1], origin[2]);
     for (size_t i = 0; i < mesh->n_vertices; i++) {
         double *v = mesh->vertex[i];
         const double local[3] = {v[0] - origin[0], v[1] - origin[1], v[2] - origin[2]};
@@ -54,7 +54,7 @@ static status place_vertices(struct mesh *mesh, const char *path, bool y_up, boo
             if (!(fabs(v[a]) <= 1e6))
                 return fail(
                     E_INPUT,
-                    "%s: vertex %zu stands at (%.10g, %.10g, %.10g) m, farther than 1e6 m: scale the mesh down, or give origin: auto where it has the coordinates of a map",
+                    "%s: vertex %zu is at (%.10g, %.10g, %.10g) m, farther out than 1e6 m: scale the mesh down, or set origin: auto if it has map coordinates",
                     path, i + 1, v[0], v[1], v[2]);
             min[a] = fmin(min[a], v[a]);
             max[a] = fmax(max[a], v[a]);
@@ -71,8 +71,7 @@ static double longest_side(const struct work *w)
     return longest;
 }
 
-/* The grid's spacing: what is asked for, or coarser where the mesh is so large that its grid would not fit.
- */
+/* The grid's spacing: `detail`, or coarser if the mesh is so large that its grid would exceed MAX_GRID_VALUES. */
 static double choose_voxel(const struct work *w, double detail, double reach)
 {
     double area = 0;
@@ -81,7 +80,7 @@ static double choose_voxel(const struct work *w, double detail, double reach)
     double fits = fmax(cbrt(2 * area * reach / MAX_GRID_VALUES), longest_side(w) / 1e6);
     if (fits > detail)
         log_warn(
-            "%s: the mesh is sampled every %.3g m instead of %.3g m, to fit in memory: cut off what lies outside the domain",
+            "%s: the mesh is voxelised at %.3g m instead of %.3g m to fit in memory: cut off what is outside of the domain",
             w->path, fits, detail);
     return fmax(fits, detail);
 }
@@ -96,7 +95,7 @@ static const double *open_at(const struct work *w)
     return w->mesh.vertex[w->open.edge[0][0]];
 }
 
-/* The share of an open mesh's area that has nothing on either side, by some thousands of its triangles. */
+/* The share of an open mesh's area that has no inside on either side, estimated from some thousands of its triangles. */
 static double share_of_sheets(const struct work *w)
 {
     const size_t step = w->mesh.n_triangles / 4096 + 1;
@@ -113,7 +112,7 @@ static double share_of_sheets(const struct work *w)
                        (w->mesh.vertex[corner[0]][a] + w->mesh.vertex[corner[1]][a] +
                         w->mesh.vertex[corner[2]][a]) /
                            3;
-            inside |= fabsf(winding_at(w->winding, x)) >= 0.5F;
+            inside |= fabsf(winding_number(w->winding, x)) >= 0.5F;
         }
         area += own;
         sheets += inside ? 0 : own;
@@ -127,26 +126,26 @@ static status check_sheets(const struct work *w)
     if (share > MAX_SHEETS)
         return fail(
             E_INPUT,
-            "%s: the surface is open: %zu edges end it, one at (%.6g, %.6g, %.6g) m in the scene, and %.0f %% of it are sheets with nothing behind them: " HOW_TO_FILL,
+            "%s: the surface is open: it has %zu boundary edges, one at (%.6g, %.6g, %.6g) m in the scene, and %.0f %% of its area are sheets that enclose nothing: " HOW_TO_FILL,
             w->path, w->open.n, at[0], at[1], at[2], 100 * share);
     return OK;
 }
 
-static void wind(const void *winding, const double (*x)[3], size_t n, float *number)
+static void compute_winding(const void *winding, const double (*x)[3], size_t n, float *number)
 {
-    winding_of(winding, x, n, number);
+    winding_numbers(winding, x, n, number);
 }
 
 static status sample(const struct work *w, double voxel, double band, double hole, struct vdb_sdf **out)
 {
-    const struct sdf_question q = {
+    const struct sdf_request q = {
         .vertex = (const double(*)[3])w->mesh.vertex,
         .n_vertices = w->mesh.n_vertices,
         .triangle = (const uint32_t(*)[3])w->mesh.triangle,
         .n_triangles = w->mesh.n_triangles,
         .voxel = voxel,
         .band = band,
-        .winding = wind,
+        .winding = compute_winding,
         .context = w->winding,
         .open = (const uint32_t(*)[2])w->open.edge,
         .n_open = w->open.n,
@@ -155,7 +154,7 @@ static status sample(const struct work *w, double voxel, double band, double hol
     return vdb_sdf_create(&q, out);
 }
 
-/* A gap that reaches beyond the band, measured with ever larger voxels. */
+/* Measures a gap that is wider than the band, with larger and larger voxels. */
 static status measure_gap(const struct work *w, struct sdf_gap *gap)
 {
     status st = OK;
@@ -175,17 +174,17 @@ done:
     return st;
 }
 
-static status refuse(const struct work *w, struct sdf_gap gap)
+static status refuse_gap(const struct work *w, struct sdf_gap gap)
 {
     return fail(
         E_INPUT,
-        "%s: the surface is open: %zu edges end it, one at (%.6g, %.6g, %.6g) m in the scene, and the widest gap is about %.2g m, near (%.4g, %.4g, %.4g): " HOW_TO_FILL
-        ", or let gaps be closed straight across with mesh.fill_holes_m",
+        "%s: the surface is open: it has %zu boundary edges, one at (%.6g, %.6g, %.6g) m in the scene, and the widest gap is about %.2g m, near (%.4g, %.4g, %.4g): " HOW_TO_FILL
+        ", or close gaps up to a width by flat caps with mesh.fill_holes_m",
         w->path, w->open.n, open_at(w)[0], open_at(w)[1], open_at(w)[2], gap.width, gap.at[0], gap.at[1],
         gap.at[2]);
 }
 
-/* Adds what closes the gaps to the mesh; its winding number stays that of the open one. */
+/* Adds the triangles that close the gaps to the mesh. Its winding number remains that of the open mesh. */
 static status close_gaps(struct work *w, struct vdb_sdf **sdf)
 {
     status st = OK;
@@ -215,23 +214,23 @@ static status sample_open(struct work *w, double fill, struct vdb_sdf **out)
     struct sdf_gap gap = vdb_sdf_gap(*out);
     if (gap.width == 0) {
         log_warn(
-            "%s: the surface is open along %zu edges, one at (%.6g, %.6g, %.6g) m in the scene, but there is no gap as wide as %.2g m: taken as closed",
+            "%s: the surface is open along %zu edges, one at (%.6g, %.6g, %.6g) m in the scene, but no gap is as wide as %.2g m: it counts as closed",
             w->path, w->open.n, open_at(w)[0], open_at(w)[1], open_at(w)[2], 2 * voxel);
         return OK;
     }
     TRY(measure_gap(w, &gap));
     if (gap.width > widest + voxel) {
         vdb_sdf_destroy(out);
-        TRY(refuse(w, gap));
+        TRY(refuse_gap(w, gap));
     }
-    if (gap.width > band) { /* the other side of such a gap is not in the band */
+    if (gap.width > band) { /* the band does not reach to the other side of such a gap */
         vdb_sdf_destroy(out);
         w->band = gap.width / 2 + 4 * voxel;
         w->voxel = choose_voxel(w, voxel, w->band);
         TRY(sample(w, w->voxel, w->band, gap.width, out));
     }
     log_warn(
-        "%s: the surface is open along %zu edges, with gaps of up to %.2g m: closed (up to %.2g m are; mesh.fill_holes_m)",
+        "%s: the surface is open along %zu edges, with gaps of up to %.2g m, which are closed (the limit, mesh.fill_holes_m, is %.2g m)",
         w->path, w->open.n, gap.width, widest);
     w->voxel = voxel;
     w->band = band;
@@ -241,19 +240,19 @@ done:
     return st;
 }
 
-/* Of the mesh in w, which goes. */
-static status make(struct work *w, double fill, double detail, double reach, struct vdb_sdf **out,
-                   double min[3], double max[3])
+/* Makes the distance field of w->mesh, which is changed. */
+static status make_sdf(struct work *w, double fill, double detail, double reach, struct vdb_sdf **out,
+                       double min[3], double max[3])
 {
     status st = OK;
     memcpy(min, w->min, sizeof w->min);
     memcpy(max, w->max, sizeof w->max);
     w->voxel = choose_voxel(w, detail, reach);
     w->band = fmax(reach, 3 * w->voxel);
-    /* Single precision's rounding, or what no spacing can show, but not so much that faces would go. */
+    /* The rounding of single precision or a thousandth of a voxel, but not so much that faces would collapse. */
     const double tolerance = fmin(fmax(longest_side(w) * 0x1p-20, w->voxel / 1000), w->voxel / 8);
-    TRY(mesh_tidy(&w->mesh, w->path, tolerance, &w->open));
-    w->own_m3 = w->open.n ? (double)NAN : fabs(mesh_volume(&w->mesh));
+    TRY(mesh_repair(&w->mesh, w->path, tolerance, &w->open));
+    w->file_m3 = w->open.n ? (double)NAN : fabs(mesh_volume(&w->mesh));
     TRY(winding_create((const double(*)[3])w->mesh.vertex, w->mesh.n_vertices,
                        (const uint32_t(*)[3])w->mesh.triangle, w->mesh.n_triangles, w->open.n ? 2 : 1.5,
                        &w->winding));
@@ -267,52 +266,52 @@ done:
     return st;
 }
 
-static const struct work nothing_yet = {.min = {INFINITY, INFINITY, INFINITY},
-                                        .max = {-INFINITY, -INFINITY, -INFINITY}};
+static const struct work empty_work = {.min = {INFINITY, INFINITY, INFINITY},
+                                       .max = {-INFINITY, -INFINITY, -INFINITY}};
 
-status mesh_solid(const struct job_mesh *job, const struct placement *place, double detail, double reach,
-                  struct vdb_sdf **out, double min[3], double max[3], double *own_m3)
+status mesh_shape_create(const struct job_mesh *job, const struct placement *place, double detail,
+                         double reach, struct vdb_sdf **out, double min[3], double max[3], double *file_m3)
 {
     status st = OK;
-    struct work w = nothing_yet;
+    struct work w = empty_work;
     w.path = job->file;
     TRY(mesh_read(job->file, &w.mesh));
     if (w.mesh.y_up && job->up != MESH_UP_Y)
         log_warn(
-            "%s: in glTF files y is up, but this mesh is read with z up, as mesh.up says or leaves it: give up: y unless it lies on its side",
+            "%s: glTF files are y up, but mesh.up is z: set mesh.up: y unless the mesh lies on its side in the file",
             job->file);
     TRY(place_vertices(&w.mesh, job->file, job->up == MESH_UP_Y, job->origin == MESH_ORIGIN_AUTO, place,
                        w.min, w.max));
-    TRY(make(&w, job->fill_holes_m, detail, reach, out, min, max));
-    *own_m3 = w.own_m3;
+    TRY(make_sdf(&w, job->fill_holes_m, detail, reach, out, min, max));
+    *file_m3 = w.file_m3;
 done:
     mesh_free(&w.mesh);
     return st;
 }
 
-status volume_solid(const struct job_volume *job, const struct placement *place, double detail, double reach,
-                    struct vdb_sdf **out, double min[3], double max[3], double *own_m3)
+status volume_shape_create(const struct job_volume *job, const struct placement *place, double detail,
+                           double reach, struct vdb_sdf **out, double min[3], double max[3], double *file_m3)
 {
     status st = OK;
-    struct work w = nothing_yet;
+    struct work w = empty_work;
     struct mesh_part part;
     char density[32];
     w.path = job->file;
     snprintf(density, sizeof density, "%.9g", job->density);
-    TRY(mesh_ask("hoodoo-read", "vdb.shape", job->file, (const char *const[]){job->grid, density, NULL},
-                 &part, &w.mesh));
+    TRY(mesh_read_by("hoodoo-read", "vdb.shape", job->file, (const char *const[]){job->grid, density, NULL},
+                     &part, &w.mesh));
     const bool y_up = job->up == VOLUME_UP_Y || (job->up == VOLUME_UP_FILE && part.y_up);
-    log_note("%s: grid '%s' is taken as %s%s, with %c up", job->file, part.grid,
-             part.is_fog ? "a fog, where it is denser than " : "a level set", part.is_fog ? density : "",
-             y_up ? 'y' : 'z');
+    log_note("%s: grid '%s' is read as %s%s, %c up", job->file, part.grid,
+             part.is_fog ? "a fog volume, solid above a density of " : "a level set",
+             part.is_fog ? density : "", y_up ? 'y' : 'z');
     if (w.mesh.n_triangles == 0) {
         st = fail(E_INPUT, "%s: grid '%s' has no surface%s%s", job->file, part.grid,
                   part.is_fog ? " at a density of " : "", part.is_fog ? density : "");
         goto done;
     }
     TRY(place_vertices(&w.mesh, job->file, y_up, false, place, w.min, w.max));
-    TRY(make(&w, 0, detail, reach, out, min, max));
-    *own_m3 = w.own_m3;
+    TRY(make_sdf(&w, 0, detail, reach, out, min, max));
+    *file_m3 = w.file_m3;
 done:
     mesh_free(&w.mesh);
     return st;

@@ -25,7 +25,7 @@ struct noise noise_init(const struct job_noise *job, uint32_t seed)
     return n;
 }
 
-/* (x, y, z) along one of (+-1, +-1, 0), (+-1, 0, +-1), (0, +-1, +-1). */
+/* The dot product of d with one of the gradients (+-1, +-1, 0), (+-1, 0, +-1), (0, +-1, +-1). */
 static double along_gradient(uint32_t hash, const double d[3])
 {
     uint32_t edge = (uint32_t)(((uint64_t)hash * 12) >> 32);

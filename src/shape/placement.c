@@ -8,7 +8,7 @@ struct placement placement_identity(void)
     return (struct placement){
         .world_from_local = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
         .local_from_world = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}},
-        .shrink = 1,
+        .min_scale = 1,
     };
 }
 
@@ -27,7 +27,7 @@ static void multiply(double a[3][4], double b[3][4], double out[3][4])
     memcpy(out, m, sizeof m);
 }
 
-/* The 3x3 matrix that turns about x, then y, then z. */
+/* The rotation about x, then y, then z. */
 static void rotation(const double degrees[3], double r[3][3])
 {
     double s[3], c[3];
@@ -43,7 +43,7 @@ static void rotation(const double degrees[3], double r[3][3])
     memcpy(r, m, sizeof m);
 }
 
-/* Every kind of node carries the same four keys (keys.def, PLACE), each in its own struct. */
+/* Each kind of node has the same four keys (PLACE in job/keys.def), in a struct of its own. */
 struct keys {
     const double *scale, *rotate_deg, *translate_m;
     bool inert;
@@ -86,16 +86,16 @@ static struct keys keys_of(const struct job_node *node)
     return KEYS(node->u.box);
 }
 
-struct placement placement_below(const struct placement *parent, const struct job_node *node)
+struct placement placement_child(const struct placement *parent, const struct job_node *node)
 {
     struct keys k = keys_of(node);
     struct placement above = *parent, p = {.inert = parent->inert || k.inert};
-    double turn[3][3], forward[3][4], back[3][4];
-    rotation(k.rotate_deg, turn);
+    double rotated[3][3], forward[3][4], back[3][4];
+    rotation(k.rotate_deg, rotated);
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
-            forward[r][c] = turn[r][c] * k.scale[c];
-            back[r][c] = turn[c][r] / k.scale[r];
+            forward[r][c] = rotated[r][c] * k.scale[c];
+            back[r][c] = rotated[c][r] / k.scale[r];
         }
         forward[r][3] = k.translate_m[r];
     }
@@ -103,12 +103,12 @@ struct placement placement_below(const struct placement *parent, const struct jo
         back[r][3] = -(back[r][0] * forward[0][3] + back[r][1] * forward[1][3] + back[r][2] * forward[2][3]);
     multiply(above.world_from_local, forward, p.world_from_local);
     multiply(back, above.local_from_world, p.local_from_world);
-    p.shrink = parent->shrink * fmin(k.scale[0], fmin(k.scale[1], k.scale[2]));
+    p.min_scale = parent->min_scale * fmin(k.scale[0], fmin(k.scale[1], k.scale[2]));
     return p;
 }
 
-/* Widens min..max by the box lo..hi, seen through m. */
-static void widen(const double m[3][4], const double lo[3], const double hi[3], double min[3], double max[3])
+/* Extends min..max by the box lo..hi transformed by m. */
+static void extend(const double m[3][4], const double lo[3], const double hi[3], double min[3], double max[3])
 {
     for (int corner = 0; corner < 8; corner++) {
         double x[3], seen[3];
@@ -125,16 +125,16 @@ static void widen(const double m[3][4], const double lo[3], const double hi[3], 
 void placement_box(const struct placement *place, const double lo[3], const double hi[3], double min[3],
                    double max[3])
 {
-    widen(place->world_from_local, lo, hi, min, max);
+    extend(place->world_from_local, lo, hi, min, max);
 }
 
 void placement_box_local(const struct placement *place, const double min[3], const double max[3],
                          double lo[3], double hi[3])
 {
-    widen(place->local_from_world, min, max, lo, hi);
+    extend(place->local_from_world, min, max, lo, hi);
 }
 
-double placement_growth(const struct placement *place)
+double placement_volume_scale(const struct placement *place)
 {
     const double(*m)[4] = place->world_from_local;
     return fabs(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -

@@ -17,7 +17,7 @@ static double box_distance(const double lo[3], const double hi[3], const double 
     return inside > 0 ? sqrt(outside) : inside;
 }
 
-/* A capped cone is a trapezoid turned about its axis: distance in the plane of the axis and the point. */
+/* A capped cone is a trapezoid rotated about its axis: the distance is computed in the plane through the axis and the point. */
 static double cylinder_distance(const double from[3], const double axis[3], double length,
                                 const double radius[2], const double x[3])
 {
@@ -86,7 +86,7 @@ double shape_distance(const struct shape *shape, const double x[3])
     case SHAPE_VOLUME:
         break;
     }
-    return d * shape->place.shrink;
+    return d * shape->place.min_scale;
 }
 
 bool shape_holds_box(const struct shape *shape, const double min[3], const double max[3])
@@ -112,8 +112,7 @@ bool shape_loose(const struct shape *shape, const double x[3])
 
 /* ---- shapes from the job */
 
-/* Turns v into a unit vector and gives its length, in two steps so that tiny and huge vectors keep their
- * digits. */
+/* Normalises v and returns its length, in two steps so that tiny and huge vectors neither underflow nor overflow. */
 static double normalize(double v[3])
 {
     double largest = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2]))), length = 0;
@@ -143,7 +142,7 @@ static status cylinder_init(struct shape *s, const struct job_cylinder *c)
     s->u.cylinder.radius[1] = top;
     s->u.cylinder.length = normalize(s->u.cylinder.axis);
     if (!(s->u.cylinder.length > 0))
-        return fail(E_USAGE, "scene: a cylinder's from_m and to_m are the same point: give it a length");
+        return fail(E_USAGE, "scene: a cylinder's from_m and to_m are the same point: move one of them");
     placement_box(&s->place, lo, hi, s->min, s->max);
     return OK;
 }
@@ -154,7 +153,7 @@ static status plane_init(struct shape *s, const struct job_plane *p)
     for (int a = 0; a < 3; a++)
         n[a] = p->normal[a];
     if (!(normalize(n) > 0))
-        return fail(E_USAGE, "scene: a plane's normal is 0: give it a direction, out of the rock");
+        return fail(E_USAGE, "scene: a plane's normal is 0: set it to the direction out of the rock");
     s->u.plane.offset = p->point_m[0] * n[0] + p->point_m[1] * n[1] + p->point_m[2] * n[2];
     for (int a = 0; a < 3; a++) {
         s->min[a] = -INFINITY;
@@ -163,7 +162,7 @@ static status plane_init(struct shape *s, const struct job_plane *p)
     return OK;
 }
 
-/* The rule min_m < max_m, for boxes and images. */
+/* Checks min_m < max_m. */
 static status check_corners(const char *what, const double min[3], const double max[3])
 {
     for (int a = 0; a < 3; a++)
@@ -182,7 +181,7 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         .place = *place,
         .min = {INFINITY, INFINITY, INFINITY},
         .max = {-INFINITY, -INFINITY, -INFINITY},
-        .own_m3 = (double)NAN,
+        .file_m3 = (double)NAN,
     };
     switch (node->shape) {
     case SHAPE_BOX:
@@ -208,24 +207,25 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         TRY(plane_init(s, &node->u.plane));
         break;
     case SHAPE_MESH:
-        TRY(mesh_solid(&node->u.mesh, place, detail, reach, &s->u.mesh, s->min, s->max, &s->own_m3));
+        TRY(mesh_shape_create(&node->u.mesh, place, detail, reach, &s->u.mesh, s->min, s->max, &s->file_m3));
         break;
     case SHAPE_VOLUME:
-        TRY(volume_solid(&node->u.volume, place, detail, reach, &s->u.mesh, s->min, s->max, &s->own_m3));
+        TRY(volume_shape_create(&node->u.volume, place, detail, reach, &s->u.mesh, s->min, s->max,
+                                &s->file_m3));
         break;
     case SHAPE_FUNCTION: {
         const struct job_function *f = &node->u.function;
         TRY(check_corners("function", f->min_m, f->max_m));
-        TRY(function_create(f, detail / place->shrink, &s->u.function));
+        TRY(function_create(f, detail / place->min_scale, &s->u.function));
         placement_box(place, f->min_m, f->max_m, s->min, s->max);
         break;
     }
     case SHAPE_HEIGHTFIELD: {
         const struct job_heightfield *h = &node->u.heightfield;
         double lo[3], hi[3];
-        TRY(heightfield_create(h, reach / place->shrink, &s->u.heightfield));
+        TRY(heightfield_create(h, reach / place->min_scale, &s->u.heightfield));
         heightfield_bounds(s->u.heightfield, lo, hi);
-        s->own_m3 = heightfield_volume(s->u.heightfield) * placement_growth(place);
+        s->file_m3 = heightfield_volume(s->u.heightfield) * placement_volume_scale(place);
         placement_box(place, lo, hi, s->min, s->max);
         break;
     }
@@ -246,7 +246,7 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
     case SHAPE_STACKS: {
         const double origin[3] = {0, 0, 0};
         double size[3];
-        TRY(terrain_shape_create(&node->u.stacks, reach / place->shrink, &s->u.terrain));
+        TRY(terrain_shape_create(&node->u.stacks, reach / place->min_scale, &s->u.terrain));
         terrain_shape_size(s->u.terrain, size);
         placement_box(place, origin, size, s->min, s->max);
         break;

@@ -1,4 +1,4 @@
-/* One shape of the scene, placed: its signed distance in the world. */
+/* A shape, a leaf of the scene's CSG tree, with its placement: a signed distance in world space. */
 #ifndef HOODOO_SHAPE_H
 #define HOODOO_SHAPE_H
 
@@ -14,7 +14,7 @@ struct shape {
     enum job_shape kind;
     struct placement place;
     double min[3], max[3]; /* m, in the world; infinite for a plane */
-    double own_m3;         /* what its file holds by the file's own measure; NAN: nothing says so */
+    double file_m3; /* m3 in the world, as the file itself has it (closed mesh, heightfield); NAN: unknown */
     union {
         struct job_box box;
         struct job_sphere sphere;
@@ -24,7 +24,8 @@ struct shape {
         struct {
             double normal[3], offset; /* unit; inside where x . normal <= offset */
         } plane;
-        struct vdb_sdf *mesh; /* of SHAPE_VOLUME, too; already in the world: its vertices were placed */
+        struct vdb_sdf *
+            mesh; /* SHAPE_MESH, SHAPE_VOLUME: in world space, for its vertices are transformed when it is read */
         struct heightfield *heightfield;
         struct jointmap *jointmap;
         struct stroke *stroke;
@@ -33,15 +34,16 @@ struct shape {
     } u;
 };
 
-/* `detail`, `reach`: as for solid_create(). E_USAGE: a degenerate shape. E_INPUT: its file. */
+/* Makes the shape of `node` and reads its file. `detail`, `reach`: as for solid_create(). Free with shape_deinit(), also on error.
+ * E_USAGE: a degenerate shape. E_INPUT: its file. E_MEMORY. */
 MUST_USE status shape_init(struct shape *shape, const struct job_node *node, const struct placement *place,
                            double detail, double reach);
 void shape_deinit(struct shape *shape);
 
-/* m, negative inside; the sign is exact, the size exact or less. */
+/* m, negative inside: exact in sign, in size exact or a lower bound. Thread-safe. */
 double shape_distance(const struct shape *shape, const double x[3]);
 
-/* Are all points of the world's box min..max in the shape? False where that takes more than its extents to tell. */
+/* Is the world box min..max surely inside the shape? Only known for boxes; false for all other kinds. */
 bool shape_holds_box(const struct shape *shape, const double min[3], const double max[3]);
 
 /* Is the shape loose material at x? */

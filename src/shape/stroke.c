@@ -6,8 +6,7 @@
 
 #include "base/memory.h"
 
-/* Pieces of the line in one box: a point asks boxes first, so that long strokes cost little more than short
- * ones. */
+/* Segments per bounding box: boxes are tested before segments, so that long strokes cost little more than short ones. */
 enum { RUN = 16 };
 
 struct box {
@@ -26,7 +25,7 @@ status stroke_create(const struct job_stroke *job, struct stroke **out)
     status st = OK;
     struct stroke *s = NULL;
     if (job->n_path_m == 0)
-        return fail(E_USAGE, "scene: a stroke without points: give it a path_m of at least one");
+        return fail(E_USAGE, "scene: a stroke has no points: set its path_m to at least one");
     TRY(memory_alloc(1, sizeof *s, "a stroke", &s));
     s->n = job->n_path_m;
     s->radius = job->radius_m;
@@ -39,7 +38,7 @@ status stroke_create(const struct job_stroke *job, struct stroke **out)
         for (int a = 0; a < 3; a++) {
             b->min[a] = INFINITY;
             b->max[a] = -INFINITY;
-            /* A run's last piece ends where the next run begins. */
+            /* The last segment of a run ends at the first point of the next. */
             for (size_t i = r * RUN; i <= (r + 1) * RUN && i < s->n; i++) {
                 b->min[a] = fmin(b->min[a], s->point[i][a]);
                 b->max[a] = fmax(b->max[a], s->point[i][a]);
@@ -85,7 +84,7 @@ static double square_to_box(const struct box *b, const double x[3])
     return square;
 }
 
-static double square_to_piece(const double p[3], const double q[3], const double x[3])
+static double square_to_segment(const double p[3], const double q[3], const double x[3])
 {
     double length = 0, along = 0, square = 0;
     for (int a = 0; a < 3; a++) {
@@ -107,7 +106,7 @@ double stroke_distance(const struct stroke *s, const double x[3])
         if (square_to_box(&s->run[r], x) >= best)
             continue;
         for (size_t i = r * RUN; i < (r + 1) * RUN && i < s->n; i++)
-            best = fmin(best, square_to_piece(s->point[i], s->point[i + 1 < s->n ? i + 1 : i], x));
+            best = fmin(best, square_to_segment(s->point[i], s->point[i + 1 < s->n ? i + 1 : i], x));
     }
     return sqrt(best) - s->radius;
 }

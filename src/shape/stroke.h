@@ -1,4 +1,4 @@
-/* Brush strokes: all within a radius of a line of points. */
+/* Brush strokes: all points within a radius of a polyline. */
 #ifndef HOODOO_SHAPE_STROKE_H
 #define HOODOO_SHAPE_STROKE_H
 
@@ -7,11 +7,11 @@
 
 struct stroke;
 
-/* The points are copied. E_USAGE: there is none. */
+/* Copies the points. E_USAGE: there are none. E_MEMORY. */
 MUST_USE status stroke_create(const struct job_stroke *job, struct stroke **out);
 void stroke_destroy(struct stroke **stroke);
 
-/* The box around it, m. */
+/* Its bounding box, m. */
 void stroke_bounds(const struct stroke *stroke, double min[3], double max[3]);
 
 /* m, negative inside; exact outside. */

@@ -9,14 +9,13 @@
 
 struct terrain_shape {
     struct stacks stacks;
-    uint32_t solid; /* materials, a bit each */
+    uint32_t solid; /* set of materials that are rock, a bit each */
     struct surface surface, far;
     double size[3];
 };
 
-/* A box of half-width sigma that is all full, or all empty, keeps the surface sigma away; one cut by a plane
- * has no more than sqrt(2) times the area of a side in the cut, so f changes by no more than sqrt(2) / sigma
- * a metre. */
+/* The slope of the field f is at most sqrt(2) / sigma per metre: the plane section of a box of half-width sigma has at most sqrt(2) times
+ * the area of a face. Where the box is completely full or empty, the surface is at least sigma away. */
 #define STEEPEST 1.41422
 
 status terrain_shape_create(const struct job_stacks *job, double reach, struct terrain_shape **out)

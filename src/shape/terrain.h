@@ -1,4 +1,4 @@
-/* Stacks of layers, as model arches writes them, as a shape: rock, and what lies loose on it. */
+/* Material stacks, as model arches writes them (stacks/FORMAT.md), as a shape: rock and loose material. */
 #ifndef HOODOO_SHAPE_TERRAIN_H
 #define HOODOO_SHAPE_TERRAIN_H
 
@@ -8,18 +8,18 @@
 
 struct terrain_shape;
 
-/* Distances are wanted up to `reach` m from the surface. E_INPUT: the file. */
+/* Distances are useful up to `reach` m from the surface. E_INPUT: the file. E_MEMORY. */
 MUST_USE status terrain_shape_create(const struct job_stacks *job, double reach, struct terrain_shape **out);
 void terrain_shape_destroy(struct terrain_shape **t);
 
-/* Its size, m: from the origin. */
+/* Its size, m; it starts at the origin. */
 void terrain_shape_size(const struct terrain_shape *t, double size[3]);
 
-/* m, negative inside: the sign is that of the smooth surface over all layers but water, the size no more than
- * the distance to it. */
+/* The distance to the smooth surface (stacks/surface.h) of all layers except air and water, m, negative inside: exact in sign, in size a
+ * lower bound. */
 double terrain_shape_distance(const struct terrain_shape *t, const double x[3]);
 
-/* Is what is at x, or if that is air what is below it, loose? */
+/* Is the material at x loose? In air or water, that of the highest layer below x. */
 bool terrain_shape_loose(const struct terrain_shape *t, const double x[3]);
 
 #endif

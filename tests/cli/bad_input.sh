@@ -69,14 +69,14 @@ check "--set without a value" refused 2 "--set" run "$job" --set seed
 # ---- the scene
 
 job_with 's/max_m: \[[0-9]*, 6, [0-9]*\]/min_m: [20, 20, 20], max_m: [21, 21, 21]/; s/min_m: \[[0-9]*, 2, [0-9]*\], //'
-check "no rock in the domain" refused 2 "scene: no rock in the domain" run bad.yaml --out empty
+check "no rock in the domain" refused 2 "scene: there is no rock in the domain" run bad.yaml --out empty
 check "it leaves nothing that claims the folder" no_frames empty
 job_with 's/\(min_m: \[[0-9]*, 2, \)0\]/\11.5]/'
 check "rock in the air" refused 2 "scene: the rock floats in the air" run bad.yaml --out air
 for model in arenite goblins; do
     for shape in "cylinder: {from_m: [8, 8, 0], to_m: [8, 8, 8], radius_m: 0.01, top_radius_m: 4}" "box: {min_m: [4, 4, 0.4], max_m: [12, 12, 8]}"; do
         printf '%s\n' "{hoodoo: 1, name: tip, frames: 1, model: $model, domain: {size_m: [16, 16, 12], spacing_m: 0.5}, scene: {$shape}}" >tip.yaml
-        check "rock of which less than half a voxel touches the ground, $model" refused 2 "scene: the rock floats in the air: lowest rock is at z = 0.5 m" run tip.yaml --out tip
+        check "rock of which less than half a voxel touches the ground, $model" refused 2 "scene: the rock floats in the air: the lowest rock is at z = 0.5 m" run tip.yaml --out tip
     done
 done
 check "the corrected job may have the folder" sh -c '"$1" run "$2" --out air --frames 1001-1001 >stdout 2>err' - "$HOODOO" "$job"

@@ -15,7 +15,7 @@
 #include "base/clock.h"
 #include "effort.h"
 #include "image/image.h"
-#include "image/parts.h"
+#include "image/protocol.h"
 #include "reader/reader.h"
 #include "reader/serve.h"
 
@@ -53,7 +53,7 @@ static size_t try_to_escape(const char *path, float *refused)
 static status put_image(struct serve_answer *a, uint64_t width, uint64_t height, const float *value, size_t n)
 {
     status st = OK;
-    const struct image_part part = {.width = width, .height = height};
+    const struct image_answer part = {.width = width, .height = height};
     TRY(serve_add_part(a, &part, sizeof part));
     TRY(serve_begin_part(a)); /* nothing to say */
     TRY(serve_add_part(a, value, n * sizeof *value));
@@ -92,7 +92,7 @@ static status misbehave(const struct serve_question *q, struct serve_answer *a)
         return put_image(a, 20, 20, value, 401);
     } else if (strcmp(what, "liar") == 0) {
         a->head.n_parts = 2;
-        a->head.size[0] = sizeof(struct image_part);
+        a->head.size[0] = sizeof(struct image_answer);
         a->head.size[1] = UINT64_MAX - 8;
         return OK;
     } else if (strcmp(what, "crowd") == 0) {
@@ -130,7 +130,7 @@ static int be_the_reader(int argc, char **argv)
 static status read_named(const char *name)
 {
     struct image image;
-    status st = image_read(&(struct image_wish){.file = write_text(name, "x"), .scale = 1}, &image);
+    status st = image_read(&(struct image_request){.file = write_text(name, "x"), .scale = 1}, &image);
     if (st != OK)
         assert_null(image.value);
     image_free(&image);
@@ -182,7 +182,7 @@ static void large_answers_arrive_whole(void **state)
 {
     (void)state;
     struct image image;
-    assert_int_equal(image_read(&(struct image_wish){.file = write_text("chatty", "x")}, &image), OK);
+    assert_int_equal(image_read(&(struct image_request){.file = write_text("chatty", "x")}, &image), OK);
     assert_true(image.width == SIDE && image.height == SIDE);
     for (int i = 0; i < SIDE * SIDE; i++)
         assert_true(image.value[i] == (float)i);
@@ -193,7 +193,7 @@ static void it_can_do_nothing_but_read(void **state)
 {
     (void)state;
     struct image image;
-    assert_int_equal(image_read(&(struct image_wish){.file = write_text("prison", "x")}, &image), OK);
+    assert_int_equal(image_read(&(struct image_request){.file = write_text("prison", "x")}, &image), OK);
     assert_int_equal(image.width, 16);
     for (size_t i = 0; i < image.width; i++)
         if (image.value[i] != 1)

@@ -50,7 +50,7 @@ static int ramp_up(int x, int y)
     return (99 - y) * 600;
 }
 
-static struct image read_all(const char *path, struct image_wish wish)
+static struct image read_all(const char *path, struct image_request wish)
 {
     struct image image;
     wish.file = path;
@@ -62,18 +62,18 @@ static struct image read_all(const char *path, struct image_wish wish)
 static void integers_become_0_to_1(void **state)
 {
     (void)state;
-    struct image image = read_all(write_pgm("a.pgm", 100, 3, 255, ramp_x), (struct image_wish){0});
+    struct image image = read_all(write_pgm("a.pgm", 100, 3, 255, ramp_x), (struct image_request){0});
     assert_true(image.width == 100 && image.height == 3);
     for (int i = 0; i < 300; i++)
         assert_true(fabsf(image.value[i] - (float)(i % 100 * 2) / 255) < 1e-6f);
     image_free(&image);
     char *deep = write_pgm("b.pgm", 2, 100, 65535, ramp_up);
-    image = read_all(deep, (struct image_wish){0});
+    image = read_all(deep, (struct image_request){0});
     assert_true(fabsf(image.value[0] - 59400.0f / 65535) < 1e-7f && image.value[199] == 0);
     image_free(&image);
     /* and stay as they are stored where that is wanted */
-    image = read_all(deep,
-                     (struct image_wish){.height = true, .values = IMAGE_STORED, .scale = 0.5, .offset = -7});
+    image = read_all(
+        deep, (struct image_request){.height = true, .values = IMAGE_STORED, .scale = 0.5, .offset = -7});
     for (int i = 0; i < 200; i++)
         assert_true(image.value[i] == (float)ramp_up(0, i / 2) * 0.5f - 7);
     image_free(&image);
@@ -83,7 +83,7 @@ static void floats_stay_as_they_are(void **state)
 {
     (void)state;
     const float pixels[6] = {0, 1, 2.5f, -3, 1e-3f, 100};
-    struct image image = read_all(write_tiff("a.tif", 3, 2, pixels), (struct image_wish){0});
+    struct image image = read_all(write_tiff("a.tif", 3, 2, pixels), (struct image_request){0});
     assert_true(image.width == 3 && image.height == 2);
     assert_memory_equal(image.value, pixels, sizeof pixels);
     image_free(&image);
@@ -98,14 +98,14 @@ static void pictures_are_turned_as_they_say(void **state)
 {
     (void)state;
     enum { W = 5, H = 3 };
-    const char *const word[ASK_WORDS] = {"file",   "",       "",  "",  "coverage", "black",
+    const char *const word[ASK_COUNT] = {"file",   "",       "",  "",  "coverage", "black",
                                          "height", "stored", "1", "0", "0",        "0"};
     for (int turn = 1; turn <= 8; turn++) {
-        struct image_made m = {
-            .path = "", .word = word, .max_pixels = 100, .orientation = turn, .width = W, .height = H};
+        struct image_decoding m = {
+            .path = "", .argument = word, .max_pixels = 100, .orientation = turn, .width = W, .height = H};
         const int wide = turn > 4 ? H : W, high = turn > 4 ? W : H;
         assert_int_equal(image_begin(&m), OK);
-        assert_true(m.part.width == (uint64_t)wide && m.part.height == (uint64_t)high);
+        assert_true(m.answer.width == (uint64_t)wide && m.answer.height == (uint64_t)high);
         for (int y = 0; y < H; y++)
             image_row(&m, 0, y, W, (const double[]){10 * y, 10 * y + 1, 10 * y + 2, 10 * y + 3, 10 * y + 4},
                       NULL, NULL);
@@ -129,7 +129,7 @@ static void gaps_are_filled_or_left_empty(void **state)
         pixels[i] =
             i % 24 >= 8 && i % 24 < 14 && i / 24 >= 5 && i / 24 < 11 ? NAN : (float)(i % 24 + 2 * (i / 24));
     struct image image = read_all(write_tiff("gap.tif", 24, 20, pixels),
-                                  (struct image_wish){.nodata = IMAGE_FILL, .height = true});
+                                  (struct image_request){.nodata = IMAGE_FILL, .height = true});
     for (int i = 0; i < 24 * 20; i++)
         assert_true(fabsf(image.value[i] - (float)(i % 24 + 2 * (i / 24))) <
                     (isnan(pixels[i]) ? 0.5f : 1e-6f));
@@ -219,7 +219,7 @@ static void distances_never_overstate(void **state)
 static status read_only(const char *path)
 {
     struct image image;
-    status st = image_read(&(struct image_wish){.file = path, .scale = 1}, &image);
+    status st = image_read(&(struct image_request){.file = path, .scale = 1}, &image);
     image_free(&image);
     return st;
 }

@@ -378,8 +378,8 @@ static void winding_numbers_are_sums(void **state)
             sum += atan2(volume, below) / (2 * M_PI);
         }
         if (i < 20)
-            assert_true(fabs(sum - (double)winding_at(exact, at)) < 1e-4);
-        assert_true(fabsf(winding_at(exact, at) - winding_at(fast, at)) < 0.05F);
+            assert_true(fabs(sum - (double)winding_number(exact, at)) < 1e-4);
+        assert_true(fabsf(winding_number(exact, at) - winding_number(fast, at)) < 0.05F);
     }
     winding_destroy(&fast);
     winding_destroy(&exact);
@@ -402,7 +402,7 @@ static void open_meshes_are_refused(void **state)
     (void)state;
     char text[512];
     snprintf(text, sizeof text, "%.*s", (int)(strstr(cube, "f 4 1") - cube), cube);
-    assert_failed(make(write_text("open.obj", text)), E_INPUT, "open.obj: the surface is open: 4 edges",
+    assert_failed(make(write_text("open.obj", text)), E_INPUT, "open.obj: the surface is open: it has 4 boundary edges",
                   "fill the holes");
     assert_failed(make(write_text("open.obj", text)), E_INPUT, "the widest gap is about 7.8 m",
                   "fill_holes_m");
@@ -428,7 +428,7 @@ static void bad_obj_is_refused_with_its_line(void **state)
         {"f 1 2 4\n", ":4:", "vertex 4"},   {"f 1 2 0\n", ":4:", "vertex 0"},
         {"f -4 1 2\n", ":4:", "vertex -4"}, {"f 1 2\n", ":4:", "2 corners"},
         {"f 1 2 x\n", ":4:", "'x'"},        {"f 1/2/3/4 2 3\n", ":4:", "corner"},
-        {"v 1 2\n", ":4:", "line ends"},    {"\nv nan 0 0\n", ":5:", "'nan'"},
+        {"v 1 2\n", ":4:", "end of the line"},    {"\nv nan 0 0\n", ":5:", "'nan'"},
         {"v 1 inf 0\n", ":4:", "'inf'"},    {"v 1 1e999 0\n", ":4:", "1e999"},
         {"v 1 a 0\n", ":4:", "'a'"},        {"f 1 2 99999999999999999999\n", ":4:", "9"},
         {"", "bad.obj", "no faces"},        {"f 1 1 2\n", "bad.obj", "point"},
@@ -456,27 +456,27 @@ static void bad_ply_is_refused(void **state)
         {VERTEX "end_header\n", "bad.ply", "no format"},
         {"format ascii 1.0\n" VERTEX, "bad.ply", "inside the header"},
         {"format ascii 1.0\nelement vertex 99999999999999\nproperty float x\nend_header\n0\n", "bad.ply",
-         "claims 99999999999999"},
+         "declares 99999999999999"},
         {"format ascii 1.0\nelement vertex -1\nproperty float x\nend_header\n0\n", ":3:", "element"},
         {"format ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n0\n", ":4:", "'half'"},
         {"format ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n", "bad.ply",
-         "without x, y and z"},
+         "lacks x, y or z"},
         {"format ascii 1.0\nelement face 1\nproperty list float int vertex_index\nend_header\n0\n",
          ":4:", "'float'"},
         {"format ascii 1.0\nproperty float x\nend_header\n", ":3:", "before any element"},
-        {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":13:", "not there"},
-        {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", ":13:", "not there"},
+        {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":13:", "does not exist"},
+        {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", ":13:", "does not exist"},
         {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", ":13:", "3 corners"},
         {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n250 0 1 2\n", ":13:", "longer"},
         {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", ":10:", "'nan'"},
         {"format binary_little_endian 1.0\n" VERTEX FACE "end_header\n0123456789abcdef", "bad.ply",
-         "claims 3"},
+         "declares 3"},
         {"format binary_little_endian 1.0\n" VERTEX FACE
          "end_header\n0123456789abcdef0123456789abcdef0123\x7fxxxx",
          "byte 2", "longer"},
         {"format binary_big_endian 1.0\n" VERTEX FACE
          "end_header\n0123\x7f\xc0..89abcdef0123456789abcdef0123\3xxxxxxxxxxxx",
-         "byte 1", "number"},
+         "byte 1", "not finite"},
         {"format ascii 1.0\nelement dust 18446744073709551615\nend_header\n", "bad.ply", ""},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
