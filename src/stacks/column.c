@@ -43,7 +43,7 @@ status column_add(struct column *c, uint32_t top, uint32_t material)
     return st;
 }
 
-/* The layers move to the spare half, and c is empty: to be filled again from what is returned. */
+/* Moves the layers to the spare buffer and empties c, which the caller refills from *old. */
 static status begin_edit(struct column *c, const uint32_t **old, size_t *n)
 {
     status st = memory_grow(&c->spare, &c->spare_capacity, c->capacity, sizeof *c->spare, "a stack");
@@ -61,14 +61,14 @@ static status begin_edit(struct column *c, const uint32_t **old, size_t *n)
     return OK;
 }
 
-/* Air on top is not stored. */
+/* Removes air on top, which is not stored. */
 static void end_edit(struct column *c)
 {
     while (c->n && layer_material(c->layer[c->n - 1]) == MATERIAL_AIR)
         c->n--;
 }
 
-status column_change(struct column *c, uint32_t lo, uint32_t hi, uint32_t set, uint32_t material)
+status column_replace(struct column *c, uint32_t lo, uint32_t hi, uint32_t set, uint32_t material)
 {
     status st = OK;
     const uint32_t *old = NULL;
@@ -83,7 +83,7 @@ status column_change(struct column *c, uint32_t lo, uint32_t hi, uint32_t set, u
         uint32_t top = i < n ? layer_top(old[i]) : STACK_TOP;
         uint32_t own = i < n ? layer_material(old[i]) : (uint32_t)MATERIAL_AIR;
         if (set >> own & 1 && bottom < hi && top > lo) {
-            TRY(column_add(c, lo, own)); /* nothing if lo is below this layer */
+            TRY(column_add(c, lo, own)); /* adds nothing if lo is below this layer */
             TRY(column_add(c, hi < top ? hi : top, material));
         }
         TRY(column_add(c, top, own));
@@ -94,9 +94,9 @@ done:
     return st;
 }
 
-status column_put(struct column *c, uint32_t lo, uint32_t hi, uint32_t material)
+status column_set(struct column *c, uint32_t lo, uint32_t hi, uint32_t material)
 {
-    return column_change(c, lo, hi, UINT32_MAX, material);
+    return column_replace(c, lo, hi, UINT32_MAX, material);
 }
 
 void column_amounts(const uint32_t *layer, size_t n, uint64_t amount[MATERIALS_MAX])

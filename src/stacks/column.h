@@ -1,8 +1,8 @@
-/* One stack of layers while it is edited: words bottom up, each a layer's top and its material.
+/* A stack of layers while it is edited, bottom up, each packed into 32 bits as its top and its material.
  *
- * Heights are whole numbers of quanta, 0 to STACK_TOP; a layer reaches from the top of the one below (0 for
- * the first) to its own. Above the last layer is air. Whole numbers make moving material exact: what one
- * stack loses another gains, to the last bit. 28 bits are finer than a float over most of the height.
+ * Heights are integer numbers of quanta, 0 to STACK_TOP. A layer extends from the top of the one below it (0 for the first) to its own
+ * top; above the last one is air. With integers the transport of material is exact: what one stack loses another gains. 28 bits are
+ * finer than a float over most of the height.
  */
 #ifndef HOODOO_COLUMN_H
 #define HOODOO_COLUMN_H
@@ -31,28 +31,28 @@ static inline uint32_t layer_material(uint32_t layer)
 struct column {
     uint32_t *layer;
     size_t n, capacity;
-    uint32_t *spare; /* the other half of every edit */
+    uint32_t *spare; /* holds the old layers during an edit */
     size_t spare_capacity;
 };
 
 void column_free(struct column *c);
 
-/* Becomes a copy of n layers. */
+/* Replaces c's layers by a copy of these. The functions below fail with E_MEMORY only. */
 MUST_USE status column_copy(struct column *c, const uint32_t *layer, size_t n);
 
-/* Adds a layer on top; nothing where `top` is not above the last one's. Merges equal neighbours. */
+/* Adds a layer on top, unless `top` is not above the last one's. Merges it with the last one if the material is the same. */
 MUST_USE status column_add(struct column *c, uint32_t top, uint32_t material);
 
-/* [lo, hi) becomes `material`. */
-MUST_USE status column_put(struct column *c, uint32_t lo, uint32_t hi, uint32_t material);
+/* Sets [lo, hi) to `material`. */
+MUST_USE status column_set(struct column *c, uint32_t lo, uint32_t hi, uint32_t material);
 
-/* The materials of `set` (a bit each) in [lo, hi) become `material`. */
-MUST_USE status column_change(struct column *c, uint32_t lo, uint32_t hi, uint32_t set, uint32_t material);
+/* Replaces the materials of `set` (a bit each) in [lo, hi) by `material`. */
+MUST_USE status column_replace(struct column *c, uint32_t lo, uint32_t hi, uint32_t set, uint32_t material);
 
-/* Quanta of every material; air only below the last layer. */
+/* Adds the quanta of each material to amount[]; air only below the last layer. */
 void column_amounts(const uint32_t *layer, size_t n, uint64_t amount[MATERIALS_MAX]);
 
-/* The material at height z; air above. */
+/* The material at height z; air above the last layer. */
 uint32_t column_at(const uint32_t *layer, size_t n, uint32_t z);
 
 #endif

@@ -1,17 +1,13 @@
-/* Terrain as a file: stacks/NAME.1001.stacks, which a scene's shape `stacks` reads.
- *
- * Layout (little endian)   magic "hoodoo.stck\0", version, n[2], materials, solid materials (a bit each),
- *                          layers in all, cell and quantum (double, m); counts; layers; XXH3 of all before.
- */
+/* Terrain files stacks/NAME.1001.stacks, which the shape `stacks` reads. FORMAT.md has the layout. */
 #ifndef HOODOO_STACKS_FILE_H
 #define HOODOO_STACKS_FILE_H
 
 #include "stacks/stacks.h"
 
-/* In *bytes, freed with free(). `solid`: materials that never slide. */
+/* Encodes s; the caller frees *bytes. `solid`: the set of materials that never slide. E_MEMORY. */
 MUST_USE status stacks_encode(const struct stacks *s, uint32_t solid, void **bytes, size_t *size);
 
-/* E_INPUT if the file is missing, damaged or hostile. */
+/* Free *out with stacks_destroy(). E_INPUT: the file is missing, damaged or hostile. E_MEMORY. */
 MUST_USE status stacks_read(const char *path, struct stacks *out, uint32_t *solid);
 
 #endif

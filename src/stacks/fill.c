@@ -8,7 +8,7 @@
 struct flood {
     struct spaces spaces;
     uint32_t level;
-    int slot; /* of water */
+    int slot; /* water's */
     struct wet {
         int i, j, k;
     } * queue;
@@ -23,8 +23,8 @@ static uint32_t ground_of(const struct flood *f, const struct space *s)
     return z;
 }
 
-/* Queues a space that water below the level can be in. */
-static status reach(struct flood *f, struct space_tile *tile, int i, int j, int k)
+/* Queues a space if its ground is below the water level. */
+static status push(struct flood *f, struct space_tile *tile, int i, int j, int k)
 {
     uint32_t at = tile->first[j % STACK_TILE * STACK_TILE + i % STACK_TILE] + (uint32_t)k;
     if (tile->mark[at] || ground_of(f, &tile->space[at]) >= f->level)
@@ -38,16 +38,16 @@ static status reach(struct flood *f, struct space_tile *tile, int i, int j, int 
     return OK;
 }
 
-/* The spaces beside one that water flows into: their openings meet below the level, above the ground. */
-static status spread(struct flood *f, const struct wet *w)
+/* Queues the neighbouring spaces that water flows into: their openings overlap below the level and above both grounds. */
+static status push_neighbours(struct flood *f, const struct wet *w)
 {
-    static const int beside[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    static const int neighbour[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     status st = OK;
     const struct stacks *g = f->spaces.stacks;
     int n;
     const struct space own = spaces_at(&f->spaces, w->i, w->j, &n)[w->k];
     for (int b = 0; b < 4; b++) {
-        int i = w->i + beside[b][0], j = w->j + beside[b][1];
+        int i = w->i + neighbour[b][0], j = w->j + neighbour[b][1];
         struct space_tile *tile;
         if (i < 0 || j < 0 || i >= g->n[0] || j >= g->n[1])
             continue;
@@ -59,14 +59,14 @@ static status spread(struct flood *f, const struct wet *w)
             lo = lo2 > lo ? lo2 : lo;
             hi = hi < f->level ? hi : f->level;
             if (hi > lo)
-                TRY(reach(f, tile, i, j, k));
+                TRY(push(f, tile, i, j, k));
         }
     }
 done:
     return st;
 }
 
-/* The space around a point, or the first one above it. */
+/* Queues the space that contains the point, or the first one above it. */
 static status seed(struct flood *f, const double at[3])
 {
     status st = OK;
@@ -81,7 +81,7 @@ static status seed(struct flood *f, const double at[3])
     const struct space *space = spaces_at(&f->spaces, i, j, &n);
     for (int k = 0; k < n; k++)
         if (space[k].ceiling > z)
-            return reach(f, tile, i, j, k);
+            return push(f, tile, i, j, k);
 done:
     return st;
 }
@@ -98,7 +98,7 @@ status fill_water(struct work *w)
     for (size_t k = 0; k < f.n; k++) {
         struct wet wet = f.queue[k];
         int n;
-        TRY(spread(&f, &wet));
+        TRY(push_neighbours(&f, &wet));
         struct space *s = spaces_at(&f.spaces, wet.i, wet.j, &n) + wet.k;
         uint32_t top = s->ceiling < f.level ? s->ceiling : f.level;
         s->amount[f.slot] = top - ground_of(&f, s);

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/* A run of solid layers of one stack. Pieces are trees of them; the floor is item 0. */
+/* A run of adjacent solid layers in a stack. Pieces are union-find trees of runs; the floor is item 0. */
 struct piece {
     uint32_t lo, hi; /* quanta */
     uint32_t parent;
@@ -14,7 +14,7 @@ struct piece {
 struct pieces {
     const struct stacks *stacks;
     uint32_t solid;
-    size_t *first; /* [stacks + 1] of each stack's in `item` */
+    size_t *first; /* [stacks + 1]: each stack's first run in `item` */
     struct piece *item;
 };
 
@@ -27,7 +27,7 @@ static uint32_t root_of(struct piece *item, uint32_t at)
     return at;
 }
 
-/* The smaller number stays on top, so that the floor is always a root. */
+/* The smaller number becomes the root, so that the floor is always a root. */
 static void join(struct piece *item, uint32_t a, uint32_t b)
 {
     a = root_of(item, a);
@@ -38,19 +38,19 @@ static void join(struct piece *item, uint32_t a, uint32_t b)
         item[a].parent = b;
 }
 
-/* The solid runs of a stack, into `item` (of which `number` is the first) if that is not NULL. */
+/* Counts the solid runs of a stack, and if `item` is not NULL lists them there from `number` on. */
 static uint32_t list_runs(const struct pieces *p, int i, int j, uint32_t number)
 {
-    const uint32_t carriers = ~(1u << MATERIAL_AIR | 1u << MATERIAL_WATER);
+    const uint32_t supporting = ~(1u << MATERIAL_AIR | 1u << MATERIAL_WATER);
     size_t n;
     const uint32_t *layer = stacks_column(p->stacks, i, j, &n);
-    uint32_t count = 0, bottom = 0, below = 0; /* the run that carries what comes next */
-    bool carried = true, in_run = false;
+    uint32_t count = 0, bottom = 0, below = 0; /* `below`: the last run */
+    bool supported = true, in_run = false;
     for (size_t k = 0; k < n; k++) {
         uint32_t kind = 1u << layer_material(layer[k]), top = layer_top(layer[k]);
         if (!(p->solid & kind)) {
             in_run = false;
-            carried = carried && (carriers & kind);
+            supported = supported && (supporting & kind);
         } else if (in_run) {
             if (p->item)
                 p->item[below].hi = top;
@@ -58,18 +58,18 @@ static uint32_t list_runs(const struct pieces *p, int i, int j, uint32_t number)
             uint32_t own = number + count++;
             if (p->item) {
                 p->item[own] = (struct piece){bottom, top, own};
-                if (carried)
+                if (supported)
                     join(p->item, below, own);
             }
             below = own;
-            in_run = carried = true;
+            in_run = supported = true;
         }
         bottom = top;
     }
     return count;
 }
 
-/* Runs of neighbouring stacks that overlap, by going up both at once. */
+/* Joins overlapping runs of two neighbouring stacks, in one pass upwards through both. */
 static void join_stacks(const struct pieces *p, size_t one, size_t other)
 {
     size_t a = p->first[one], b = p->first[other];
@@ -98,7 +98,7 @@ static status find_pieces(struct pieces *p)
         }
     p->first[s] = count;
     if (count > UINT32_MAX) {
-        st = fail(E_MEMORY, "the terrain has %zu solid layers; more than 2^32 are not handled", count);
+        st = fail(E_MEMORY, "the terrain has %zu solid layers, more than 2^32: raise arches.cell_m", count);
         goto done;
     }
     TRY(memory_alloc(count, sizeof *p->item, "pieces", &p->item));
@@ -121,7 +121,7 @@ static status loosen_stack(void *user, int i, int j, struct column *c)
     size_t at = (size_t)j * (size_t)p->stacks->n[0] + (size_t)i;
     for (size_t k = p->first[at]; k < p->first[at + 1]; k++)
         if (p->item[k].parent != 0)
-            TRY(column_change(c, p->item[k].lo, p->item[k].hi, p->solid, MATERIAL_ROCK));
+            TRY(column_replace(c, p->item[k].lo, p->item[k].hi, p->solid, MATERIAL_ROCK));
 done:
     return st;
 }
@@ -139,7 +139,7 @@ status loosen(struct stacks *s, uint32_t solid, int lo[2], int hi[2])
         for (int i = 0; i < s->n[0]; i++) {
             size_t at = (size_t)j * (size_t)s->n[0] + (size_t)i;
             for (size_t k = p.first[at]; k < p.first[at + 1]; k++) {
-                /* All trees are flat from here on: columns are edited by several threads. */
+                /* Flatten all trees, for loosen_stack() runs on several threads. */
                 p.item[k].parent = root_of(p.item, (uint32_t)k);
                 if (p.item[k].parent == 0)
                     continue;

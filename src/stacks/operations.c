@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "stacks/along.h"
+#include "stacks/intervals.h"
 #include "stacks/path.h"
 #include "stacks/tools.h"
 
@@ -14,7 +14,7 @@ bool operation_active(const struct job_operation *op, int frame)
     return range_holds(op->frames, frame);
 }
 
-/* Which part of its path, and of its amount, a tool does in this frame. */
+/* The part of its path, from..to in 0..1, that a tool covers in this frame. */
 static void progress(const struct job_operation *op, int frame, double *from, double *to)
 {
     double n = (double)range_count(op->frames), k = (double)(frame - op->frames.first) / op->frames.step;
@@ -43,18 +43,18 @@ static status find_material(const struct work *w, const char *name, uint32_t pre
         }
     return fail(
         E_USAGE,
-        "%s.material: no material '%.64s'; there are bedrock, sand, rock, water and those of arches.materials",
+        "%s.material: unknown material '%.64s': use bedrock, sand, rock, water or one of arches.materials",
         w->name, name);
 }
 
-/* ---- fields: bedrock becomes what a changed field says */
+/* ---- tools that change the field: bedrock becomes {f~ > 0} */
 
 struct field_edit {
     const struct work *w;
     const struct path *path; /* or NULL: everywhere, or a sphere */
     double center[3], radius, strength;
     bool carve, noisy;
-    double at[2]; /* of the stack under way */
+    double at[2]; /* m, the axis of the stack being edited */
     int i, j;
     const struct profile *line;
 };
@@ -82,21 +82,21 @@ static double changed_field(void *user, double z, double *skip)
     return f + fmin(fmax(g, -0.98), 0.98);
 }
 
-/* Within lo..hi: solid where `in`, air where it was solid and is not. */
+/* Within lo..hi: bedrock in the intervals `in`; outside of them solid material becomes air. */
 static status apply_field(const struct work *w, double lo, double hi, const struct intervals *in,
                           struct column *c)
 {
     status st = OK;
     uint32_t from = stacks_quanta(w->stacks, lo), end = stacks_quanta(w->stacks, hi);
-    /* Thinner than this is rounding where f and the layers meet. */
+    /* Thinner changes are rounding, where f = 0 meets the layers. */
     uint32_t thin = (uint32_t)fmax(1, 0.02 * w->stacks->cell / w->stacks->quantum);
     for (size_t k = 0; k <= in->n; k++) {
         uint32_t a = k < in->n ? stacks_quanta(w->stacks, in->at[k].lo) : end;
         uint32_t b = k < in->n ? stacks_quanta(w->stacks, in->at[k].hi) : end;
         if (a > from + (k ? thin : 0))
-            TRY(column_change(c, from, a, w->solids, MATERIAL_AIR));
+            TRY(column_replace(c, from, a, w->solids, MATERIAL_AIR));
         if (b > a)
-            TRY(column_change(c, a, b, ~w->solids, MATERIAL_BEDROCK));
+            TRY(column_replace(c, a, b, ~w->solids, MATERIAL_BEDROCK));
         from = b;
     }
 done:
@@ -133,7 +133,7 @@ static status edit_field(void *user, int i, int j, struct column *c)
         return OK;
     TRY(surface_profile(&w->surface, e.at[0], e.at[1], &line));
     e.line = &line;
-    /* Noise alone never turns what is all rock, or all air, around. */
+    /* |noise term| < 1, so it cannot change the sign where f is 1 or -1: `pinned`. */
     TRY(intervals_find(lo, hi, fmin(w->stacks->cell, w->tools->sigma) / 4, &line, e.noisy, changed_field, &e,
                        &in));
     TRY(apply_field(w, lo, hi, &in, c));
@@ -202,15 +202,15 @@ struct volume_edit {
     const struct profile *line; /* erode near the surface: f */
 };
 
-/* Above 0 inside. */
+/* Positive inside the tool. */
 static double inside(void *user, double z, double *skip)
 {
     const struct volume_edit *e = user;
     const struct job_operation *op = e->w->op;
     const double x[3] = {e->at[0], e->at[1], z};
     double radius = 1, d = path_distance(e->path, e->i, e->j, x, &radius);
-    /* Noise of 2.5 standard deviations: farther out than that, it need not be asked. */
-    /* Along a line a distance changes no faster than by 1, or a little more where the path bends. */
+    /* Noise is cut off at 2.5 standard deviations and need not be evaluated farther out than that. The distance changes by at most about
+     * 1 per metre, slightly more where the path bends. */
     if (d > 0 || !e->line)
         *skip = 0.8 * fmax(fabs(d) - 2.5 * op->roughness * radius, 0);
     if (op->roughness > 0 && fabs(d) < 2.5 * op->roughness * radius)
@@ -218,12 +218,12 @@ static double inside(void *user, double z, double *skip)
              fmin(fmax(e->w->tools->noise(e->w->tools->user, op->scale_m, op->flatten, x), -2.5), 2.5);
     if (!e->line)
         return -d;
-    /* Near the surface: the less deep, the farther from the tool's middle. */
-    double near = fmin(fmax(-d / radius, 0), 1);
-    return fmin(op->strength, 1.999) * near * (2 - near) - fmax(profile_at(e->line, z), 0);
+    /* Erosion near the surface: the depth decreases with the distance from the tool's axis. */
+    double weight = fmin(fmax(-d / radius, 0), 1);
+    return fmin(op->strength, 1.999) * weight * (2 - weight) - fmax(profile_at(e->line, z), 0);
 }
 
-/* Of the solid layers in a..b, the lower part becomes sand and the upper rocks. */
+/* Breaks up the solid layers in a..b: the lower part becomes sand, the upper part rocks. */
 static status break_up(const struct volume_edit *e, uint32_t a, uint32_t b, struct column *c)
 {
     status st = OK;
@@ -237,12 +237,12 @@ static status break_up(const struct volume_edit *e, uint32_t a, uint32_t b, stru
                 break;
             }
         if (w->solids >> material & 1) {
-            /* What erodes less is taken from its top only. */
+            /* A less erodible material only loses the upper share of the layer. */
             double share = fmin(w->tools->table[material].erodibility, 1);
             uint32_t low = to - (uint32_t)(share * (to - from));
             uint32_t middle = low + (uint32_t)((1 - w->op->rocks) * (to - low));
-            TRY(column_change(c, low, middle, w->solids, e->sand));
-            TRY(column_change(c, middle, to, w->solids, e->rock));
+            TRY(column_replace(c, low, middle, w->solids, e->sand));
+            TRY(column_replace(c, middle, to, w->solids, e->rock));
         }
         from = to;
     }
@@ -271,16 +271,16 @@ static status edit_volume(void *user, int i, int j, struct column *c)
         TRY(surface_profile(&w->surface, e.at[0], e.at[1], &line));
         e.line = &line;
     }
-    /* Deep rock is none to wear away, if the tool does not reach as deep. */
+    /* Pinned: a tool with strength < 1 does not reach rock where f = 1. */
     TRY(intervals_find(lo, hi, w->stacks->cell / 3, e.line, op->strength < 1, inside, &e, &in));
     for (size_t k = 0; k < in.n; k++) {
         uint32_t a = stacks_quanta(w->stacks, in.at[k].lo), b = stacks_quanta(w->stacks, in.at[k].hi);
         if (op->tool == TOOL_ERODE)
             TRY(break_up(&e, a, b, c));
         else if (op->mode == MODE_CARVE)
-            TRY(column_put(c, a, b, MATERIAL_AIR));
+            TRY(column_set(c, a, b, MATERIAL_AIR));
         else
-            TRY(column_change(c, a, b, 1u << MATERIAL_AIR | 1u << MATERIAL_WATER, e.material));
+            TRY(column_replace(c, a, b, 1u << MATERIAL_AIR | 1u << MATERIAL_WATER, e.material));
     }
 done:
     profile_free(&line);
@@ -304,7 +304,7 @@ done:
     return st;
 }
 
-/* ---- what is dropped */
+/* ---- deposit */
 
 struct drop {
     const struct work *w;
@@ -321,9 +321,9 @@ static status edit_drop(void *user, int i, int j, struct column *c)
     double lo, hi, radius = 1, best = 0, from = 0;
     if (!path_heights(d->path, i, j, at, &lo, &hi))
         return OK;
-    /* Seen from above: the path's point nearest to the stack. */
+    /* The brush profile (1 - (d / R)^2)^2, with d the horizontal distance to the nearest point of the path. */
     for (size_t k = 0; k < d->path->n; k++) {
-        const struct path_end *a = &d->path->piece[k].end[0], *b = &d->path->piece[k].end[1];
+        const struct path_end *a = &d->path->segment[k].end[0], *b = &d->path->segment[k].end[1];
         double bx = b->at[0] - a->at[0], by = b->at[1] - a->at[1];
         double x = at[0] - a->at[0], y = at[1] - a->at[1];
         double square = bx * bx + by * by, t = square > 0 ? fmin(fmax((x * bx + y * by) / square, 0), 1) : 0;
@@ -334,10 +334,11 @@ static status edit_drop(void *user, int i, int j, struct column *c)
             from = a->at[2] + t * (b->at[2] - a->at[2]);
         }
     }
-    uint32_t amount = stacks_quanta(s, d->thickness * best), z = stacks_quanta(s, from), bottom = 0, room = 0;
+    uint32_t amount = stacks_quanta(s, d->thickness * best), z = stacks_quanta(s, from), bottom = 0,
+             space = 0;
     if (amount == 0)
         return OK;
-    /* Onto what lies below the tool; if the tool is inside something, onto what opens above it. */
+    /* Drop it on the first ground below the tool, or, if the tool is inside of something, into the first space above it. */
     uint32_t ground = 0;
     for (size_t k = 0; k <= c->n; k++) {
         uint32_t top = k < c->n ? layer_top(c->layer[k]) : (uint32_t)STACK_TOP;
@@ -346,13 +347,13 @@ static status edit_drop(void *user, int i, int j, struct column *c)
             bool below = k && (layer_material(c->layer[k - 1]) == MATERIAL_WATER ||
                                layer_material(c->layer[k - 1]) == MATERIAL_AIR);
             ground = below ? ground : bottom;
-            room = top - ground;
+            space = top - ground;
             if (top > z)
                 break;
         }
         bottom = top;
     }
-    return column_put(c, ground, ground + (amount < room ? amount : room), d->material);
+    return column_set(c, ground, ground + (amount < space ? amount : space), d->material);
 }
 
 static status deposit(struct work *w, double from, double to)
@@ -372,7 +373,7 @@ done:
     return st;
 }
 
-/* ---- all of them */
+/* ---- dispatch */
 
 status work_edit(struct work *w, const int lo[2], const int hi[2], column_edit edit, void *user)
 {

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/vector.h"
 
-enum { MOST_PIECES = 1 << 20, MOST_LISTED = 1 << 28 };
+enum { MAX_SEGMENTS = 1 << 20, MAX_LISTED = 1 << 28 };
 
 /* ---- small vectors */
 
@@ -19,7 +19,7 @@ static double normalize(double v[3])
     return length;
 }
 
-/* Catmull and Rom's cubic from p1 (t = 0) to p2, and its derivative. */
+/* Catmull-Rom spline from p1 (t = 0) to p2 (t = 1), and its derivative. */
 static double cubic(double p0, double p1, double p2, double p3, double t)
 {
     return p1 + 0.5 * t * (p2 - p0 + t * (2 * p0 - 5 * p1 + 4 * p2 - p3 + t * (3 * (p1 - p2) + p3 - p0)));
@@ -74,7 +74,7 @@ static void make_profiles(struct path *p, const struct job_operation *op)
     }
 }
 
-/* Signed distance to a closed polygon, negative inside, whatever its shape (even-odd). */
+/* Signed distance to a closed polygon, negative inside by the even-odd rule. */
 static double polygon_distance(const struct profile_edge *edge, double x, double y)
 {
     double nearest = HUGE_VAL;
@@ -95,7 +95,7 @@ static double polygon_distance(const struct profile_edge *edge, double x, double
 struct graph {
     const struct job_operation *op;
     size_t n_arcs;
-    size_t *into, *from; /* by point: an arc that ends, begins there, plus 1; 0: none */
+    size_t *into, *from; /* by point: the first arc that ends, or begins, there, plus 1; 0: none */
     bool *joined;
     double *distance; /* m from the first point */
     double longest;
@@ -116,7 +116,7 @@ static double arc_length(const struct graph *g, size_t arc)
     return sqrt(dot3(d, d));
 }
 
-/* Along the arcs, however they are listed: a few passes settle what is listed in any sensible order. */
+/* Shortest distances along the arcs (Bellman-Ford); a few passes suffice for arcs in any sensible order. */
 static void measure(struct graph *g)
 {
     enum { PASSES = 64 };
@@ -174,19 +174,19 @@ static void graph_free(struct graph *g)
     free(g->distance);
 }
 
-/* ---- pieces */
+/* ---- segments */
 
-struct maker {
+struct builder {
     const struct graph *graph;
     const struct surface *surface; /* NULL: not projected */
-    struct surface smooth;         /* for normals: over about the tool's own width */
-    double side[3];                /* the last one: where the path is vertical it goes on */
+    struct surface smooth;         /* for normals, filtered over about the tool's width */
+    double side[3];                /* the last side vector, which is kept where the path is parallel to up */
     double from, to;
     struct path *path;
 };
 
-/* Turns an end's frame: its direction is there, its up is what it leans on. */
-static void turn(struct maker *m, struct path_end *e, const double up[3])
+/* Sets the frame of an end from its direction `along` and `up`. */
+static void set_frame(struct builder *m, struct path_end *e, const double up[3])
 {
     if (!(normalize(e->along) > 0))
         e->along[0] = 1;
@@ -204,7 +204,7 @@ static void turn(struct maker *m, struct path_end *e, const double up[3])
     memcpy(m->side, e->side, sizeof e->side);
 }
 
-static status place(struct maker *m, struct path_end *e)
+static status make_end(struct builder *m, struct path_end *e)
 {
     status st = OK;
     double up[3] = {0, 0, 1};
@@ -215,30 +215,31 @@ static status place(struct maker *m, struct path_end *e)
             fmin(fmax(m->surface->sigma, 0.7 * e->radius), SURFACE_WIDEST * m->surface->stacks->cell);
         surface_normal(&m->smooth, e->at, up);
     }
-    turn(m, e, up);
+    set_frame(m, e, up);
 done:
     return st;
 }
 
-static status add_piece(struct path *p, const struct path_piece *piece)
+static status add_segment(struct path *p, const struct path_segment *segment)
 {
-    if (p->n >= MOST_PIECES)
-        return fail(E_USAGE, "more than %d pieces of path, each 0.3 radii long: fewer points, or wider",
-                    MOST_PIECES);
-    status st = memory_grow(&p->piece, &p->capacity, p->n + 1, sizeof *p->piece, "a path");
+    if (p->n >= MAX_SEGMENTS)
+        return fail(E_USAGE,
+                    "a path has more than %d segments of 0.3 radii: use fewer points, or larger radii",
+                    MAX_SEGMENTS);
+    status st = memory_grow(&p->segment, &p->capacity, p->n + 1, sizeof *p->segment, "a path");
     if (st == OK)
-        p->piece[p->n++] = *piece;
+        p->segment[p->n++] = *segment;
     return st;
 }
 
-static status add_arc(struct maker *m, size_t arc)
+static status add_arc(struct builder *m, size_t arc)
 {
-    enum { MOST = 4096 };
+    enum { MAX_ARC_SEGMENTS = 4096 };
     status st = OK;
     const struct graph *g = m->graph;
     size_t end[2], other[2];
     arc_of(g, arc, end);
-    /* The points before and after; where there are none, the arc's own line goes on. */
+    /* The control points before and after; at a free end they are extrapolated. */
     const double *p[4], (*at)[4] = (const double(*)[4])g->op->points_m;
     double before[4], after[4];
     p[1] = at[end[0]];
@@ -258,8 +259,8 @@ static status add_arc(struct maker *m, size_t arc)
         p[3] = at[other[1]];
     }
     double least = fmin(p[1][3], p[2][3]), length = arc_length(g, arc);
-    int n = (int)fmin(fmax(ceil(length / (0.3 * least)), 1), MOST);
-    struct path_piece piece = {0};
+    int n = (int)fmin(fmax(ceil(length / (0.3 * least)), 1), MAX_ARC_SEGMENTS);
+    struct path_segment segment = {0};
     for (int k = 0; k <= n; k++) {
         double t = (double)k / n;
         struct path_end e = {0};
@@ -270,55 +271,55 @@ static status add_arc(struct maker *m, size_t arc)
         e.radius = fmax(cubic(p[0][3], p[1][3], p[2][3], p[3][3], t), 0.5 * least);
         double far = g->distance[end[0]] + t * (g->distance[end[1]] - g->distance[end[0]]);
         e.share = g->longest > 0 ? far / g->longest : 0;
-        TRY(place(m, &e));
-        piece.end[0] = piece.end[1];
-        piece.end[1] = e;
-        double share = 0.5 * (piece.end[0].share + e.share);
-        piece.first = k == 1 && !g->into[end[0]];
-        piece.last = k == n && !g->from[end[1]];
+        TRY(make_end(m, &e));
+        segment.end[0] = segment.end[1];
+        segment.end[1] = e;
+        double share = 0.5 * (segment.end[0].share + e.share);
+        segment.first = k == 1 && !g->into[end[0]];
+        segment.last = k == n && !g->from[end[1]];
         if (k > 0 && share >= m->from && (share < m->to || m->to >= 1))
-            TRY(add_piece(m->path, &piece));
+            TRY(add_segment(m->path, &segment));
     }
 done:
     return st;
 }
 
-static status add_point(struct maker *m, size_t point)
+static status add_point(struct builder *m, size_t point)
 {
     const double *at = m->graph->op->points_m[point];
     struct path_end e = {.at = {at[0], at[1], at[2]}, .radius = at[3], .along = {1, 0, 0}};
-    status st = place(m, &e);
+    status st = make_end(m, &e);
     if (st == OK && (m->from <= 0))
-        st = add_piece(m->path, &(struct path_piece){.end = {e, e}});
+        st = add_segment(m->path, &(struct path_segment){.end = {e, e}});
     return st;
 }
 
-/* ---- which pieces reach which stacks */
+/* ---- segments by the stacks that they reach */
 
-static void find_box(const struct path *p, double reach, struct path_piece *piece)
+static void find_box(const struct path *p, double reach, struct path_segment *segment)
 {
     for (int a = 0; a < 3; a++) {
-        piece->lo[a] = HUGE_VAL;
-        piece->hi[a] = -HUGE_VAL;
+        segment->lo[a] = HUGE_VAL;
+        segment->hi[a] = -HUGE_VAL;
     }
     for (int corner = 0; corner < 8; corner++) {
-        const struct path_end *e = &piece->end[corner & 1];
+        const struct path_end *e = &segment->end[corner & 1];
         double x = corner & 2 ? p->hi[0] + reach : p->lo[0] - reach;
         double y = corner & 4 ? p->hi[1] + reach : p->lo[1] - reach;
         for (int a = 0; a < 3; a++) {
             double at = e->at[a] + e->radius * (p->round ? 0 : x * e->side[a] + y * e->up[a]);
             double round = p->round ? (1 + reach) * e->radius : reach * e->radius;
-            piece->lo[a] = fmin(piece->lo[a], at - round);
-            piece->hi[a] = fmax(piece->hi[a], at + round);
+            segment->lo[a] = fmin(segment->lo[a], at - round);
+            segment->hi[a] = fmax(segment->hi[a], at + round);
         }
     }
 }
 
-static void piece_stacks(const struct stacks *s, const struct path_piece *piece, int lo[2], int hi[2])
+static void segment_stacks(const struct stacks *s, const struct path_segment *segment, int lo[2], int hi[2])
 {
     for (int a = 0; a < 2; a++) {
-        lo[a] = (int)fmin(fmax(floor(piece->lo[a] / s->cell), 0), s->n[a]);
-        hi[a] = (int)fmin(fmax(floor(piece->hi[a] / s->cell), -1), s->n[a] - 1);
+        lo[a] = (int)fmin(fmax(floor(segment->lo[a] / s->cell), 0), s->n[a]);
+        hi[a] = (int)fmin(fmax(floor(segment->hi[a] / s->cell), -1), s->n[a] - 1);
     }
 }
 
@@ -333,13 +334,15 @@ static status sort_into_blocks(struct path *p, const struct stacks *s)
     for (int pass = 0; pass < 2; pass++) {
         for (size_t k = 0; k < p->n; k++) {
             int lo[2], hi[2];
-            piece_stacks(s, &p->piece[k], lo, hi);
+            segment_stacks(s, &p->segment[k], lo, hi);
             listed += lo[0] <= hi[0] && lo[1] <= hi[1] ? (size_t)((hi[0] - lo[0]) / PATH_BLOCK + 2) *
                                                              (size_t)((hi[1] - lo[1]) / PATH_BLOCK + 2)
                                                        : 0;
-            if (listed > 2 * (size_t)MOST_LISTED)
-                return fail(E_USAGE, "a path of %zu pieces that each reach %d x %d stacks is too much", p->n,
-                            hi[0] - lo[0] + 1, hi[1] - lo[1] + 1);
+            if (listed > 2 * (size_t)MAX_LISTED)
+                return fail(
+                    E_USAGE,
+                    "a path of %zu segments, of which one reaches %d x %d stacks, is too large: use fewer points, or smaller radii",
+                    p->n, hi[0] - lo[0] + 1, hi[1] - lo[1] + 1);
             for (int j = lo[1] / PATH_BLOCK; j <= hi[1] / PATH_BLOCK && lo[1] <= hi[1]; j++)
                 for (int i = lo[0] / PATH_BLOCK; i <= hi[0] / PATH_BLOCK && lo[0] <= hi[0]; i++) {
                     size_t block = (size_t)j * (size_t)p->blocks[0] + (size_t)i;
@@ -349,7 +352,7 @@ static status sort_into_blocks(struct path *p, const struct stacks *s)
                         p->first[block + 2]++;
                 }
         }
-        /* first[b + 1] is where block b's list begins, until the second pass has filled it to its end. */
+        /* Before the second pass first[b + 1] is the begin of block b's list, after it the end. */
         for (size_t b = 0; b < n && !pass; b++)
             p->first[b + 2] += p->first[b + 1];
         if (!pass)
@@ -364,20 +367,20 @@ status path_create(const struct job_operation *op, const struct surface *surface
 {
     status st = OK;
     struct graph graph = {0};
-    struct maker maker = {
+    struct builder builder = {
         .graph = &graph, .surface = surface, .side = {0, 1, 0}, .from = from, .to = to, .path = out};
     *out = (struct path){0};
     if (surface)
-        maker.smooth = *surface;
+        builder.smooth = *surface;
     make_profiles(out, op);
     TRY(graph_create(op, &graph));
     for (size_t arc = 0; arc < graph.n_arcs; arc++)
-        TRY(add_arc(&maker, arc));
+        TRY(add_arc(&builder, arc));
     for (size_t p = 0; p < op->n_points_m; p++)
         if (!graph.joined[p])
-            TRY(add_point(&maker, p));
+            TRY(add_point(&builder, p));
     for (size_t k = 0; k < out->n; k++)
-        find_box(out, reach, &out->piece[k]);
+        find_box(out, reach, &out->segment[k]);
     TRY(sort_into_blocks(out, s));
 done:
     graph_free(&graph);
@@ -388,7 +391,7 @@ done:
 
 void path_destroy(struct path *p)
 {
-    free(p->piece);
+    free(p->segment);
     free(p->first);
     free(p->list);
     *p = (struct path){0};
@@ -412,37 +415,38 @@ void path_bounds(const struct path *p, int lo[2], int hi[2])
         }
 }
 
-static const uint32_t *pieces_at(const struct path *p, int i, int j, size_t *n)
+static const uint32_t *segments_at(const struct path *p, int i, int j, size_t *n)
 {
     size_t b = (size_t)(j / PATH_BLOCK) * (size_t)p->blocks[0] + (size_t)(i / PATH_BLOCK);
     *n = p->first[b + 1] - p->first[b];
     return p->list + p->first[b];
 }
 
-static bool covers(const struct path_piece *piece, const double x[2])
+static bool covers(const struct path_segment *segment, const double x[2])
 {
-    return x[0] >= piece->lo[0] && x[0] <= piece->hi[0] && x[1] >= piece->lo[1] && x[1] <= piece->hi[1];
+    return x[0] >= segment->lo[0] && x[0] <= segment->hi[0] && x[1] >= segment->lo[1] &&
+           x[1] <= segment->hi[1];
 }
 
 bool path_heights(const struct path *p, int i, int j, const double x[2], double *lo, double *hi)
 {
     size_t n;
-    const uint32_t *list = pieces_at(p, i, j, &n);
+    const uint32_t *list = segments_at(p, i, j, &n);
     *lo = HUGE_VAL;
     *hi = -HUGE_VAL;
     for (size_t k = 0; k < n; k++) {
-        const struct path_piece *piece = &p->piece[list[k]];
-        if (!covers(piece, x))
+        const struct path_segment *segment = &p->segment[list[k]];
+        if (!covers(segment, x))
             continue;
-        *lo = fmin(*lo, piece->lo[2]);
-        *hi = fmax(*hi, piece->hi[2]);
+        *lo = fmin(*lo, segment->lo[2]);
+        *hi = fmax(*hi, segment->hi[2]);
     }
     return *hi > *lo;
 }
 
 /* ---- distances */
 
-/* The library's do more than compare, and are asked for here more than anything else. */
+/* fmin() and fmax() also handle NaN, which costs time in the innermost loop. */
 static inline double smaller(double a, double b)
 {
     return a < b ? a : b;
@@ -458,22 +462,22 @@ static double mix(double a, double b, double t)
     return a + t * (b - a);
 }
 
-static double in_capsule(const struct path_piece *piece, const double ax[3], const double bx[3],
+static double in_capsule(const struct path_segment *segment, const double ax[3], const double bx[3],
                          double *radius)
 {
     const double ab[3] = {ax[0] - bx[0], ax[1] - bx[1], ax[2] - bx[2]};
     double square = dot3(ab, ab), t = square > 0 ? smaller(larger(dot3(ax, ab) / square, 0), 1) : 0;
     const double d[3] = {ax[0] - t * ab[0], ax[1] - t * ab[1], ax[2] - t * ab[2]};
-    *radius = mix(piece->end[0].radius, piece->end[1].radius, t);
+    *radius = mix(segment->end[0].radius, segment->end[1].radius, t);
     return sqrt(dot3(d, d)) - *radius;
 }
 
-/* A piece is a prism cut by the planes across its ends: neighbours share theirs, so that they neither overlap
- * nor gape. Not asked for more closely than `nearest`. */
-static double in_prism(const struct path *p, const struct path_piece *piece, const double ax[3],
+/* The distance to a segment with a profile: a prism cut by the planes across its ends, which neighbouring segments share, so that there
+ * are neither overlaps nor gaps. Returns `nearest` if the segment is farther than that. */
+static double in_prism(const struct path *p, const struct path_segment *segment, const double ax[3],
                        const double bx[3], double nearest, double *radius)
 {
-    const struct path_end *a = &piece->end[0], *b = &piece->end[1];
+    const struct path_end *a = &segment->end[0], *b = &segment->end[1];
     double before = -dot3(ax, a->along), past = dot3(bx, b->along), length = -before - past;
     if (larger(before, past) >= nearest)
         return nearest;
@@ -482,29 +486,29 @@ static double in_prism(const struct path *p, const struct path_piece *piece, con
     int step = (int)lrint(mix(a->share, b->share, t) * (PROFILE_STEPS - 1));
     *radius = mix(a->radius, b->radius, t);
     double section = *radius * polygon_distance(p->profile[step], x / *radius, y / *radius);
-    /* A plane between neighbours is no wall. */
-    if (piece->first || before > 0)
+    /* The plane between two segments is not a wall. */
+    if (segment->first || before > 0)
         section = larger(section, before);
-    return piece->last || past > 0 ? larger(section, past) : section;
+    return segment->last || past > 0 ? larger(section, past) : section;
 }
 
 double path_distance(const struct path *p, int i, int j, const double x[3], double *radius)
 {
     size_t n;
-    const uint32_t *list = pieces_at(p, i, j, &n);
+    const uint32_t *list = segments_at(p, i, j, &n);
     double nearest = HUGE_VAL;
     for (size_t k = 0; k < n; k++) {
-        const struct path_piece *piece = &p->piece[list[k]];
-        if (!covers(piece, x))
+        const struct path_segment *segment = &p->segment[list[k]];
+        if (!covers(segment, x))
             continue;
-        double r = piece->end[0].radius, own = larger(piece->lo[2] - x[2], x[2] - piece->hi[2]);
+        double r = segment->end[0].radius, own = larger(segment->lo[2] - x[2], x[2] - segment->hi[2]);
         if (own >= nearest)
             continue;
         if (own <= 0) {
-            const double *a = piece->end[0].at, *b = piece->end[1].at;
+            const double *a = segment->end[0].at, *b = segment->end[1].at;
             const double ax[3] = {x[0] - a[0], x[1] - a[1], x[2] - a[2]};
             const double bx[3] = {x[0] - b[0], x[1] - b[1], x[2] - b[2]};
-            own = p->round ? in_capsule(piece, ax, bx, &r) : in_prism(p, piece, ax, bx, nearest, &r);
+            own = p->round ? in_capsule(segment, ax, bx, &r) : in_prism(p, segment, ax, bx, nearest, &r);
         }
         if (own < nearest) {
             nearest = own;

@@ -1,56 +1,55 @@
-/* Paths of tools: a graph of points with radii, as smooth arcs cut into short pieces, and closed spline
- * profiles along them. */
-#ifndef HOODOO_PATH_H
-#define HOODOO_PATH_H
+/* Paths of tools: a graph of points with radii, joined by Catmull-Rom arcs that are divided into short segments, and closed spline profiles
+ * swept along them. */
+#ifndef HOODOO_STACKS_PATH_H
+#define HOODOO_STACKS_PATH_H
 
 #include "job/job.h"
 #include "stacks/surface.h"
 
 struct path_end {
     double at[3], radius;
-    double along[3], side[3], up[3]; /* unit: the path's direction; across it; the profile's second axis */
-    double share;                    /* of the way from the first point to the farthest */
+    double along[3], side[3], up[3]; /* orthonormal: the path's direction and the profile's two axes */
+    double share; /* distance along the path from the first point, as a share of the longest, 0..1 */
 };
 
-struct path_piece {
+struct path_segment {
     struct path_end end[2];
-    bool first, last;    /* the path begins, ends here: it is cut straight */
-    double lo[3], hi[3]; /* what it may reach lies in this box */
+    bool first, last;    /* the path begins or ends here, with a flat end */
+    double lo[3], hi[3]; /* m, bounding box of the swept volume */
 };
 
 enum { PROFILE_POINTS = 64, PROFILE_STEPS = 17 };
 
 struct path {
     size_t n, capacity;
-    struct path_piece *piece;
-    bool round;          /* no profile: a circle */
-    double lo[2], hi[2]; /* the profiles' rectangle, in radii */
+    struct path_segment *segment;
+    bool round;          /* without a profile: a circle */
+    double lo[2], hi[2]; /* the profiles' bounding rectangle, in radii */
     struct profile_edge {
-        double x, y, ex, ey, inverse, slope; /* from (x, y) by (ex, ey); 1 / its length squared; ex / ey */
+        double x, y, ex, ey, inverse, slope; /* start, vector, 1 / length squared, ex / ey */
     } profile[PROFILE_STEPS][PROFILE_POINTS];
-    /* Pieces by blocks of 8 x 8 stacks that they reach. */
+    /* The segments that reach each block of 8 x 8 stacks: list[first[b] .. first[b + 1]). */
     int blocks[2];
     uint32_t *first, *list;
 };
 
 enum { PATH_BLOCK = 8 };
 
-/* The pieces of the operation's path that lie between the shares from..to of its length. `surface`: points
- * are moved onto it and profiles turned to its normal; NULL: they stay where they are, and up is up. `reach`:
- * beyond the profile, in radii. Single points are pieces without length. */
+/* Makes the segments of the operation's path with shares in from..to. `surface`: points are projected onto it and profiles rotated to its
+ * normal; NULL: points stay where they are and profiles are upright. `reach`: margin around the profile, in radii. Isolated points are
+ * segments without length. Free with path_destroy(). E_USAGE: too many segments. E_MEMORY. */
 MUST_USE status path_create(const struct job_operation *op, const struct surface *surface,
                             const struct stacks *s, double from, double to, double reach, struct path *out);
 void path_destroy(struct path *p);
 
-/* Distance to the swept volume, m: negative inside; outside, up or down the line through x, the swept volume
- * is no nearer. Of the pieces that reach stack (i, j), in which x lies; HUGE_VAL if there are none. *radius:
- * the path's there. */
+/* The distance from x to the swept volume, m, negative inside; outside it is a lower bound along the vertical line through x. Only
+ * considers segments that reach stack (i, j), which contains x; HUGE_VAL if there are none. *radius: the path's radius there. */
 double path_distance(const struct path *p, int i, int j, const double x[3], double *radius);
 
-/* Heights between which pieces may reach x, in stack (i, j); false: nowhere. */
+/* The range of heights in which segments may reach (x[0], x[1]) in stack (i, j); false: nowhere. */
 bool path_heights(const struct path *p, int i, int j, const double x[2], double *lo, double *hi);
 
-/* The stacks that pieces may reach: hi < lo if none. */
+/* The stacks that segments may reach; hi < lo: none. */
 void path_bounds(const struct path *p, int lo[2], int hi[2]);
 
 #endif

@@ -44,7 +44,7 @@ void spaces_destroy(struct spaces *s)
     *s = (struct spaces){0};
 }
 
-/* The spaces of one stack, into `out` if that is not NULL; how many there are. */
+/* Counts the spaces of a stack, and lists them in `out` if it is not NULL. */
 static uint32_t list_spaces(const struct spaces_kinds *kinds, const uint32_t *layer, size_t n,
                             struct space *out)
 {
@@ -119,10 +119,10 @@ status spaces_open(struct spaces *s, const int lo[2], const int hi[2])
         if (open_tile(s, first[0] + k % across, first[1] + k / across) != OK)
 #pragma omp atomic write
             st = E_MEMORY;
-    return st == OK ? OK : fail(st, "no memory for %d tiles of stacks", n);
+    return st == OK ? OK : fail(st, "no memory for the spaces of %d tiles of stacks", n);
 }
 
-/* ---- back */
+/* ---- back into stacks */
 
 struct close {
     const struct spaces *s;
@@ -130,16 +130,16 @@ struct close {
     uint64_t lost;
 };
 
-/* The loose layers of one space. */
+/* Adds the loose layers of a space. */
 static status add_loose(const struct spaces *s, const struct space *space, struct column *c, uint64_t *lost)
 {
     status st = OK;
     uint32_t top = space->floor;
     for (int k = 0; k < s->kinds.n; k++) {
-        uint32_t room = space->ceiling - top, amount = space->amount[k];
-        if (amount > room) { /* only water: stabilising minds its room */
-            *lost += amount - room;
-            amount = room;
+        uint32_t height = space->ceiling - top, amount = space->amount[k];
+        if (amount > height) { /* only water: stabilise() never overfills a space with anything else */
+            *lost += amount - height;
+            amount = height;
         }
         top += amount;
         TRY(column_add(c, top, s->kinds.material[k]));
@@ -161,7 +161,7 @@ static status close_column(void *user, int i, int j, struct column *c)
     const struct space *space = spaces_at(s, i, j, &n);
     size_t n_layers;
     uint64_t lost = 0;
-    /* The stack as it was opened: c may be of a copy edited since. */
+    /* The stack as it was when opened; c may come from a copy that has been edited since. */
     const uint32_t *layer = stacks_column(s->stacks, i, j, &n_layers);
     c->n = 0;
     for (size_t k = 0; k <= n_layers; k++) {
@@ -187,7 +187,7 @@ status spaces_close(const struct spaces *s, bool all, struct stacks *out, uint64
     status st = OK;
     struct close close = {.all = all};
     struct stacks before = {0};
-    /* Tiles of `out` may be those the spaces were opened from: keep them while they are read. */
+    /* Tiles of `out` may be shared with those the spaces were opened from: keep these alive while they are read. */
     TRY(stacks_copy(s->stacks, &before));
     struct spaces from = *s;
     from.stacks = &before;

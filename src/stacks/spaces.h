@@ -1,8 +1,8 @@
-/* The room between bedrock: what loose material moves through.
+/* The spaces between solid layers, through which loose material moves.
  *
- * A space is an interval of one stack between two layers of solid material, or above the last. What is loose
- * in it lies on its floor, merged by material and sorted in the table's order (Arches 3.4, figure 6); water
- * on top of it. Stacks are opened into spaces tile by tile, where they are first asked for.
+ * A space is an interval of a stack between two solid layers, or above the last one. Its loose material rests on its floor, merged by
+ * material and sorted in the table's order (Arches 3.4, figure 6), with water on top. Stacks are converted ("opened") into spaces tile
+ * by tile, when they are first accessed.
  */
 #ifndef HOODOO_SPACES_H
 #define HOODOO_SPACES_H
@@ -11,15 +11,15 @@
 
 #include "stacks/stacks.h"
 
-/* What is solid: air, and bedrock, never move. Loose materials in the order they lie in, water last. */
+/* Solid materials, and loose ones in the order in which they are stacked, water last. */
 struct spaces_kinds {
-    uint32_t solid; /* a bit each */
-    int n;          /* loose materials, water among them */
-    uint32_t material[MATERIALS_MAX];
-    int slot[MATERIALS_MAX]; /* of a material in `material`; -1: air or solid */
+    uint32_t solid;                   /* set of materials, a bit each */
+    int n;                            /* number of loose materials, including water */
+    uint32_t material[MATERIALS_MAX]; /* by slot */
+    int slot[MATERIALS_MAX];          /* by material; -1: air or solid */
 };
 
-/* From the table: a material is solid if its repose is 90 degrees or more. */
+/* From the table of n materials: solid if the angle of repose is 90 degrees or more. */
 struct spaces_kinds spaces_kinds(const struct material *table, int n);
 
 enum { SPACE_LOOSE = 12 };
@@ -33,7 +33,7 @@ struct space_tile {
     bool open, changed;
     uint32_t first[STACK_TILE * STACK_TILE + 1];
     struct space *space;
-    uint8_t *mark; /* one a space, for whoever walks them */
+    uint8_t *mark; /* [spaces], for the algorithms that visit them: is it queued? */
 };
 
 struct spaces {
@@ -42,14 +42,15 @@ struct spaces {
     struct space_tile *tile;
 };
 
+/* Opens no tile yet. `stacks` must outlive *out. E_MEMORY. */
 MUST_USE status spaces_create(const struct stacks *stacks, const struct spaces_kinds *kinds,
                               struct spaces *out);
 void spaces_destroy(struct spaces *s);
 
-/* Opens the tiles of the stacks lo..hi (inclusive, cut to the grid). */
+/* Opens the tiles of the stacks lo..hi (inclusive, clamped to the grid). E_MEMORY. */
 MUST_USE status spaces_open(struct spaces *s, const int lo[2], const int hi[2]);
 
-/* The spaces of an open stack. */
+/* The *n spaces of a stack whose tile is open, bottom up. */
 static inline struct space *spaces_at(const struct spaces *s, int i, int j, int *n)
 {
     const struct space_tile *t =
@@ -59,11 +60,11 @@ static inline struct space *spaces_at(const struct spaces *s, int i, int j, int 
     return t->space + t->first[slot];
 }
 
-/* The tile of a stack, opened when need be. */
+/* The tile of a stack, which is opened if necessary. E_MEMORY. */
 MUST_USE status spaces_tile(struct spaces *s, int i, int j, struct space_tile **out);
 
-/* Back into stacks (those they came from, or a copy): the open tiles, or with `all` false those marked as
- * changed. Solid layers stay; water that has no room under a ceiling is lost, and counted in *lost. */
+/* Writes spaces back into stacks (the original ones, or a copy): all open tiles, or with `all` false those marked as changed. Solid layers
+ * remain. Water that does not fit below a ceiling is removed and counted in *lost, quanta; NULL: not counted. E_MEMORY. */
 MUST_USE status spaces_close(const struct spaces *s, bool all, struct stacks *out, uint64_t *lost);
 
 #endif

@@ -7,14 +7,14 @@
 #include "base/memory.h"
 #include "shared/params.h"
 
-/* A space, by where it is. */
-struct place {
-    uint32_t height; /* of the moving material's surface when it was listed: the higher move first */
+/* A queued space: number k of stack (i, j). */
+struct entry {
+    uint32_t height; /* quanta: surface of the moving material when it was queued; the highest move first */
     int32_t i, j, k;
 };
 
 struct list {
-    struct place *at;
+    struct entry *at;
     size_t n, capacity;
 };
 
@@ -23,21 +23,22 @@ struct slide {
     struct stabilised *out;
     struct spaces spaces;
     struct list now, next;
-    int slot;             /* of the material that moves */
-    double run[2], spare; /* quanta: rise that is stable to a neighbour beside or across; and tolerated */
+    int slot;              /* the moving material's */
+    double stable_rise[2]; /* quanta: to an edge and to a diagonal neighbour */
+    double tolerance;      /* quanta by which the stable rise may be exceeded */
 };
 
 enum { TARGETS = 64, ROUNDS = 64 };
 
-/* Where material of a space may go. */
+/* A space that material may move to. */
 struct target {
-    struct space *space; /* NULL: over the side */
-    double level;        /* what it may rise to meet: its surface and the stable rise */
-    double room;
+    struct space *space; /* NULL: across the side of the grid */
+    double level;        /* quanta: its surface plus the stable rise; material moves to it from above this */
+    double capacity;     /* quanta that it can take */
     int i, j, k;
 };
 
-/* Top of the material in `slot`, on which what lies above it rests. */
+/* The height of the top of the material in `slot`. */
 static uint32_t surface_of(const struct space *s, int slot)
 {
     uint32_t z = s->floor;
@@ -46,7 +47,7 @@ static uint32_t surface_of(const struct space *s, int slot)
     return z;
 }
 
-/* All but the water, which gives way. */
+/* The amount of all materials except water, which is displaced. */
 static uint32_t filled(const struct spaces_kinds *kinds, const struct space *s)
 {
     uint32_t sum = 0;
@@ -55,7 +56,7 @@ static uint32_t filled(const struct spaces_kinds *kinds, const struct space *s)
     return sum;
 }
 
-/* The spaces of one neighbour that `from`, whose material reaches up to h, runs into. */
+/* Adds the spaces of a neighbouring stack into which material from `from`, whose surface is at h, slides. */
 static int targets_in(const struct slide *s, const struct space *from, double h, int i, int j, double rise,
                       struct target *out, int n)
 {
@@ -65,20 +66,20 @@ static int targets_in(const struct slide *s, const struct space *from, double h,
         struct space *b = &space[k];
         if (b->floor >= h || b->floor >= from->ceiling || b->ceiling <= from->floor)
             continue;
-        double room = (double)(b->ceiling - b->floor) - filled(&s->spaces.kinds, b);
+        double capacity = (double)(b->ceiling - b->floor) - filled(&s->spaces.kinds, b);
         double surface = surface_of(b, s->slot);
-        /* Under a lintel lower than h the pile runs in only up to the lintel. */
-        double limit = fmin(h, surface + room);
+        /* Below a lintel lower than h the pile only rises to the lintel. */
+        double limit = fmin(h, surface + capacity);
         if (limit < h)
-            room = fmin(room, limit - rise - surface);
-        if (room < 1 || limit - surface - rise <= s->spare)
+            capacity = fmin(capacity, limit - rise - surface);
+        if (capacity < 1 || limit - surface - rise <= s->tolerance)
             continue;
-        out[n++] = (struct target){b, surface + rise, room, i, j, k};
+        out[n++] = (struct target){b, surface + rise, capacity, i, j, k};
     }
     return n;
 }
 
-/* Does what slides to stack (i, j), which is beyond the grid, leave it across a side that is no wall? */
+/* Does material that slides to (i, j), outside of the grid, cross a side that is not a wall? */
 static bool leaves(const struct slide *s, int i, int j)
 {
     const int *n = s->spaces.stacks->n;
@@ -87,7 +88,7 @@ static bool leaves(const struct slide *s, int i, int j)
     return (across & ~s->options->walls) != 0;
 }
 
-static status targets_of(struct slide *s, const struct place *p, const struct space *from, double h,
+static status targets_of(struct slide *s, const struct entry *p, const struct space *from, double h,
                          struct target out[TARGETS], int *n)
 {
     status st = OK;
@@ -96,14 +97,14 @@ static status targets_of(struct slide *s, const struct place *p, const struct sp
     for (int dj = -1; dj <= 1; dj++)
         for (int di = -1; di <= 1; di++) {
             int i = p->i + di, j = p->j + dj;
-            double rise = s->run[di && dj];
+            double rise = s->stable_rise[di && dj];
             struct space_tile *tile;
             if (!di && !dj)
                 continue;
             if (i >= 0 && j >= 0 && i < g->n[0] && j < g->n[1]) {
                 TRY(spaces_tile(&s->spaces, i, j, &tile));
                 *n = targets_in(s, from, h, i, j, rise, out, *n);
-            } else if (leaves(s, i, j) && *n < TARGETS && h - from->floor - rise > s->spare) {
+            } else if (leaves(s, i, j) && *n < TARGETS && h - from->floor - rise > s->tolerance) {
                 out[(*n)++] = (struct target){NULL, from->floor + rise, HUGE_VAL, i, j, 0};
             }
         }
@@ -111,16 +112,17 @@ done:
     return st;
 }
 
-static double moved_down_to(const struct target *t, int n, double level)
+/* The amount that has moved when the surface is at `level`. */
+static double moved_at_level(const struct target *t, int n, double level)
 {
     double sum = 0;
     for (int k = 0; k < n; k++)
-        sum += fmin(fmax(level - t[k].level, 0), t[k].room);
+        sum += fmin(fmax(level - t[k].level, 0), t[k].capacity);
     return sum;
 }
 
-/* The height that a surface at h comes to when all that is lower, and has room, rises to meet it: where
- * height and what has left it add up to h. Never below it. */
+/* The level L at which L + moved_at_level(L) = h, by bisection to a quarter of a quantum, rounded upwards: where a surface at h ends when
+ * all lower targets rise to meet it. */
 static double level_of(const struct target *t, int n, double h)
 {
     double low = h, high = h;
@@ -128,7 +130,7 @@ static double level_of(const struct target *t, int n, double h)
         low = fmin(low, t[k].level);
     for (int i = 0; i < 48 && high - low > 0.25; i++) {
         double middle = 0.5 * (low + high);
-        if (middle + moved_down_to(t, n, middle) > h)
+        if (middle + moved_at_level(t, n, middle) > h)
             high = middle;
         else
             low = middle;
@@ -146,12 +148,12 @@ static status push(struct slide *s, struct space_tile *tile, int i, int j, int k
     if (st != OK)
         return st;
     tile->mark[at] = 1;
-    s->next.at[s->next.n++] = (struct place){surface_of(&tile->space[at], s->slot), i, j, k};
+    s->next.at[s->next.n++] = (struct entry){surface_of(&tile->space[at], s->slot), i, j, k};
     return OK;
 }
 
-/* Whatever rests against a stack that changed may move now. */
-static status wake(struct slide *s, int i, int j)
+/* Queues the spaces of a changed stack and its eight neighbours, which may move now. */
+static status push_around(struct slide *s, int i, int j)
 {
     status st = OK;
     const struct stacks *g = s->spaces.stacks;
@@ -168,8 +170,8 @@ done:
     return st;
 }
 
-/* Moves what one space has too much of. */
-static status relax(struct slide *s, const struct place *p)
+/* Levels one space with its lower neighbours. */
+static status level_space(struct slide *s, const struct entry *p)
 {
     status st = OK;
     struct space_tile *tile, *other;
@@ -181,17 +183,17 @@ static status relax(struct slide *s, const struct place *p)
     TRY(targets_of(s, p, from, h, target, &n));
     if (n == 0 || most < 1)
         goto done;
-    double level = level_of(target, n, h), sum = moved_down_to(target, n, level);
-    /* `high` of the search is a shade too high a level; and no more leaves than there is. */
+    double level = level_of(target, n, h), sum = moved_at_level(target, n, level);
+    /* No more can leave than the space has, nor, up to the error of `level`, than its surface sinks. */
     most = fmin(most, h - level + 1);
     if (sum > most)
         share = most / sum;
-    uint32_t gone = 0;
+    uint32_t moved = 0;
     for (int k = 0; k < n; k++) {
-        uint32_t m = (uint32_t)(share * fmin(fmax(level - target[k].level, 0), target[k].room));
+        uint32_t m = (uint32_t)(share * fmin(fmax(level - target[k].level, 0), target[k].capacity));
         if (m == 0)
             continue;
-        gone += m;
+        moved += m;
         if (!target[k].space) {
             s->out->left[s->spaces.kinds.material[s->slot]] += m;
             continue;
@@ -199,22 +201,22 @@ static status relax(struct slide *s, const struct place *p)
         target[k].space->amount[s->slot] += m;
         TRY(spaces_tile(&s->spaces, target[k].i, target[k].j, &other));
         other->changed = true;
-        TRY(wake(s, target[k].i, target[k].j));
+        TRY(push_around(s, target[k].i, target[k].j));
     }
-    if (gone == 0)
+    if (moved == 0)
         goto done;
-    from->amount[s->slot] -= gone;
+    from->amount[s->slot] -= moved;
     tile->changed = true;
     s->out->moves++;
-    TRY(wake(s, p->i, p->j));
+    TRY(push_around(s, p->i, p->j));
 done:
     return st;
 }
 
-/* Highest first: what comes down passes over a slope in one sweep. */
+/* Highest first, so that material crosses a whole slope in one sweep. */
 static int by_height(const void *a, const void *b)
 {
-    const struct place *x = a, *y = b;
+    const struct entry *x = a, *y = b;
     if (x->height != y->height)
         return x->height < y->height ? 1 : -1;
     if (x->j != y->j)
@@ -224,7 +226,7 @@ static int by_height(const void *a, const void *b)
     return (x->k > y->k) - (x->k < y->k);
 }
 
-/* Does this space have anywhere to go to? Reads only; where a tile has not been opened, it may. */
+/* Can material of this space move? Does not open tiles: next to an unopened one the answer is yes. */
 static bool may_move(const struct slide *s, int i, int j, int k)
 {
     const struct stacks *g = s->spaces.stacks;
@@ -236,7 +238,7 @@ static bool may_move(const struct slide *s, int i, int j, int k)
         return false;
     for (int d = 0; d < 9; d++) {
         int a = i + d % 3 - 1, b = j + d / 3 - 1;
-        double rise = s->run[d % 3 != 1 && d / 3 != 1];
+        double rise = s->stable_rise[d % 3 != 1 && d / 3 != 1];
         if (d == 4)
             continue;
         if (a < 0 || b < 0 || a >= g->n[0] || b >= g->n[1]) {
@@ -251,7 +253,7 @@ static bool may_move(const struct slide *s, int i, int j, int k)
     return false;
 }
 
-/* Marks in row j of lo..hi the stacks that may move. */
+/* Marks the stacks of row j, lo..hi, whose material may move. */
 static void mark_row(const struct slide *s, int j, int lo, int hi, uint8_t *mark)
 {
     const struct stacks *g = s->spaces.stacks;
@@ -268,7 +270,7 @@ static void mark_row(const struct slide *s, int j, int lo, int hi, uint8_t *mark
     }
 }
 
-/* What moves first: of lo..hi and a stack around, or of all that is open. */
+/* Queues the spaces that may move: in lo..hi and one stack around it, or in all open tiles. */
 static status find_unstable(struct slide *s, const int lo[2], const int hi[2], bool everywhere)
 {
     status st = OK;
@@ -299,17 +301,17 @@ done:
     return st;
 }
 
-/* One material until it rests; *moved: did it at all? */
-static status settle(struct slide *s, const int lo[2], const int hi[2], bool everywhere, bool *moved)
+/* Slides one material until it is at rest, or options->sweeps. *moved: has anything moved? */
+static status slide_material(struct slide *s, const int lo[2], const int hi[2], bool everywhere, bool *moved)
 {
     status st = OK;
     const struct stacks *g = s->spaces.stacks;
     double repose = s->options->table[s->spaces.kinds.material[s->slot]].repose_deg;
     double most = fmin(repose + STABILISE_TOLERANCE_DEG, 89.9) * M_PI / 180;
-    double across = g->cell / g->quantum, before = (double)s->out->moves;
-    s->run[0] = across * tan(fmin(repose, 89.8) * M_PI / 180);
-    s->run[1] = s->run[0] * sqrt(2);
-    s->spare = fmax(across * tan(most) - s->run[0], 2);
+    double width = g->cell / g->quantum, before = (double)s->out->moves;
+    s->stable_rise[0] = width * tan(fmin(repose, 89.8) * M_PI / 180);
+    s->stable_rise[1] = s->stable_rise[0] * sqrt(2);
+    s->tolerance = fmax(width * tan(most) - s->stable_rise[0], 2);
     s->next.n = 0;
     TRY(find_unstable(s, lo, hi, everywhere));
     for (int64_t sweep = 0; s->next.n && (s->options->sweeps == 0 || sweep < s->options->sweeps); sweep++) {
@@ -319,19 +321,19 @@ static status settle(struct slide *s, const int lo[2], const int hi[2], bool eve
         s->next.n = 0;
         qsort(s->now.at, s->now.n, sizeof *s->now.at, by_height);
         for (size_t p = 0; p < s->now.n; p++) {
-            const struct place *at = &s->now.at[p];
+            const struct entry *at = &s->now.at[p];
             struct space_tile *tile;
             TRY(spaces_tile(&s->spaces, at->i, at->j, &tile));
             tile->mark[tile->first[at->j % STACK_TILE * STACK_TILE + at->i % STACK_TILE] + (uint32_t)at->k] =
                 0;
-            TRY(relax(s, at));
+            TRY(level_space(s, at));
         }
         s->out->sweeps++;
     }
     *moved = (double)s->out->moves > before;
     s->out->resting &= s->next.n == 0;
     for (size_t p = 0; p < s->next.n; p++) {
-        const struct place *at = &s->next.at[p];
+        const struct entry *at = &s->next.at[p];
         struct space_tile *tile;
         TRY(spaces_tile(&s->spaces, at->i, at->j, &tile));
         tile->mark[tile->first[at->j % STACK_TILE * STACK_TILE + at->i % STACK_TILE] + (uint32_t)at->k] = 0;
@@ -349,7 +351,7 @@ status stabilise(struct stacks *s, const struct stabilise *options, const int lo
     *out = (struct stabilised){.resting = true};
     TRY(spaces_create(s, &kinds, &slide.spaces));
     TRY(spaces_open(&slide.spaces, (const int[]){lo[0] - 1, lo[1] - 1}, (const int[]){hi[0] + 1, hi[1] + 1}));
-    /* A material that moved may have made room under a ceiling for one that lies below it. */
+    /* A material that has moved may have made space below a ceiling for a material under it. */
     bool again = true;
     int rounds = options->sweeps ? 1 : ROUNDS;
     for (int round = 0; again && round < rounds; round++) {
@@ -359,7 +361,7 @@ status stabilise(struct stacks *s, const struct stabilise *options, const int lo
             if (kinds.material[slot] == MATERIAL_WATER)
                 continue;
             slide.slot = slot;
-            TRY(settle(&slide, lo, hi, round > 0, &moved));
+            TRY(slide_material(&slide, lo, hi, round > 0, &moved));
             again |= moved;
         }
     }

@@ -28,7 +28,7 @@ static void tile_release(struct stack_tile *t)
         free(t);
 }
 
-/* A tile of these layers; NULL where there are none. */
+/* A tile of these layers; NULL if there are none. */
 static status tile_create(const uint32_t first[TILE_STACKS + 1], const uint32_t *layer,
                           struct stack_tile **out)
 {
@@ -48,9 +48,9 @@ static status tile_create(const uint32_t first[TILE_STACKS + 1], const uint32_t 
 status stacks_create(const int n[2], double cell, double height, struct stacks *out)
 {
     *out = (struct stacks){.n = {n[0], n[1]}, .cell = cell, .quantum = height / STACK_TOP};
-    if (n[0] < 1 || n[1] < 1 || (int64_t)n[0] * n[1] > STACKS_MOST)
-        return fail(E_USAGE, "%d x %d stacks: 1 to %d are possible; raise arches.cell_m", n[0], n[1],
-                    STACKS_MOST);
+    if (n[0] < 1 || n[1] < 1 || (int64_t)n[0] * n[1] > STACKS_MAX)
+        return fail(E_USAGE, "arches: %d x %d stacks, but the limit is %d: raise arches.cell_m", n[0], n[1],
+                    STACKS_MAX);
     for (int a = 0; a < 2; a++)
         out->tiles[a] = (n[a] + STACK_TILE - 1) / STACK_TILE;
     return memory_alloc(tile_count(out), sizeof(struct stack_tile *), "stacks", &out->tile);
@@ -101,7 +101,7 @@ struct edit {
     void *user;
 };
 
-/* What one thread needs. */
+/* Buffers of one thread. */
 struct workspace {
     struct column column;
     uint32_t first[TILE_STACKS + 1];
@@ -121,7 +121,7 @@ static status append(struct workspace *w, int slot, const uint32_t *layer, size_
     return OK;
 }
 
-/* Tile t, edited, in *out; the old one where nothing changed. */
+/* Edits tile t. *out: the new tile, or the old one if nothing has changed. */
 static status edit_tile(const struct edit *e, size_t t, struct workspace *w, struct stack_tile **out)
 {
     status st = OK;
@@ -254,7 +254,7 @@ void stacks_pack(const struct stacks *s, uint32_t *count, uint32_t *layer)
         }
 }
 
-/* Ascending, neighbours differ, no air on top. */
+/* Tops ascend, neighbours differ in material, and the last layer is not air. */
 static bool is_stack(const uint32_t *layer, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
@@ -268,7 +268,7 @@ static bool is_stack(const uint32_t *layer, size_t n)
 struct unpack {
     const struct stacks *s;
     const uint32_t *count, *layer;
-    const size_t *first; /* of each row's stacks */
+    const size_t *first; /* [stacks]: index of the first layer */
 };
 
 static status unpack_column(void *user, int i, int j, struct column *c)
@@ -292,7 +292,7 @@ status stacks_unpack(struct stacks *s, const uint32_t *count, const uint32_t *la
         sum += count[k];
     }
     if (sum != n_layers) {
-        st = fail(E_INPUT, "%zu layers where the stacks have %zu", n_layers, sum);
+        st = fail(E_INPUT, "there are %zu layers, but the stacks have %zu", n_layers, sum);
         goto done;
     }
     struct unpack u = {s, count, layer, first};

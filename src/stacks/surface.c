@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* The stacks a box overlaps along one axis, and how far each, m. Beyond the grid the outermost go on. */
+/* The stacks that the box overlaps on one axis, and the lengths of the overlaps, m. Outside of the grid the outermost stacks continue. */
 struct span {
     int n, index[2 * SURFACE_WIDEST + 3];
     double overlap[2 * SURFACE_WIDEST + 3];
@@ -39,7 +39,7 @@ static struct span span_of(const struct stacks *s, int axis, double x, double si
     return out;
 }
 
-/* Length of the set within lo..hi of one stack, m. */
+/* The length of the set's materials in lo..hi of a stack, m. */
 static double length_in(const struct surface *s, int i, int j, double lo, double hi)
 {
     size_t n;
@@ -67,7 +67,7 @@ double surface_at(const struct surface *s, const double p[3])
     return volume / (4 * s->sigma * s->sigma * s->sigma) - 1;
 }
 
-/* Of the set, the area on the box's face across `axis` (0 or 1) at `at`. */
+/* The area of the set's materials on the face of the box that is normal to `axis` (0 or 1) at coordinate `at`. */
 static double face_area(const struct surface *s, int axis, double at, const struct span *other, double z)
 {
     int own =
@@ -116,7 +116,7 @@ void surface_normal(const struct surface *s, const double p[3], double normal[3]
 /* ---- f along a vertical line */
 
 struct profile_event {
-    double z, slope; /* f's slope grows by this much there */
+    double z, slope; /* change of f's slope at z */
 };
 
 void profile_free(struct profile *p)
@@ -133,7 +133,7 @@ static int by_height(const void *a, const void *b)
     return (x->z > y->z) - (x->z < y->z);
 }
 
-/* One stack's boundaries, each of which the box's top meets first and its bottom last. */
+/* Adds the events of a stack: the box's top reaches each boundary sigma below it, its bottom leaves it sigma above. */
 static status add_column(const struct surface *s, int i, int j, double weight, struct profile *p,
                          double *below)
 {
@@ -178,8 +178,7 @@ status surface_profile(const struct surface *s, double x, double y, struct profi
         for (int i = 0; i < along.n; i++)
             TRY(add_column(s, along.index[i], across.index[j], along.overlap[i] * across.overlap[j] / area, p,
                            &below));
-    /* Equal heights may come in any order: their slopes only add up to rounding, and the line is one either
-     * way. */
+    /* The order of equal heights does not matter: their slopes are summed, and the order only affects rounding. */
     qsort(p->event, p->n_events, sizeof *p->event, by_height);
     TRY(reserve(p, p->n_events + 1));
     p->z[0] = p->n_events ? p->event[0].z : 0;
@@ -232,7 +231,7 @@ static bool nearest_root(const struct profile *p, double z, double *out)
     return found;
 }
 
-/* To the root on p's vertical line that is nearest. */
+/* Moves p to the nearest root on its vertical line. */
 static status drop_to_root(const struct surface *s, double p[3], bool *found)
 {
     struct profile line = {0};
@@ -256,7 +255,7 @@ status surface_project(const struct surface *s, double p[3], bool *found)
         double square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
         if (fabs(f) < 1e-6 || !(square > 0))
             break;
-        /* At most half a box: the gradient is that of where it stands. */
+        /* A Newton step, limited to half of sigma, for the gradient is only valid around p. */
         double step = fmin(fabs(f) / sqrt(square), s->sigma / 2) * (f > 0 ? -1 : 1) / sqrt(square);
         for (int a = 0; a < 3; a++)
             p[a] += step * g[a];
@@ -267,9 +266,9 @@ done:
     return st;
 }
 
-/* ---- a lattice */
+/* ---- samples on a lattice */
 
-/* Adds weight times the set's share of each sample's window along one stack: samples first to first + n - 1. */
+/* Adds weight times the share of the set in the window of each sample, along one stack, for samples first to first + n - 1. */
 static void add_line(const struct surface *s, int i, int j, double weight, double origin, double h, int first,
                      int n, float *line)
 {
@@ -295,7 +294,7 @@ static void add_line(const struct surface *s, int i, int j, double weight, doubl
     }
 }
 
-/* The stacks that boxes around a row of points overlap along an axis, *lo to *hi. */
+/* The stacks *lo to *hi that the boxes around a row of points overlap on an axis. */
 static void stacks_along(const struct surface *s, int axis, const struct surface_box *box, int *lo, int *hi)
 {
     const int last = box->first[axis] + box->n[axis] - 1;
@@ -306,7 +305,7 @@ static void stacks_along(const struct surface *s, int axis, const struct surface
     *hi = to.index[to.n - 1];
 }
 
-/* Row j of the box: first the lines of stacks lo to hi, summed over y; then those over x. */
+/* Samples row j of the box: filters along z and y into `lines` for stacks lo to hi, then along x. */
 static void sample_row(const struct surface *s, const struct surface_box *box, int j, int lo, int hi,
                        float *lines, float *row, float *share)
 {
@@ -344,9 +343,9 @@ status surface_sample(const struct surface *s, const struct surface_box *box, st
     return st;
 }
 
-/* ---- what shows */
+/* ---- visible area */
 
-/* Layer k's material and the heights it spans, in quanta; air above the last. */
+/* The material of layer k and its extent lo..hi, quanta; air above the last layer. */
 static uint32_t layer_span(const uint32_t *layer, size_t n, size_t k, double *lo, double *hi)
 {
     *lo = k ? (double)layer_top(layer[k - 1]) : -HUGE_VAL;
@@ -359,7 +358,7 @@ static bool is_open(uint32_t material)
     return material == MATERIAL_AIR || material == MATERIAL_WATER;
 }
 
-/* The wall between two neighbouring stacks within lo..hi (quanta): what of either faces the other's air. */
+/* Adds the wall between two neighbouring stacks within lo..hi (quanta): the material of one that faces the air of the other. */
 static void add_wall(const struct stacks *s, const int a[2], const int b[2], double width, double lo,
                      double hi, double area[MATERIALS_MAX])
 {

@@ -74,8 +74,8 @@ static status fill(void *user, int i, int j, struct column *c)
     const struct stacks *s = user;
     /* Nowhere steeper than sand rests at. */
     double z = 550 + 12 * sin(i * 0.02) * sin(j * 0.03);
-    status st = column_put(c, 0, stacks_quanta(s, z), MATERIAL_BEDROCK);
-    return st == OK ? column_put(c, stacks_quanta(s, z), stacks_quanta(s, z + 2), MATERIAL_SAND) : st;
+    status st = column_set(c, 0, stacks_quanta(s, z), MATERIAL_BEDROCK);
+    return st == OK ? column_set(c, stacks_quanta(s, z), stacks_quanta(s, z + 2), MATERIAL_SAND) : st;
 }
 
 static void edit(void)

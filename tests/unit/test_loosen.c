@@ -18,7 +18,7 @@ static status put_one(void *user, int i, int j, struct column *c)
 {
     const struct put *p = user;
     (void)i, (void)j;
-    return column_put(c, p->lo, p->hi, p->material);
+    return column_set(c, p->lo, p->hi, p->material);
 }
 
 /* Stacks i0..i1, j0..j1 between two levels of a metre. */

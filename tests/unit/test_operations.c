@@ -60,7 +60,7 @@ static status put_one(void *user, int i, int j, struct column *c)
 {
     const struct put *p = user;
     (void)i, (void)j;
-    return column_put(c, p->lo, p->hi, p->material);
+    return column_set(c, p->lo, p->hi, p->material);
 }
 
 static void put(struct stacks *s, int i0, int j0, int i1, int j1, double lo, double hi, uint32_t material)

@@ -35,7 +35,7 @@ static status put_one(void *user, int i, int j, struct column *c)
 {
     const struct put *p = user;
     (void)i, (void)j;
-    return column_put(c, p->lo, p->hi, p->material);
+    return column_set(c, p->lo, p->hi, p->material);
 }
 
 static void put(struct stacks *s, int i0, int j0, int i1, int j1, double lo, double hi, uint32_t material)
@@ -55,7 +55,7 @@ static status put_chaos(void *user, int i, int j, struct column *c)
     status st = OK;
     const struct chaos *k = user;
     uint32_t at = (uint32_t)(j * 1000 + i), block = (uint32_t)(j / 4 * 1000 + i / 4);
-    TRY(column_put(c, 0, stacks_quanta(k->s, 1 + 3 * random_share(k->seed, block, 1)), MATERIAL_BEDROCK));
+    TRY(column_set(c, 0, stacks_quanta(k->s, 1 + 3 * random_share(k->seed, block, 1)), MATERIAL_BEDROCK));
     for (uint32_t n = 0; n < 6; n++) {
         bool wide = n % 2;
         uint32_t where = wide ? block : at;
@@ -68,7 +68,7 @@ static status put_chaos(void *user, int i, int j, struct column *c)
                             : n == 4 ? MATERIAL_ROCK
                             : n == 5 ? MATERIAL_BEDROCK
                                      : MATERIAL_SAND;
-        TRY(column_put(c, stacks_quanta(k->s, lo), stacks_quanta(k->s, lo + size), material));
+        TRY(column_set(c, stacks_quanta(k->s, lo), stacks_quanta(k->s, lo + size), material));
     }
 done:
     return st;
@@ -89,9 +89,9 @@ static void test_columns(void **state)
 {
     (void)state;
     struct column c = {0};
-    assert_ok(column_put(&c, 0, 100, MATERIAL_BEDROCK));
-    assert_ok(column_put(&c, 30, 40, MATERIAL_AIR));
-    assert_ok(column_put(&c, 120, 140, MATERIAL_SAND));
+    assert_ok(column_set(&c, 0, 100, MATERIAL_BEDROCK));
+    assert_ok(column_set(&c, 30, 40, MATERIAL_AIR));
+    assert_ok(column_set(&c, 120, 140, MATERIAL_SAND));
     assert_int_equal(c.n, 5);
     assert_int_equal(column_at(c.layer, c.n, 29), MATERIAL_BEDROCK);
     assert_int_equal(column_at(c.layer, c.n, 30), MATERIAL_AIR);
@@ -100,7 +100,7 @@ static void test_columns(void **state)
     assert_int_equal(column_at(c.layer, c.n, 139), MATERIAL_SAND);
     assert_int_equal(column_at(c.layer, c.n, 140), MATERIAL_AIR);
     /* Only bedrock turns; the hole and the sand stay. */
-    assert_ok(column_change(&c, 20, 200, 1u << MATERIAL_BEDROCK, MATERIAL_ROCK));
+    assert_ok(column_replace(&c, 20, 200, 1u << MATERIAL_BEDROCK, MATERIAL_ROCK));
     uint64_t amount[MATERIALS_MAX] = {0};
     column_amounts(c.layer, c.n, amount);
     assert_int_equal(amount[MATERIAL_BEDROCK], 20);
@@ -108,8 +108,8 @@ static void test_columns(void **state)
     assert_int_equal(amount[MATERIAL_SAND], 20);
     assert_int_equal(amount[MATERIAL_AIR], 10 + 20);
     /* Air on top is not kept, nor neighbours alike. */
-    assert_ok(column_put(&c, 25, 1000, MATERIAL_AIR));
-    assert_ok(column_put(&c, 20, 25, MATERIAL_BEDROCK));
+    assert_ok(column_set(&c, 25, 1000, MATERIAL_AIR));
+    assert_ok(column_set(&c, 20, 25, MATERIAL_BEDROCK));
     assert_int_equal(c.n, 1);
     column_free(&c);
 }

@@ -1,11 +1,11 @@
-#include "stacks/along.h"
+#include "stacks/intervals.h"
 
 #include <math.h>
 
 #include "base/memory.h"
 
 struct finder {
-    along f;
+    height_function f;
     void *user;
     struct intervals *out;
     bool in;
@@ -20,15 +20,15 @@ static status open_at(struct finder *s, double z)
     return st;
 }
 
-/* The root between a and b, where f is fa and fb: regula falsi, halving the value of an end that stays
- * (Illinois), and bisection where that crawls. */
+/* The root between a and b, where f is fa and fb: regula falsi, which halves the value at an end that is kept twice (Illinois), then
+ * bisection if that converges slowly. */
 static double root(const struct finder *s, double a, double fa, double b, double fb)
 {
-    enum { MOST = 60, PATIENCE = 12 };
+    enum { MAX_STEPS = 60, MAX_FALSI_STEPS = 12 };
     double skip, small = 1e-9 * (1 + fabs(a) + fabs(b));
     int side = 0;
-    for (int i = 0; i < MOST && b - a > small; i++) {
-        double z = i < PATIENCE ? b - fb * (b - a) / (fb - fa) : 0.5 * (a + b);
+    for (int i = 0; i < MAX_STEPS && b - a > small; i++) {
+        double z = i < MAX_FALSI_STEPS ? b - fb * (b - a) / (fb - fa) : 0.5 * (a + b);
         if (!(z > a && z < b))
             z = 0.5 * (a + b);
         double f = s->f(s->user, z, &skip);
@@ -49,7 +49,7 @@ static double root(const struct finder *s, double a, double fa, double b, double
     return 0.5 * (a + b);
 }
 
-/* Looks at z; *skip as f gives it. */
+/* Samples f at z; opens or closes an interval if the sign has changed since the last sample. */
 static status sample(struct finder *s, double z, double *skip)
 {
     status st = OK;
@@ -69,15 +69,15 @@ static status sample(struct finder *s, double z, double *skip)
     return st;
 }
 
-/* Is the line 1 or -1 all the way up to break k? */
+/* Is the line constantly 1 or -1 between breaks k - 1 and k? */
 static bool is_pinned(const struct profile *line, size_t k)
 {
     double below = line->f[k ? k - 1 : 0], above = line->f[k < line->n ? k : line->n - 1];
     return fmin(fabs(below), fabs(above)) > 1 - 1e-9 && (below > 0) == (above > 0);
 }
 
-status intervals_find(double lo, double hi, double step, const struct profile *line, bool pinned, along f,
-                      void *user, struct intervals *out)
+status intervals_find(double lo, double hi, double step, const struct profile *line, bool pinned,
+                      height_function f, void *user, struct intervals *out)
 {
     status st = OK;
     struct finder s = {f, user, out, false, lo, 0};
@@ -85,7 +85,7 @@ status intervals_find(double lo, double hi, double step, const struct profile *l
     out->n = 0;
     if (!(hi > lo))
         return OK;
-    /* What is below lo counts as outside: an interval that holds lo begins there. */
+    /* If f > 0 at lo, the first interval begins there. */
     s.value = f(user, lo, &skip);
     s.in = s.value > 0;
     if (s.in)
