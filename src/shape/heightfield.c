@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "image/bilinear.h"
 #include "image/image.h"
 #include "image/sliding_max.h"
 
@@ -237,18 +238,6 @@ static double clamp(double x, double lo, double hi)
     return fmin(fmax(x, lo), hi);
 }
 
-static double height_at(const struct heightfield *f, double px, double py)
-{
-    double x = clamp(px - 0.5, 0, (double)(f->width - 1)), y = clamp(py - 0.5, 0, (double)(f->height - 1));
-    size_t i = (size_t)x, j = (size_t)y;
-    size_t right = i + 1 < f->width ? 1 : 0, up = j + 1 < f->height ? f->width : 0;
-    const float *z = f->z + j * f->width + i;
-    double u = x - (double)i, v = y - (double)j;
-    double bottom = z[0] + u * (z[right] - z[0]);
-    double top = z[up] + u * (z[up + right] - z[up]);
-    return bottom + v * (top - bottom);
-}
-
 /* The distance to the rim between pixels with and without a value, negative where pixel (i, j) has one: exact next to the rim, else a
  * lower bound in whole pixels. */
 static double rim_distance(const struct heightfield *f, double px, double py, size_t i, size_t j)
@@ -276,7 +265,7 @@ double heightfield_distance(const struct heightfield *f, const double x[3])
     size_t j = py < (double)f->height ? (size_t)py : f->height - 1;
     size_t pixel = j * f->width + i;
     /* Two lower bounds: within `reach` the ground is between low and high, and nowhere is it steeper than its steepest slope. */
-    double rise = x[2] - height_at(f, px, py), d = rise / f->steepness;
+    double rise = x[2] - image_bilinear(f->z, f->width, f->height, px, py), d = rise / f->steepness;
     if (rise > 0)
         d = fmax(d, fmin(f->reach, x[2] - f->high[pixel]));
     else

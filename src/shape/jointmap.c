@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "image/bilinear.h"
 #include "image/image.h"
 
 /* Uncertainty of the outline's distance, pixels: it is somewhere between the centres of two pixels that differ (up to sqrt(2) from
@@ -122,15 +123,9 @@ static double clamp(double x, double low, double high)
     return fmin(fmax(x, low), high);
 }
 
-static double bilinear(const struct jointmap *m, const float *field, double px, double py)
+static double at(const struct jointmap *m, const float *field, double px, double py)
 {
-    double x = clamp(px - 0.5, 0, (double)(m->width - 1)), y = clamp(py - 0.5, 0, (double)(m->height - 1));
-    size_t i = (size_t)x, j = (size_t)y;
-    size_t right = i + 1 < m->width ? 1 : 0, up = j + 1 < m->height ? m->width : 0;
-    const float *f = field + j * m->width + i;
-    double u = x - (double)i, v = y - (double)j;
-    double bottom = (double)f[0] + u * (double)(f[right] - f[0]);
-    return bottom + v * ((double)f[up] + u * (double)(f[up + right] - f[up]) - bottom);
+    return image_bilinear(field, m->width, m->height, px, py);
 }
 
 double jointmap_distance(const struct jointmap *m, const double x[3])
@@ -140,8 +135,8 @@ double jointmap_distance(const struct jointmap *m, const double x[3])
     size_t i = px < (double)m->width ? (size_t)px : m->width - 1;
     size_t j = py < (double)m->height ? (size_t)py : m->height - 1;
     double least = fmax((double)m->steps[j * m->width + i] - UNCERTAINTY, 0) * fmin(m->dx, m->dy);
-    double d = bilinear(m, m->rock, px, py) >= 0.5 ? -fmax(least, 1e-9) : fmax(least, 1e-9);
-    d = fmax(d, (x[2] - bilinear(m, m->top, px, py)) / m->steepness);
+    double d = at(m, m->rock, px, py) >= 0.5 ? -fmax(least, 1e-9) : fmax(least, 1e-9);
+    d = fmax(d, (x[2] - at(m, m->top, px, py)) / m->steepness);
     d = fmax(d, m->min[2] - x[2]);
     d = fmax(d, fmax(m->min[0] - x[0], x[0] - m->max[0]));
     return fmax(d, fmax(m->min[1] - x[1], x[1] - m->max[1]));
