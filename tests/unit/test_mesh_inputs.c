@@ -389,7 +389,7 @@ static void bad_formulas_are_refused_with_their_place(void **state)
     (void)state;
     static const char *const bad[][2] = {
         {"sqrt(x", "character 7"}, {"x + * y", "character 5"}, {"x + w", "character 5"},
-        {"", "expression"},        {"0/0", "no finite value"},       {"system(\"x\")", "character"},
+        {"", "expression"},        {"0/0", "no finite value"}, {"system(\"x\")", "character"},
         {"x = 3 4", "character"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -402,8 +402,8 @@ static void open_meshes_are_refused(void **state)
     (void)state;
     char text[512];
     snprintf(text, sizeof text, "%.*s", (int)(strstr(cube, "f 4 1") - cube), cube);
-    assert_failed(make(write_text("open.obj", text)), E_INPUT, "open.obj: the surface is open: it has 4 boundary edges",
-                  "fill the holes");
+    assert_failed(make(write_text("open.obj", text)), E_INPUT,
+                  "open.obj: the surface is open: it has 4 boundary edges", "fill the holes");
     assert_failed(make(write_text("open.obj", text)), E_INPUT, "the widest gap is about 7.8 m",
                   "fill_holes_m");
     /* Closed straight across where the job says so, to about a voxel. */
@@ -425,13 +425,13 @@ static void bad_obj_is_refused_with_its_line(void **state)
     (void)state;
     static const char head[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     static const char *const bad[][3] = {
-        {"f 1 2 4\n", ":4:", "vertex 4"},   {"f 1 2 0\n", ":4:", "vertex 0"},
-        {"f -4 1 2\n", ":4:", "vertex -4"}, {"f 1 2\n", ":4:", "2 corners"},
-        {"f 1 2 x\n", ":4:", "'x'"},        {"f 1/2/3/4 2 3\n", ":4:", "corner"},
-        {"v 1 2\n", ":4:", "end of the line"},    {"\nv nan 0 0\n", ":5:", "'nan'"},
-        {"v 1 inf 0\n", ":4:", "'inf'"},    {"v 1 1e999 0\n", ":4:", "1e999"},
-        {"v 1 a 0\n", ":4:", "'a'"},        {"f 1 2 99999999999999999999\n", ":4:", "9"},
-        {"", "bad.obj", "no faces"},        {"f 1 1 2\n", "bad.obj", "point"},
+        {"f 1 2 4\n", ":4:", "vertex 4"},      {"f 1 2 0\n", ":4:", "vertex 0"},
+        {"f -4 1 2\n", ":4:", "vertex -4"},    {"f 1 2\n", ":4:", "2 corners"},
+        {"f 1 2 x\n", ":4:", "'x'"},           {"f 1/2/3/4 2 3\n", ":4:", "corner"},
+        {"v 1 2\n", ":4:", "end of the line"}, {"\nv nan 0 0\n", ":5:", "'nan'"},
+        {"v 1 inf 0\n", ":4:", "'inf'"},       {"v 1 1e999 0\n", ":4:", "1e999"},
+        {"v 1 a 0\n", ":4:", "'a'"},           {"f 1 2 99999999999999999999\n", ":4:", "9"},
+        {"", "bad.obj", "no faces"},           {"f 1 1 2\n", "bad.obj", "point"},
         {"f 1 2 3\n", "bad.obj", "open"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -464,8 +464,10 @@ static void bad_ply_is_refused(void **state)
         {"format ascii 1.0\nelement face 1\nproperty list float int vertex_index\nend_header\n0\n",
          ":4:", "'float'"},
         {"format ascii 1.0\nproperty float x\nend_header\n", ":3:", "before any element"},
-        {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":13:", "does not exist"},
-        {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", ":13:", "does not exist"},
+        {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n",
+         ":13:", "does not exist"},
+        {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n",
+         ":13:", "does not exist"},
         {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", ":13:", "3 corners"},
         {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 0\n1 0 0\n0 1 0\n250 0 1 2\n", ":13:", "longer"},
         {"format ascii 1.0\n" VERTEX FACE "end_header\n0 0 nan\n1 0 0\n0 1 0\n3 0 1 2\n", ":10:", "'nan'"},
