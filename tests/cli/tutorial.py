@@ -16,7 +16,9 @@ ok({"new", "keys", "check", "look", "plan", "run", "status", "inspect", "preview
 
 os.mkdir("bin")
 os.symlink(HOODOO, "bin/hoodoo")
-environment = {**os.environ, "PATH": os.path.abspath("bin") + ":" + os.environ["PATH"], "HOODOO_CACHE": os.path.abspath("cache")}
+# Cached states of looks are separate; compiled kernels, which take seconds, stay in the folder that run.sh sets.
+environment = {**os.environ, "PATH": os.path.abspath("bin") + ":" + os.environ["PATH"], "XDG_CACHE_HOME": os.path.abspath("cache")}
+environment.pop("HOODOO_CACHE", None)
 os.mkdir("work")
 for block in blocks:
     code, output = ask("sh", "-e", "-c", block, cwd="work", env=environment)
