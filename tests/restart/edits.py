@@ -199,7 +199,7 @@ for text in ("every", "every@", "@1004", "every@x", "every@1e3", "every@99999999
 refused("no such folder", INPUT, "--from", "nothing@1004", says="nothing")
 refused("no output folder", INPUT, "--from", "/tmp@1004")
 refused("a missing checkpoint: the error lists the existing ones and the remedy", CHECKPOINT, "--from", "whole@1005",
-        says="(there are those of 1007, 1010); to have it, run its job again with checkpoint.mark: [1005]")
+        says="(its checkpoints are of frames 1007, 1010); to get one, run its job again with checkpoint.mark: [1005]")
 refused("a frame that is not the job's", USAGE, "--from", "every@1004", "--set", "frames=1001-1003", says="1001-1003")
 refused("another spacing", CHECKPOINT, "--from", "every@1004", "--set", "domain.spacing_m=0.25", says="0.25")
 refused("another size", CHECKPOINT, "--from", "every@1004", "--set", "domain.size_m=[14, 14, 20]", says="28 x 28 x 32")
