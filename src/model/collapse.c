@@ -288,10 +288,10 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
 {
     status st = OK;
     size_t n, n_cut, before = p->n;
-    uint32_t crumbs = 0, more = 0;
+    uint32_t crumbled = 0, more = 0;
     double seconds = 0;
-    TRY(collapse_crumble(gpu, work, c, b, p, &crumbs, &n));
-    if (n == 0 && crumbs == 0)
+    TRY(collapse_crumble(gpu, work, c, b, p, &crumbled, &n));
+    if (n == 0 && crumbled == 0)
         return OK;
     if (n > 0) {
         mpm_load(gpu, &c->mpm, p, p->surface, n);
@@ -305,13 +305,13 @@ status collapse_blocks(struct gpu *gpu, struct gpu_work *work, struct collapse *
         TRY(blocks_find(gpu, work, b, p, &n_cut));
         TRY(blocks_fall(gpu, work, b, p, &more));
     }
-    if (crumbs + more > 0)
+    if (crumbled + more > 0)
         TRY(particles_index(gpu, work, p));
     ledger->left += before - p->n;
     TRY(collapse_count(gpu, p, ledger));
     if (n > 0)
         log_note("a fall of %zu particles took %.1f s; %zu were removed, %u of them as small fragments", n,
-                 seconds, before - p->n, (unsigned)(crumbs + more));
+                 seconds, before - p->n, (unsigned)(crumbled + more));
 done:
     return st;
 }
