@@ -95,7 +95,7 @@ static void put3(float *x, float *y, float *z, const double v[3])
     *z = (float)v[2];
 }
 
-/* One sample of every pixel. Sample 0 is the pixel's middle, the others are spread evenly. */
+/* Renders one sample of each pixel. Sample 0 is the pixel's centre; the others are evenly distributed. */
 static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c, const struct light *light,
                           const struct field *f, const struct particles *p, int sample, int samples)
 {
@@ -147,7 +147,7 @@ static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c
             a->means, a->ids, f->slot, p->held.words);
 }
 
-/* The samples, the pixel's middle last; each is counted into the mattes. */
+/* Renders all samples, the pixel's centre last, and adds each to the mattes. */
 static status sample(struct gpu *gpu, struct aov *a, const struct job *job, const struct camera *c,
                      const struct light *light, const struct field *f, const struct particles *p,
                      struct mattes *mattes, uint32_t *ids)
@@ -171,8 +171,8 @@ done:
     return st;
 }
 
-/* Where each pixel's piece of the surface will be in the next frame's picture, in pixels from here, x to the
- * right and y up: its own way and the camera's. */
+/* Motion vectors: the position of each pixel's surface point in the next frame's image relative to this pixel, px, x to the right and y up;
+ * motion of the rock and of the camera. */
 static status find_motion(struct gpu *gpu, const struct job *job, const struct job_camera *camera, int frame,
                           const struct particles *p, const float *hit, const uint32_t *ids, float *motion)
 {
@@ -203,7 +203,7 @@ done:
     return st;
 }
 
-static void seen_free(struct seen *s)
+static void seen_free(struct hits *s)
 {
     free(s->hit);
     free(s->facing);
@@ -213,7 +213,7 @@ static void seen_free(struct seen *s)
     free(s->ids);
 }
 
-static status download_seen(struct gpu *gpu, const struct aov *a, size_t n, struct seen *s)
+static status download_seen(struct gpu *gpu, const struct aov *a, size_t n, struct hits *s)
 {
     status st = OK;
     TRY(gpu_download(gpu, a->ids, 0, s->ids, 3 * n));
@@ -240,28 +240,28 @@ status aov_render(struct gpu *gpu, struct aov *a, const struct job *job, const s
     const struct camera c = camera_overscan(view, margin);
     const struct light light = light_of(job, frame);
     size_t n = (size_t)c.width * (size_t)c.height;
-    struct seen seen = {0};
+    struct hits hits = {0};
     struct mattes *mattes = NULL;
     *out = (struct aov_image){
         .camera = camera->name, .width = c.width, .height = c.height, .margin = {margin[0], margin[1]}};
-    TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &seen.ids));
+    TRY(memory_alloc(n, 3 * sizeof(uint32_t), "a picture", &hits.ids));
     if (job->output.aov.cryptomatte)
         TRY(mattes_create(job, n, &mattes));
-    TRY(sample(gpu, a, job, &c, &light, f, p, mattes, seen.ids));
-    TRY(download_seen(gpu, a, n, &seen));
+    TRY(sample(gpu, a, job, &c, &light, f, p, mattes, hits.ids));
+    TRY(download_seen(gpu, a, n, &hits));
     if (job->clock.seconds_per_frame > 0 && job_wants_layer(job, value_table[VALUE_motion].layer)) {
-        TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &seen.motion));
-        TRY(find_motion(gpu, job, camera, frame, p, seen.hit, seen.ids, seen.motion));
+        TRY(memory_alloc(n, 4 * sizeof(float), "a picture", &hits.motion));
+        TRY(find_motion(gpu, job, camera, frame, p, hits.hit, hits.ids, hits.motion));
     }
     TRY(channels_begin(job, out));
     for (int v = 1; v < VALUES; v++)
         if (value_table[v].channel[0] && job_wants_layer(job, value_table[v].layer))
-            TRY(channels_add(gpu, a, job, p, air, &seen, (enum value_id)v, out));
+            TRY(channels_add(gpu, a, job, p, air, &hits, (enum value_id)v, out));
     if (mattes)
         TRY(channels_mattes(job, mattes, out));
     camera_matrices(&view, job->output.up, out->world_to_camera, out->world_to_ndc);
 done:
-    seen_free(&seen);
+    seen_free(&hits);
     mattes_destroy(&mattes);
     if (st != OK)
         aov_image_free(out);

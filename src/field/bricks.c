@@ -1,4 +1,4 @@
-/* The field to the host and back (particles/grids.h). */
+/* Downloads the field as grids (particles/grids.h) and uploads it again. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "field/field.h"
 
-/* Bricks whose means are on their way at a time. */
+/* Bricks whose means are transferred at a time. */
 enum { TOGETHER = 2048 };
 
 static size_t chunk_of(size_t count, size_t first)
@@ -14,13 +14,13 @@ static size_t chunk_of(size_t count, size_t first)
     return (count - first < TOGETHER ? count - first : TOGETHER) * BRICK_SAMPLES;
 }
 
-/* Room for the means of a few bricks. */
+/* Transfer buffer for the means of a few bricks. */
 static status chunk_create(size_t count, float **out)
 {
     return memory_alloc(FIELD_MEANS * chunk_of(count, 0), sizeof **out, "field means", out);
 }
 
-/* ---- to the host */
+/* ---- download */
 
 static status download_bricks(struct gpu *gpu, const struct field *f, struct frame_grids *out)
 {
@@ -36,12 +36,12 @@ done:
     return st;
 }
 
-/* The grids that have one of the means' components; NULL where there is none. */
+/* The grids of the means' four components; NULL: not wanted. */
 struct mean_grids {
     float *value[FIELD_MEANS];
 };
 
-/* All of them at once, so that the means come over once. */
+/* Downloads all components together, so that the means are transferred once. */
 static status download_means(struct gpu *gpu, const struct field *f, const struct mean_grids *to)
 {
     status st = OK;
@@ -59,7 +59,7 @@ done:
     return st;
 }
 
-/* All but the means. */
+/* Downloads a grid that is not one of the means. */
 static status download_value(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which,
                              float *out)
 {
@@ -86,7 +86,7 @@ static status download_value(struct gpu *gpu, struct field *f, struct particles 
                 out[3 * i + (size_t)c] = plane[i];
         }
         break;
-    default: /* means over the surface's particles. `other` is free once the distances are there */
+    default: /* means over the surface particles; `other` is free after the distances have been computed */
         field_skin(gpu, f, p, which);
         TRY(gpu_download(gpu, f->other, 0, out, n));
     }
@@ -95,7 +95,7 @@ done:
     return st;
 }
 
-/* Whether it is the field's to make: wind and terrain are added by whoever has them. */
+/* Is it made from the field? Grids of wind and terrain are added by their owners. */
 static bool makes(enum value_id which, unsigned has)
 {
     const struct value *v = &value_table[which];
@@ -131,9 +131,9 @@ done:
     return st;
 }
 
-/* ---- and back */
+/* ---- upload */
 
-/* The means, from the grids that are there. */
+/* Uploads the means from the grids that exist. */
 static status upload_means(struct gpu *gpu, struct field *f, const struct frame_grids *grids)
 {
     status st = OK;

@@ -21,7 +21,7 @@ static struct camera look(const double eye[3], const double target[3], double fi
         c.ahead[i] = target[i] - eye[i];
     }
     normalize(c.ahead);
-    /* Straight up or down, the picture's top is north. */
+    /* For a camera that looks straight up or down, the top of the image is north. */
     cross3(c.ahead, fabs(c.ahead[2]) > 1 - 1e-9 ? north : up, c.right);
     normalize(c.right);
     cross3(c.ahead, c.right, c.down);
@@ -92,7 +92,7 @@ void camera_matrices(const struct camera *c, int up, double world_to_camera[16],
         double a[3];
         for (int i = 0; i < 3; i++)
             a[i] = axis[column][i] * scale[column];
-        /* Simulator (x, y, z) stands at (x, z, -y) in y-up files. */
+        /* (x, y, z) of the simulator is (x, z, -y) in y-up files. */
         double rows[3] = {a[0], up == OUTPUT_UP_Y ? a[2] : a[1], up == OUTPUT_UP_Y ? -a[1] : a[2]};
         for (int row = 0; row < 3; row++)
             m[4 * row + column] = rows[row];

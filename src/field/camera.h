@@ -1,4 +1,4 @@
-/* A job's camera, ready to shoot rays: where it stands and what its film spans. Simulator axes. */
+/* A camera of a job: its position and film in simulator axes, for casting rays. */
 #ifndef HOODOO_CAMERA_H
 #define HOODOO_CAMERA_H
 
@@ -13,23 +13,21 @@ struct camera {
     int width, height;        /* px */
 };
 
-/* As it is in a frame, without overscan. */
+/* The camera in a frame, without overscan. */
 struct camera camera_of(const struct job_camera *camera, double frame);
 
-/* Around a target, as job cameras have it; `film` is half the film's width over the focal length. */
+/* A camera on a sphere around a target; `film` is half the film's width divided by the focal length. */
 struct camera camera_orbit(const double target[3], double distance, double azimuth_deg, double elevation_deg,
                            double film, int width, int height);
 
-/* The same with a margin of pixels on every side. */
+/* The camera with a margin of pixels on each side, in x and y. */
 struct camera camera_overscan(struct camera c, const int margin[2]);
 
-/* Where a point is in the picture: px from its upper left corner, x to the right, y down. False if it is not
- * ahead of the camera. */
+/* The position of a point in the image: px from the upper left corner, x to the right, y down. False: it is not in front of the camera. */
 bool camera_project(const struct camera *c, const double x[3], double px[2]);
 
-/* EXR's matrices, row vectors times matrix, from file axes (up y or z): to camera space (x right, y up, z
- * ahead: left-handed) and to normalised device coordinates (0, 0 upper left to 1, 1 lower right, after
- * division by w). */
+/* The matrices of EXR, for row vectors, from file axes (`up` y or z) to camera space (x right, y up, z ahead: left-handed) and to normalised
+ * device coordinates ((0, 0) upper left to (1, 1) lower right, after division by w). */
 void camera_matrices(const struct camera *c, int up, double world_to_camera[16], double world_to_ndc[16]);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include "base/memory.h"
 
-/* Depth of pixels without rock: farther than anything. */
+/* Depth of pixels without rock. */
 static const float NOTHING = 1e10f;
 
 static size_t pixels_of(const struct aov_image *image)
@@ -29,7 +29,7 @@ done:
     return st;
 }
 
-/* The value's next plane, to be filled: float, or uint32_t for KIND_ID. */
+/* The plane of the value's next channel, for the caller to fill: float, or uint32_t for KIND_ID. */
 static void *plane_of(struct aov_image *out, enum value_id value, int channel)
 {
     const struct value *v = &value_table[value];
@@ -43,7 +43,7 @@ static void *plane_of(struct aov_image *out, enum value_id value, int channel)
     return plane;
 }
 
-/* All channels from vectors, from their component `first` on. */
+/* Fills all channels of a value from vectors, starting with their component `first`. */
 static void fill(const struct job *job, struct aov_image *out, enum value_id value, const float *from,
                  int first, const float *hit)
 {
@@ -57,7 +57,8 @@ static void fill(const struct job *job, struct aov_image *out, enum value_id val
             sign = component == 2 ? -1.0f : 1.0f;
             component = 3 - component;
         }
-        for (size_t i = 0; i < n; i++) /* the colour is of all samples, the rest of the middle's */
+        for (size_t i = 0; i < n;
+             i++) /* colour is averaged over all samples, the rest is of the pixel's centre */
             plane[i] = hit[4 * i + 3] >= 0 || v->from == FROM_COLOR ? sign * from[4 * i + (size_t)component]
                                                                     : nothing;
     }
@@ -82,30 +83,30 @@ static void record_air(struct gpu *gpu, struct aov *a, size_t n, const struct ao
 }
 
 status channels_add(struct gpu *gpu, struct aov *a, const struct job *job, const struct particles *p,
-                    const struct aov_air *air, const struct seen *seen, enum value_id value,
+                    const struct aov_air *air, const struct hits *hits, enum value_id value,
                     struct aov_image *out)
 {
     const size_t n = (size_t)out->width * (size_t)out->height;
     const struct count_params count = {.n = (uint)n};
     switch (value_table[value].from) {
     case FROM_COLOR:
-        fill(job, out, value, seen->color, 0, seen->hit);
+        fill(job, out, value, hits->color, 0, hits->hit);
         return OK;
     case FROM_DEPTH:
-        fill(job, out, value, seen->hit, 3, seen->hit);
+        fill(job, out, value, hits->hit, 3, hits->hit);
         return OK;
     case FROM_PLACE:
-        fill(job, out, value, seen->hit, 0, seen->hit);
+        fill(job, out, value, hits->hit, 0, hits->hit);
         return OK;
     case FROM_FACING:
-        fill(job, out, value, seen->facing, 0, seen->hit);
+        fill(job, out, value, hits->facing, 0, hits->hit);
         return OK;
     case FROM_MEANS:
-        fill(job, out, value, seen->means, field_mean(value), seen->hit);
+        fill(job, out, value, hits->means, field_mean(value), hits->hit);
         return OK;
     case FROM_MOTION:
-        if (seen->motion)
-            fill(job, out, value, seen->motion, 0, seen->hit);
+        if (hits->motion)
+            fill(job, out, value, hits->motion, 0, hits->hit);
         return OK;
     case FROM_AIR:
         if (air && air->unknown)
@@ -113,7 +114,7 @@ status channels_add(struct gpu *gpu, struct aov *a, const struct job *job, const
         record_air(gpu, a, n, air);
         break;
     default:
-        if (!p->field[value_field[value]]) { /* this rock has none of it */
+        if (!p->field[value_field[value]]) { /* the rock does not have this field */
             plane_of(out, value, 0);
             return OK;
         }

@@ -20,10 +20,10 @@ static size_t all_bricks(const struct field *f)
     return grid_bricks_of(f->n, bricks);
 }
 
-/* Of a sample: share, distance twice, means. */
+/* Bytes per sample: share, distance, other, means. */
 enum { SAMPLE_BYTES = 3 * 4 + 16 };
 
-/* At first as many as are asked for; where rock grows some more, so that it does not ask again in every frame. */
+/* The first allocation is exact; later ones are larger, so that growing rock does not reallocate in each frame. */
 static size_t room_for(const struct field *f, size_t bricks)
 {
     return bricks + (f->room > 1 ? bricks / 8 : 0) + 1;
@@ -86,7 +86,7 @@ static struct field_params params_of(const struct field *f, const struct particl
     };
 }
 
-/* What finish() takes the means of, in their order. */
+/* The values whose means finish() computes, in the order of components. */
 static const enum value_id means_of[FIELD_MEANS] = {VALUE_stress, VALUE_von_mises, VALUE_viability,
                                                     VALUE_deposit};
 
@@ -117,7 +117,7 @@ done:
     return st;
 }
 
-/* For a grid of `n` samples, the first of which is the field's sample `margin`. */
+/* Parameters for a grid of `n` samples, the first of which is the field's sample `margin`. */
 static struct field_params extent_params(const struct field *f, const int n[3], int margin)
 {
     return (struct field_params){.n = (uint)all_bricks(f),
@@ -131,8 +131,8 @@ static struct field_params extent_params(const struct field *f, const int n[3], 
                                  .margin = (uint)margin};
 }
 
-/* The bricks near the surface, which is between what is rock and what is not all rock: each brick's extents of both are in f->place
- * and f->list. */
+/* Lists the bricks near the surface, which is between voxels with rock and voxels that are not full. The extents of both in each brick are in
+ * f->place and f->list. */
 static status choose(struct gpu *gpu, struct gpu_work *work, struct field *f)
 {
     status st = OK;
@@ -151,7 +151,7 @@ done:
 
 /* ---- samples */
 
-/* Means and distance, from the share, which walls cut off at last. */
+/* Computes means and distance from the share, which is finally cut off at walls. */
 static void finish(struct gpu *gpu, struct field *f, struct particles *p)
 {
     struct field_params k = params_of(f, p);
@@ -160,12 +160,12 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
     if (f->whole)
         gpu_fill(gpu, p->place, ~0U);
     else
-        particles_near(gpu, p, NEAR_REACH);
+        particles_mark_near(gpu, p, NEAR_REACH);
     GPU_RUN(gpu, field_means, k.n, k, p->held.words, p->start, p->field[ROCK_stress],
             p->field[ROCK_von_mises], p->field[ROCK_viability], p->field[ROCK_phase], f->list, f->share,
             p->place, f->means);
     GPU_RUN(gpu, field_front, k.n, k, f->list, f->slot, f->share, f->distance);
-    /* An even number of sweeps, one for each voxel of the band and the rest for its corners. */
+    /* An even number of sweeps: one per voxel of the band, the others for diagonals. */
     for (int sweep = 0; sweep < FIELD_BAND; sweep++) {
         GPU_RUN(gpu, field_distance, k.n, k, f->list, f->slot, f->distance, f->other);
         GPU_RUN(gpu, field_distance, k.n, k, f->list, f->slot, f->other, f->distance);
@@ -174,7 +174,7 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
         GPU_RUN(gpu, field_cut, k.n, k, f->list, f->distance, f->share, f->means);
 }
 
-/* The share, with the surface of heaps at rest. */
+/* Computes the share, with smoothed heaps. */
 static void share_heaps(struct gpu *gpu, struct field *f, struct particles *p, struct field_params k)
 {
     struct gpu_buffer *loose = f->other, *base = f->means;

@@ -1,10 +1,9 @@
-/* The surface field: the rock as a signed distance on a lattice, with what its particles carry.
+/* The surface field: the rock as a signed distance on a lattice, and averages of its particles' values.
  *
- * Not Zhu and Bridson's mean of spheres but the rock's share of space, smoothed over a voxel and a half, cut
- * at 1/2: on a plane face it lies exactly where the particles' fill (their viability) puts it, so that the
- * surface moves smoothly while they weather and encloses their volume; and it does not show where in their
- * voxels the particles lie. The distance follows from that surface by upwind sweeps (Rouy and Tourin 1992)
- * out to 3 voxels.
+ * The surface is not Zhu and Bridson's average of spheres but the level 1/2 of the rock's share of space, filtered over 1.5 voxels. On a
+ * plane face it is exactly where the particles' fill (their viability) puts it. So it moves smoothly while particles weather, encloses
+ * their volume, and does not depend on the particles' positions in their voxels. The distance is computed from that surface by upwind
+ * sweeps (Rouy and Tourin 1992), up to 3 voxels.
  */
 #ifndef HOODOO_FIELD_H
 #define HOODOO_FIELD_H
@@ -14,69 +13,67 @@
 #include "particles/particles.h"
 
 struct field {
-    int n[3];                /* samples: the domain and FIELD_MARGIN voxels around */
-    double voxel, origin[3]; /* m: the particle spacing; sample 0 */
-    /* Samples are kept in the bricks (particles/grids.h) that rock is in or near; elsewhere the share and the means are 0, and
-     * the distance is that of the band's end. Where the slot is BRICK_INSIDE the share is 1, and the distance the other end's. */
-    size_t n_bricks, room; /* bricks kept, and those there is room for */
-    bool whole;            /* all rock has particles, and is kept and shown as they have it */
-    struct gpu_buffer
-        *slot; /* uint [bricks of the lattice]: place in the list and one more, 0, or BRICK_INSIDE */
-    struct gpu_buffer *list;         /* uint [bricks of the lattice]: numbers, ascending */
-    struct gpu_buffer *held, *place; /* scratch, likewise */
-    struct gpu_buffer *share;        /* float [n_bricks * 512]: of rock, 0..1 */
-    struct gpu_buffer *
-        means; /* vec4 [n_bricks * 512]: stress (Pa), von Mises (Pa), viability, share of deposits; 0 where no
-                   * particle is near */
-    struct gpu_buffer *distance, *other; /* float [n_bricks * 512]: m, negative inside, at most 3 voxels */
+    int n[3];                /* samples: the domain plus FIELD_MARGIN voxels on each side */
+    double voxel, origin[3]; /* m: the particle spacing; position of sample 0 */
+    /* Samples are stored in bricks (particles/grids.h) in and near rock. Elsewhere share and means are 0 and the distance is
+     * +FIELD_BAND voxels; where the slot is BRICK_INSIDE the share is 1 and the distance -FIELD_BAND voxels. */
+    size_t n_bricks, room; /* stored bricks; capacity */
+    bool whole;            /* all rock has particles: no brick is BRICK_INSIDE */
+    /* Per brick of the lattice, uint: */
+    struct gpu_buffer *slot;         /* index in `list` plus 1; 0: not stored; or BRICK_INSIDE */
+    struct gpu_buffer *list;         /* numbers of the stored bricks, ascending */
+    struct gpu_buffer *held, *place; /* scratch */
+    /* Per stored sample, [n_bricks * 512]: */
+    struct gpu_buffer *share; /* float: of rock, 0..1 */
+    /* vec4: stress (Pa), von Mises (Pa), viability, share of deposits; 0: no particle near */
+    struct gpu_buffer *means;
+    struct gpu_buffer *distance, *other; /* float: m, negative inside, at most 3 voxels; scratch */
 };
 
-/* HEAP_SWEEPS: over the columns of heaps, an even number. A voxel more or less spreads over a few of its neighbours. */
+/* HEAP_SWEEPS: smoothing sweeps over the columns of heaps, an even number. They distribute a voxel over a few of its neighbours. */
 enum { FIELD_MARGIN = 4, FIELD_BAND = GRID_BAND, FIELD_MEANS = 4, HEAP_SWEEPS = 24 };
 
-/* Bytes on the device, with so many samples kept. */
+/* Device memory for so many stored samples, bytes. */
 uint64_t field_bytes(const int voxels[3], uint64_t samples);
 MUST_USE status field_create(struct gpu *gpu, const int voxels[3], double h, struct field *out);
 void field_destroy(struct gpu *gpu, struct field *f);
 
-/* From the particles, whose stress must be current. `repose_deg`: where there are deposits, the angle at which they lie. Their
- * heaps are shown smooth and no steeper, whatever the voxels of their particles (shaders/field/heap.glsl); 0: there are none. Where
- * rock is in motion they are shown as their particles lie.
- * Waits, to know how many bricks there are. */
+/* Builds the field from the particles, whose stress must be current. `repose_deg`: angle of repose of deposits; their heaps are smoothed to
+ * be no steeper, independently of voxels (shaders/field/heap.glsl). 0: there are no deposits. Moving rock is not smoothed. Waits for the
+ * device, for the number of bricks. E_MEMORY. */
 MUST_USE status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, struct particles *p,
                             double repose_deg);
 
-/* A rock's share that is known (host memory): 0..1, 1/2 on the surface. Kept are all bricks with samples that differ from a
- * neighbour, or are within 3 voxels of one that does. */
+/* A given share of rock in host memory: 0..1, 1/2 on the surface. All bricks must be stored that have samples which differ from a neighbour,
+ * or are within 3 voxels of one that does. */
 struct field_share {
     size_t n_bricks;
     const uint32_t *number, *slot; /* as in struct grid_bricks */
     const float *share;            /* [n_bricks * 512]; 0 beyond the lattice */
 };
 
-/* The same from this; the particles only say what lies near it. Waits. */
+/* The same from a given share; the particles only provide the averages. Waits for the device. */
 MUST_USE status field_build_share(struct gpu *gpu, struct field *f, struct particles *p,
                                   const struct field_share *known);
 
-/* The field of a frame that was written: surface, stress, von_mises, viability and deposit from its grids, what
- * is missing being 0. E_INPUT: the grids are not of this lattice, or there is no surface among them. */
+/* Uploads the field of a frame read from files: surface, stress, von_mises, viability and deposit from its grids; missing ones become 0.
+ * E_INPUT: the grids have another lattice, or there is no surface. */
 MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct frame_grids *grids);
 
-/* Room on the device for n bricks. What was in the samples is lost where there was less
- * room. */
+/* Makes the buffers large enough for n bricks. If they have to grow, samples are lost. E_MEMORY. */
 MUST_USE status field_keep(struct gpu *gpu, struct field *f, size_t n);
 
-/* The mean of a value of the particles over those at the surface goes to `other`. Records only. */
+/* Writes to `other` the average of a particle value over nearby surface particles. Records only. */
 void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which);
 
-/* The mean of one component of a vector of the particles over all of them around goes to `other`. Records only. */
+/* Writes to `other` the average of a component of a particle vector over all nearby particles. Records only. */
 void field_around(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which, int component);
 
-/* Which of the means' four components a value is; -1 if it is none. */
+/* The component of `means` that holds a value; -1: none. */
 int field_mean(enum value_id value);
 
-/* The grids of the volumes that come of the particles, of a frame that `has` (HAS_*) what they need (values.def), in the
- * field's bricks. frame_grids_free(). Waits. */
+/* Makes the volume grids of all values that the field and the particles provide, given what the frame `has` (HAS_*, values.def), in the
+ * field's bricks. Free with frame_grids_free(). Waits for the device. E_MEMORY. */
 MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p, unsigned has,
                                struct frame_grids *out);
 

@@ -26,7 +26,7 @@ void light_solar(double latitude_deg, double day, double hour, double out[3])
     out[2] = sin(latitude) * sin(declination) + cos(latitude) * cos(declination) * cos(turn);
 }
 
-/* Between the side light, in which relief shows, and the light from behind the camera, in which colours do. */
+/* A direction between side light, which shows relief, and light from behind the camera, which shows colours. */
 static void raking(const struct job *job, double out[3])
 {
     const double aside_deg = 58, elevation_deg = 30;
@@ -48,7 +48,7 @@ static void raking(const struct job *job, double out[3])
     }
 }
 
-/* The colour of a black body, of luminance 1: chromaticities of Kim, Kwon, Lee and Lee's cubics (2002) on the Planckian locus. */
+/* The colour of a black body, of luminance 1. Chromaticity on the Planckian locus by the cubics of Kim, Kwon, Lee and Lee (2002). */
 static void black_body(double kelvin, double rgb[3])
 {
     double t = 1000 / fmin(fmax(kelvin, 1667), 25000), x, y;

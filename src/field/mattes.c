@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
-/* What a pixel's samples met. More than MATTE_RANKS different ones: the first stay. */
+/* The ids that a pixel's samples have hit; of more than MATTE_RANKS, the first ones are kept. */
 struct ranks {
     uint16_t id[MATTE_RANKS], count[MATTE_RANKS]; /* count 0: free */
 };
@@ -118,7 +118,7 @@ void mattes_add(struct mattes *m, const uint32_t *ids, const float *hit)
                 count(&m->kind[k][i], ids[3 * i + k]);
 }
 
-/* The largest share first; of equal ones the lower id. */
+/* Descending by share, then ascending by id. */
 static int by_share(const void *a, const void *b)
 {
     const uint16_t *x = a, *y = b; /* count, id */

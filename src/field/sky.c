@@ -5,7 +5,7 @@
 #include "base/vector.h"
 
 static const double PI = 3.14159265358979323846;
-static const double LEAST_LIFT = 0.00872664626; /* half a degree */
+static const double MIN_LIFT = 0.00872664626; /* half a degree */
 
 /* Rec. 709 from XYZ; chromaticities of daylight lie inside or nearly so. */
 static void rgb_of_xyz(const double xyz[3], double rgb[3])
@@ -39,7 +39,7 @@ struct sky sky_make(const double sun[3], double turbidity, double strength)
                                               {0.15346, -0.26756, 0.06670, 0.26688}}};
     double elevation = asin(fmin(fmax(sun[2], -1), 1)), t = turbidity;
     struct sky s = {.sun = {sun[0], sun[1], sun[2]},
-                    .lift = fmax(elevation, LEAST_LIFT),
+                    .lift = fmax(elevation, MIN_LIFT),
                     .strength = SKY_MEASURED * strength};
     double theta = PI / 2 - s.lift, chi = (4.0 / 9 - t / 120) * (PI - 2 * theta);
     if (elevation < 0)
@@ -79,7 +79,7 @@ void sky_light(const struct sky *s, const double normal[3], double rgb[3])
     enum { RINGS = 12, TURNS = 36 };
     for (int i = 0; i < 3; i++)
         rgb[i] = 0;
-    /* Pieces of equal solid angle. */
+    /* Quadrature over patches of equal solid angle. */
     for (int ring = 0; ring < RINGS; ring++)
         for (int turn = 0; turn < TURNS; turn++) {
             double z = (ring + 0.5) / RINGS, a = 2 * PI * (turn + 0.5) / TURNS, level = sqrt(1 - z * z),

@@ -8,7 +8,7 @@ uint64_t host_rock_bytes(size_t n)
 {
     uint64_t bytes = 0;
     for (int f = 0; f < ROCK_FIELDS; f++)
-        bytes += f == ROCK_v || rock_field_asked(f) ? 0 : n * rock_field_size((enum rock_field)f);
+        bytes += f == ROCK_v || rock_field_is_optional(f) ? 0 : n * rock_field_size((enum rock_field)f);
     return bytes;
 }
 
@@ -51,8 +51,7 @@ static uint64_t shown(const struct job *job, const struct scene_size *size)
 static uint64_t writing(const struct job *job, const struct scene_size *size, const struct disk_frame *files)
 {
     const uint64_t n = shown(job, size), bare = size->n_surface, cameras = job->output.aov.n_cameras;
-    const uint64_t piece = n < PIECE_MOST ? n : PIECE_MOST,
-                   copied = n > piece ? 2 * host_rock_bytes(piece) : 0;
+    const uint64_t piece = n < PIECE_MAX ? n : PIECE_MAX, copied = n > piece ? 2 * host_rock_bytes(piece) : 0;
     const uint64_t points =
         files->points ? piece * (8 + 32) + copied + (bare < piece ? bare : piece) * 32 + files->points : 0;
     const uint64_t volumes = n * 4 + bare * 6 * 4 + files->volumes;

@@ -24,7 +24,7 @@ void attitude_normal(double strike_deg, double dip_deg, double normal[3])
     normal[2] = dip_deg == 90 ? 0 : cos(dip);
 }
 
-/* How far above a fault's plane x is, m. `down`: which way the rock above it has slipped, per metre of throw. */
+/* The height of x above a fault's plane, m. `down`: the slip of the rock above it, per metre of throw. */
 static double above_fault(const struct job_fault *fault, const double x[3], double down[3])
 {
     double normal[3];
@@ -37,8 +37,8 @@ static double above_fault(const struct job_fault *fault, const double x[3], doub
     return dot3(normal, d);
 }
 
-/* The height in the pile of a place that is at `height` as the beds above an unconformity count, d from the pivot: there beds go on
- * below it as they lay before the others came. What would be above it has been worn away. */
+/* The height s of a position, d from the pivot, that is at `height` in the beds above an unconformity. Below it the older beds continue with
+ * their own attitude; what would be above it has been eroded. */
 static double below(const struct job_unconformity *u, const double d[3], double height, double slope[3])
 {
     const double dip = radians(u->dip_deg), azimuth = radians(u->dip_azimuth_deg);

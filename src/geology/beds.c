@@ -6,10 +6,10 @@
 #include "geology/chance.h"
 #include "geology/lead.h"
 
-/* What a bed's numbers are for. */
+/* The purposes of a bed's random numbers. */
 enum { THICKNESS, HARDNESS, AZIMUTH, LAMINA };
 
-/* A job's beds are laid one upon the other; more than this is a slip of the keyboard. */
+/* More beds than this are a typing error. */
 #define MOST_BEDS 4000000
 
 /* ---- the table */
@@ -29,7 +29,7 @@ done:
     return st;
 }
 
-/* The beds up to `top`, of this hardness but for the markers in them. */
+/* Adds beds up to `top`, of this hardness except for markers in them. */
 static status lay(struct beds *b, const struct job_bedding *pile, double top, double hardness)
 {
     status st = OK;
@@ -102,7 +102,7 @@ static double hardness_of(const struct pile *p, int64_t i, double middle)
     return exp(b->hardness_spread * z) / p->mean;
 }
 
-/* The bed from `foot` to `top`, so far as it is above what is there and below `high`. */
+/* Adds the part of the bed from `foot` to `top` that is above the table's end and below `high`. */
 static status lay_bed(struct beds *beds, const struct pile *p, int64_t i, double foot, double top,
                       double high)
 {
@@ -116,9 +116,9 @@ done:
     return st;
 }
 
-/* ---- a pile */
+/* ---- a sequence */
 
-/* A measured section, from the pile's foot on. */
+/* Adds a measured section, from the foot of the sequence. */
 static status lay_column(struct beds *beds, const struct pile *p, double high)
 {
     status st = OK;
@@ -134,7 +134,7 @@ done:
     return st;
 }
 
-/* The beds of a pile between two heights, the lower of which the table has reached. */
+/* Adds the generated beds between two heights, of which the table has reached the lower. */
 static status lay_pile(struct beds *beds, const struct pile *p, double low, double high)
 {
     status st = OK;
@@ -197,9 +197,9 @@ void beds_destroy(struct beds *b)
     *b = (struct beds){0};
 }
 
-/* ---- what is asked of it */
+/* ---- queries */
 
-/* The segment that holds a height between the first edge and the last. */
+/* The segment that contains a height between the first edge and the last. */
 static size_t segment(const struct beds *b, double height)
 {
     size_t low = 0, high = b->n - 1;
@@ -240,7 +240,7 @@ double beds_hardness(const struct beds *b, double low, double high, double *alon
 
 /* ---- cross-bedding */
 
-/* Laminae across a voxel whose own rates are looked at; of more, the mean is known well enough: 1. */
+/* Up to this many laminae across a voxel are evaluated; the mean of more is close enough to 1. */
 enum { LAMINAE = 64 };
 
 static double lamina_hardness(const struct job_cross *c, uint32_t seed, int64_t set, int64_t lamina)
@@ -265,7 +265,7 @@ double beds_cross(const struct job *job, const double x[3], double height, doubl
     double down = cos(azimuth) * x[0] + sin(azimuth) * x[1];
     if (c->trough_m > 0) {
         const double across = cos(azimuth) * x[1] - sin(azimuth) * x[0], turn = across / c->trough_m;
-        const double off = (turn - floor(turn + 0.5)) * c->trough_m; /* from the trough's middle line */
+        const double off = (turn - floor(turn + 0.5)) * c->trough_m; /* from the trough's axis */
         down -= off * off / c->trough_m;
     }
     const double foreset = c->foreset_deg * (M_PI / 180);

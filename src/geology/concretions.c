@@ -6,13 +6,13 @@
 #include "geology/attitude.h"
 #include "geology/chance.h"
 
-/* What a concretion's numbers are for. */
+/* The purposes of a concretion's random numbers. */
 enum { COUNT, PLACE, RADIUS = PLACE + 3 };
 
-/* No radius is more standard deviations from the mean. */
+/* Radii are limited to so many standard deviations from the mean. */
 static const double most_spread = 2;
 
-/* A set in one of its cubes. */
+/* The concretions of a set in one of its cubes. */
 struct cube {
     const struct job_concretion *job;
     double side;
@@ -38,7 +38,7 @@ static uint32_t seed_of(const struct job *job, size_t i)
     return chance_seed(job->seed, job->concretions[i].seed, (uint32_t)i, RANDOM_CONCRETIONS);
 }
 
-/* How many there are goes by one uniform number, through the sums of the Poisson distribution. */
+/* The number of concretions in the cube, by inversion of the cumulative Poisson distribution. */
 static struct cube cube_at(const struct job *job, size_t i, double side, double mean, const int64_t at[3])
 {
     const uint32_t seed = random_hash(seed_of(job, i), (uint32_t)at[0], (uint32_t)at[1], (uint32_t)at[2]);
@@ -53,7 +53,7 @@ static struct cube cube_at(const struct job *job, size_t i, double side, double 
     return c;
 }
 
-/* Middle and level radius of the k-th. */
+/* The centre and the level radius of concretion k. */
 static void concretion(const struct cube *c, int k, double out[4])
 {
     for (int a = 0; a < 3; a++)
@@ -62,7 +62,7 @@ static void concretion(const struct cube *c, int k, double out[4])
     out[3] = c->job->radius_m * exp(spread * fmin(fmax(z, -most_spread), most_spread));
 }
 
-/* Of a cube of the width h around x: which of its parts, DEEP on a side, have their middle in the ellipsoid. */
+/* Marks the subcells, DEEP on a side, of a cube of width h around x that have their centre in the ellipsoid. */
 enum { DEEP = 4 };
 
 static uint64_t parts_in(const double e[4], double flatten, const double up[3], const double x[3], double h)
@@ -90,7 +90,7 @@ static void cubes_of(double side, const double low[3], const double high[3], int
     }
 }
 
-/* Runs BODY for each cube that a box meets; it has `c`. */
+/* Runs BODY for each cube `c` that a box overlaps. */
 #define EACH_CUBE(job, i, low, high, BODY)                                                                   \
     do {                                                                                                     \
         int64_t from[3], to[3], at[3];                                                                       \

@@ -9,18 +9,18 @@
 #include "geology/chance.h"
 #include "geology/lead.h"
 
-/* What a joint's numbers are for. */
+/* The purposes of a joint's random numbers. */
 enum { SPACING, TURN, PHASE, PATCH };
 
 enum { MOST_JOINTS = 2000000 };
 
-/* Flatter ones are held together by what lies on them. */
+/* Flatter joints are kept closed by the load on them. */
 static const double steep_deg = 60;
 
-/* No joint is turned by more than so many standard deviations. */
+/* Strikes are limited to so many standard deviations. */
 static const double most_turned = 2.5;
 
-/* ---- where they are */
+/* ---- positions */
 
 static double spacing_of(const struct joint_plan *s, int64_t i)
 {
@@ -36,7 +36,7 @@ static status add(struct joint_plan *s, const double pivot[3], int64_t index, do
     struct joint *j = &s->joint[s->n++];
     *j = (struct joint){.at = at, .index = index};
     attitude_normal(s->job->strike_deg + turn * s->job->jitter_deg, s->job->dip_deg, j->normal);
-    /* Where the set's own plane passes the pivot, so does this one. */
+    /* The plane passes through the same point of the pivot's normal as the set's own plane. */
     for (int a = 0; a < 3; a++)
         j->on += j->normal[a] * (pivot[a] + s->normal[a] * (at - dot3(s->normal, pivot)));
 done:
@@ -84,7 +84,7 @@ status joints_create(const struct job *job, const double low[3], const double hi
             last += fmax(ends[0], ends[1]);
             far += pow(fmax(fabs(low[a] - pivot[a]), fabs(high[a] - pivot[a])), 2);
         }
-        /* A plane turned by an angle moves by no more than its sine times how far from the pivot one looks. */
+        /* Rotating a plane by an angle moves it by at most the sine times the distance from the pivot. */
         const double turned = sin(fmin(most_turned * s->job->jitter_deg, 90) * (M_PI / 180));
         s->reach = turned * (sqrt(far) + diagonal) + s->job->weakened_m / 2 + job->domain.spacing_m;
         TRY(find(s, pivot, first - s->reach, last + s->reach));
@@ -103,7 +103,7 @@ void joints_destroy(struct joints *j)
     *j = (struct joints){0};
 }
 
-/* The first of a set at or above `at`. */
+/* The index of the set's first joint at or above `at`. */
 static size_t first_from(const struct joint_plan *s, double at)
 {
     size_t low = 0, high = s->n;
@@ -117,7 +117,7 @@ static size_t first_from(const struct joint_plan *s, double at)
     return low;
 }
 
-/* Is the patch of a joint's plane that is nearest to x parted? */
+/* Is the patch of the joint at x open? */
 static bool parted(const struct joint_plan *s, const struct joint *j, const double x[3])
 {
     if (s->job->persistence >= 1)
@@ -129,7 +129,7 @@ static bool parted(const struct joint_plan *s, const struct joint *j, const doub
     return chance(patch, (int64_t)floor(along), (int64_t)floor(up), PATCH) < s->job->persistence;
 }
 
-/* ---- what they do */
+/* ---- effects */
 
 struct joint_effect joints_at(const struct joints *all, const double x[3], double height, double h)
 {

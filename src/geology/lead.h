@@ -1,9 +1,9 @@
-/* How fast a front runs along sheets of rock that are thinner than a voxel: soft ones lead.
+/* The speed of a weathering front along sheets of rock that are thinner than a voxel: soft sheets lead.
  *
- * Where a front crosses sheets time adds up, and its speed is their harmonic mean. Where it runs along them the softest is ahead, and
- * what lies beside is reached from its flank; the speed tends to the softest's far in, and is less as long as flanks take their time.
- * The mean of the rates to LEAD_POWER is what fronts had that ran through beds a tenth as thick as the voxels, for as far as ten
- * voxels (tests/physics/beds.h), and it is a mean of voxels' too: the same for one voxel and for the eight within it.
+ * Across sheets times add up, and the speed is the harmonic mean. Along sheets the softest is ahead and its neighbours are reached from
+ * their flanks: far from the start the speed tends to that of the softest, and before that it is lower. The power mean of the rates with
+ * exponent LEAD_POWER fits fronts through beds a tenth of a voxel thick, over up to ten voxels (tests/physics/beds.h). Being a mean, it
+ * is the same for a voxel and for its eight parts together.
  */
 #ifndef HOODOO_LEAD_H
 #define HOODOO_LEAD_H
@@ -12,7 +12,7 @@
 
 #define LEAD_POWER 8
 
-/* Of rock of which this share is in sheets that weather so many times faster; 1: as the rest. */
+/* The factor on the rate of rock of which this share is in sheets that weather `rate` times faster. */
 static inline double lead_mean(double rate, double share)
 {
     return rate == 1 || share == 0 ? 1 : pow(1 + share * (pow(rate, LEAD_POWER) - 1), 1.0 / LEAD_POWER);

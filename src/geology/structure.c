@@ -6,7 +6,7 @@
 #include "geology/attitude.h"
 #include "geology/concretions.h"
 
-/* No height in the domain is beyond these. */
+/* Bounds of the height s in the domain. */
 static void heights(const struct job *job, double *low, double *high)
 {
     struct job level = *job;
@@ -54,16 +54,16 @@ status structure_create(const struct job *job, struct structure *s)
     for (size_t i = 0; i < job->n_concretions; i++) {
         double count;
         const double side = concretions_cube(&job->concretions[i], &count);
-        if (count > CONCRETIONS_MOST)
+        if (count > CONCRETIONS_MAX)
             return fail(
                 E_USAGE,
                 "concretions.%zu: %.3g lie in each cube of %.3g m, which the largest fill: %d at most; lower per_m3 (%g), radius_m (%g) or spread (%g)",
-                i, count, side, (int)CONCRETIONS_MOST, job->concretions[i].per_m3,
+                i, count, side, (int)CONCRETIONS_MAX, job->concretions[i].per_m3,
                 job->concretions[i].radius_m, job->concretions[i].spread);
     }
     heights(job, &low, &high);
     for (int a = 0; a < 3; a++)
-        end[a] = job->domain.size_m[a] + 2 * job->domain.spacing_m; /* the last voxels may reach farther */
+        end[a] = job->domain.size_m[a] + 2 * job->domain.spacing_m; /* the last voxels may extend beyond it */
     TRY(beds_create(job, low, high, &s->beds));
     TRY(joints_create(job, origin, end, &s->joints));
 done:

@@ -1,6 +1,6 @@
-/* The structure of the rock: what it is like at a place, a function of position in metres, the job and its seed alone.
+/* The structure of the rock as a function of position in metres, the job and its seed only.
  *
- * Beds, cross-bedding, joints and breccia multiply what the stratum at the place has. See README.md in this folder.
+ * Beds, cross-bedding, joints, breccia and concretions multiply the properties of the stratum. See README.md in this folder.
  */
 #ifndef HOODOO_STRUCTURE_H
 #define HOODOO_STRUCTURE_H
@@ -12,17 +12,17 @@
 
 struct structure {
     const struct job *job;
-    bool plain; /* 1 everywhere */
+    bool plain; /* all factors are 1 */
     struct beds beds;
     struct joints joints;
 };
 
-/* Of the job's domain. The job outlives it. E_USAGE: there would be too many beds or joints. */
+/* The structure of the job's domain. The job must outlive *out. Free with structure_destroy(). E_USAGE: there are too many beds or joints. */
 MUST_USE status structure_create(const struct job *job, struct structure *out);
 void structure_destroy(struct structure *s);
 
-/* In the mean over a cube of the width h around x: what rates and interlocking thresholds are multiplied with; and how many times
- * faster a front runs along the beds than across them, 1 or more: the softest lead. */
+/* Means over a cube of width h around x: the factors on rates and on interlocking thresholds; and the ratio of a front's speed along the beds
+ * to that across them, 1 or more. */
 struct structure_rock {
     double rate, interlock, along;
 };

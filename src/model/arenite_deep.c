@@ -39,7 +39,7 @@ static status reserve_particles(struct arenite *a, size_t more)
     const bool rubble = a->blocks.rubble;
     if (n <= a->particles.n_max)
         return OK;
-    TRY(particles_reserve(a->m.gpu, &a->particles, particles_room_for(n)));
+    TRY(particles_reserve(a->m.gpu, &a->particles, particles_capacity_for(n)));
     arenite_destroy_parts(a, LASTS_ROCK);
     TRY(arenite_create_parts(a, LASTS_ROCK));
     a->blocks.rubble = rubble;

@@ -64,7 +64,7 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     if (arenite_may_be_deep(job))
         needs->size.n_kept = needs->size.n_near;
     const size_t n = needs->size.n_kept;
-    needs->capacity = n < needs->size.n_particles ? particles_room_for(n) : n;
+    needs->capacity = n < needs->size.n_particles ? particles_capacity_for(n) : n;
     const unsigned has = arenite_has(job, water_ever_flows(job), plants_wanted(job) || edits_plant(job),
                                      arenite_ever(job, deposit_wanted), job_keeps_exposed(job));
     needs->device_bytes = device_bytes(job, needs->voxels, &needs->size, needs->capacity);

@@ -18,7 +18,7 @@ done:
     return st;
 }
 
-void particles_near(struct gpu *gpu, struct particles *p, uint32_t reach)
+void particles_mark_near(struct gpu *gpu, struct particles *p, uint32_t reach)
 {
     struct near_params k = {.n = words_of(p).n,
                             .nx = (uint)p->voxels[0],
@@ -32,7 +32,7 @@ void particles_near(struct gpu *gpu, struct particles *p, uint32_t reach)
     GPU_RUN(gpu, particles_near, k.n, k, p->flags, p->place);
 }
 
-/* Bits of deep voxels into p->flags: of those in p->place, or `all`. Waits. */
+/* Writes the bits of deep voxels to p->flags: those marked in p->place, or `all`. Waits for the device. */
 static status find_due(struct gpu *gpu, struct gpu_work *work, struct particles *p, bool all, size_t *n)
 {
     status st = OK;
@@ -50,11 +50,11 @@ done:
 static status find_near(struct gpu *gpu, struct gpu_work *work, struct particles *p, size_t *n)
 {
     status st = OK;
-    particles_near(gpu, p, NEAR_REACH + 1);
+    particles_mark_near(gpu, p, NEAR_REACH + 1);
     TRY(find_due(gpu, work, p, false, n));
     if (*n == 0)
         return OK;
-    particles_near(gpu, p, NEAR_REACH + 1 + NEAR_AHEAD);
+    particles_mark_near(gpu, p, NEAR_REACH + 1 + NEAR_AHEAD);
     TRY(find_due(gpu, work, p, false, n));
 done:
     return st;
@@ -87,7 +87,7 @@ done:
     return st;
 }
 
-/* A buffer of n_max items becomes one of n; of its contents the first `keep` items stay. */
+/* Grows a buffer of n_max items to n; the first `keep` items are preserved. */
 static status grow(struct gpu *gpu, const char *name, size_t n, size_t item, size_t keep,
                    struct gpu_buffer **buffer)
 {

@@ -1,13 +1,12 @@
-/* The volumes of a frame in host memory: values at the points of a lattice, of which only the bricks are kept that hold
- * something.
+/* The volumes of a frame in host memory: values at the points of a lattice, stored sparsely in bricks.
  *
- * Bricks    8^3 samples each. Those of a frame are the same for all of its grids; they are numbered (k ny + j) nx + i, and
- *           kept in that order, so that equal frames are equal bytes. A sample of brick b is at [512 b + 64 z + 8 y + x] of
- *           an array, x, y and z being from 0 to 7; those beyond the lattice hold the background.
- * Background  what samples outside all bricks are: 3 voxels in level sets, 0 otherwise.
- * Inside    bricks that are all inside need not be kept either (BRICK_INSIDE): level sets are -3 voxels there, and every other
- *           grid one value, which is 0 for most, or one for each of them (grid_inside()).
- * Calling sequence   frame_grids_begin(), frame_grids_choose(); then frame_grids_add() and an array for each.
+ * Bricks      of 8^3 samples. All grids of a frame have the same bricks, numbered (k ny + j) nx + i and stored in that order, so that
+ *             equal frames are equal bytes. Sample (x, y, z) of the brick in slot b, 0..7 each, is at [512 b + 64 z + 8 y + x] of an
+ *             array. Samples beyond the lattice have the background value.
+ * Background  the value of samples outside of all bricks: 3 voxels in level sets, otherwise 0.
+ * Inside      bricks that are completely inside need not be stored (BRICK_INSIDE). Their value is -3 voxels in level sets; in other grids
+ *             one value for all (0 for most), or one per brick (grid_inside()).
+ * Calling sequence   frame_grids_begin(), frame_grids_choose(); then frame_grids_add() and an array for each grid.
  */
 #ifndef HOODOO_GRIDS_H
 #define HOODOO_GRIDS_H
@@ -21,22 +20,22 @@
 
 enum { BRICK_SIDE = 8, BRICK_SAMPLES = 512, GRID_BAND = 3 };
 
-/* The slot of a brick that is not kept, being inside. */
+/* The slot of a brick that is not stored because it is completely inside. */
 #define BRICK_INSIDE UINT32_MAX
 
 enum grid_class { GRID_LEVEL_SET, GRID_FOG, GRID_PLAIN };
 
-/* Sample (i, j, k) lies at origin + (i, j, k) voxel. */
+/* Sample (i, j, k) is at origin + (i, j, k) voxel. */
 struct grid_lattice {
     int n[3];
     double voxel, origin[3]; /* m */
 };
 
 struct grid_bricks {
-    int n[3]; /* along the axes; the last ones may reach beyond the lattice */
+    int n[3]; /* bricks on each axis; the last ones may extend beyond the lattice */
     size_t count;
     uint32_t *number; /* [count] ascending */
-    /* Of each brick of the lattice: its place in `number` and one more; not kept are 0 outside, and BRICK_INSIDE. */
+    /* [bricks of the lattice]: its index in `number` plus 1; 0: not stored, outside; BRICK_INSIDE: not stored, inside. */
     uint32_t *slot;
 };
 
@@ -45,8 +44,8 @@ struct frame_grid {
     const char *unit;
     enum grid_class kind;
     int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
-    float inside;   /* level sets: unused. What samples inside that are not kept hold */
-    float *deep;    /* [bricks of the lattice] that for each, or NULL; owned by the frame */
+    float inside;   /* the value of inside samples that are not stored; unused in level sets */
+    float *deep;    /* [bricks of the lattice]: the same per brick, or NULL; owned by the frame */
     float *value;   /* [bricks.count * BRICK_SAMPLES * components]; owned by the frame */
 };
 
@@ -56,35 +55,34 @@ struct frame_grids {
     size_t n_grids;
     struct frame_grid grid[VALUES];
 };
-/* In scalar grids, voxels where `density` is 0 are inactive, except in level sets, whose active voxels are
- * those with |value| < 3 voxels (the background). In vector grids those with a zero vector are. */
+/* Active voxels in files: in level sets those with |value| < 3 voxels (the background); in other scalar grids those where `density` is not
+ * 0; in vector grids those with a vector that is not zero. */
 
-/* Bricks a lattice has along the axes; returns how many that are. */
+/* The numbers of bricks of a lattice on each axis; returns their product. */
 size_t grid_bricks_of(const int n[3], int out[3]);
 
-/* Grids on that lattice, without bricks so far. frame_grids_free(). */
+/* Grids on that lattice, still without bricks. Free with frame_grids_free(). E_MEMORY. */
 MUST_USE status frame_grids_begin(const struct grid_lattice *lattice, struct frame_grids *out);
 
-/* Keeps these bricks, numbers of them in ascending order: *numbers becomes theirs. */
+/* Sets the stored bricks: n numbers in ascending order. Takes ownership of *numbers. */
 void frame_grids_choose(struct frame_grids *grids, uint32_t **numbers, size_t n);
 
-/* One more grid, of this value, that is not sampled yet; *out stays where it is. E_OUTPUT: it is there already, or there are as
- * many as there can be. */
+/* Adds a grid for this value, not sampled yet; *out stays valid. E_OUTPUT: it exists already, or there are VALUES grids. */
 MUST_USE status frame_grids_add(struct frame_grids *grids, enum value_id value, struct frame_grid **out);
 
-/* The one of that name, or NULL. */
+/* The grid of that name, or NULL. */
 const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const char *name);
 
 /* Harmless on {0}. */
 void frame_grids_free(struct frame_grids *grids);
 
-/* What samples outside the bricks hold. */
+/* The value of samples outside of all bricks. */
 static inline float grid_background(const struct frame_grids *grids, const struct frame_grid *grid)
 {
     return grid->kind == GRID_LEVEL_SET ? (float)(GRID_BAND * grids->lattice.voxel) : 0;
 }
 
-/* The brick of a sample. */
+/* The number of the brick that contains a sample. */
 static inline size_t grid_brick(const struct frame_grids *grids, int i, int j, int k)
 {
     const int *n = grids->bricks.n;
@@ -92,7 +90,7 @@ static inline size_t grid_brick(const struct frame_grids *grids, int i, int j, i
            (size_t)(i / BRICK_SIDE);
 }
 
-/* What those of this brick do, which is all inside. */
+/* The value of all samples of this brick, which is BRICK_INSIDE. */
 static inline float grid_inside(const struct frame_grids *grids, const struct frame_grid *grid, size_t brick)
 {
     return grid->kind == GRID_LEVEL_SET ? -grid_background(grids, grid)
@@ -102,8 +100,8 @@ static inline float grid_inside(const struct frame_grids *grids, const struct fr
 
 enum { ROW_OUTSIDE = -1, ROW_INSIDE = -2 };
 
-/* Where the samples from (i, j, k) on, along x to the end of their brick, are in an array; if they are not kept, ROW_OUTSIDE or
- * ROW_INSIDE. */
+/* The index in an array of sample (i, j, k) and the following ones along x, to the end of their brick; ROW_OUTSIDE or ROW_INSIDE if they
+ * are not stored. */
 static inline ptrdiff_t grid_row(const struct frame_grids *grids, int i, int j, int k)
 {
     const struct grid_bricks *b = &grids->bricks;
@@ -114,7 +112,7 @@ static inline ptrdiff_t grid_row(const struct frame_grids *grids, int i, int j, 
            ((k % BRICK_SIDE) * BRICK_SIDE + j % BRICK_SIDE) * BRICK_SIDE + i % BRICK_SIDE;
 }
 
-/* One sample of a scalar on the frame's lattice. */
+/* A sample of a scalar grid. */
 static inline float grid_at(const struct frame_grids *grids, const struct frame_grid *grid, int i, int j,
                             int k)
 {

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 
-/* The list's: while voxels are counted it has a number for each word. */
+/* Capacity of the list, which temporarily has a number per word while voxels are counted. */
 static size_t room_for(const int voxels[3], size_t n)
 {
     const size_t words = held_words(voxels) + 1;
@@ -16,7 +16,7 @@ uint64_t held_bytes(const int voxels[3], size_t n)
     return (uint64_t)held_words(voxels) * HELD_STRIDE * 4 + (uint64_t)room_for(voxels, n) * 4;
 }
 
-/* All that is in the list is lost. */
+/* Replaces the list; its contents are lost. */
 static status make_room(struct gpu *gpu, struct held_voxels *h, size_t n)
 {
     status st = OK;

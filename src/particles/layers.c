@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-enum { MOST_CELLS = 2048 }; /* along an axis */
+enum { MAX_CELLS = 2048 }; /* on an axis */
 
 static int cell_on(const struct layers *l, int axis, float x)
 {
@@ -34,8 +34,8 @@ status layers_create(const struct rock *rock, double spacing, struct layers *out
             high = fmax(high, (double)rock->P[4 * p + (size_t)a]);
         }
         double n = rock->n ? floor((high - out->low[a]) / spacing) + 1 : 1;
-        if (!(n <= MOST_CELLS))
-            return fail(E_INPUT, "its particles span %g spacings; at most %d", n, MOST_CELLS);
+        if (!(n <= MAX_CELLS))
+            return fail(E_INPUT, "its particles span %g spacings; at most %d", n, MAX_CELLS);
         out->n[a] = (int)n;
         cells *= (size_t)n;
     }
@@ -62,7 +62,7 @@ void layers_destroy(struct layers *l)
     *l = (struct layers){0};
 }
 
-/* The nearest in the cells no farther than `reach` from at's. */
+/* The nearest particle in the cells within `reach` cells of at's. */
 static double nearest(const struct layers *l, const float at[3], int reach, uint32_t *which)
 {
     double least = INFINITY;

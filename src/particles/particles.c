@@ -4,9 +4,9 @@
 
 uint64_t particles_bytes(size_t n, const int voxels[3])
 {
-    uint64_t item = 4 + 3 * 4; /* surface; start, fill, taken: a voxel each */
+    uint64_t item = 4 + 3 * 4; /* surface; start, fill and taken, per voxel */
     for (int f = 0; f < ROCK_FIELDS; f++)
-        item += f == ROCK_v || rock_field_asked(f) ? 0 : rock_field_size((enum rock_field)f);
+        item += f == ROCK_v || rock_field_is_optional(f) ? 0 : rock_field_size((enum rock_field)f);
     return (uint64_t)n * item + 2 * 4 * (uint64_t)particles_scratch(voxels, n) + held_bytes(voxels, n);
 }
 
@@ -20,7 +20,7 @@ struct voxel_params particles_params(const struct particles *p, size_t n)
                                  .walls = p->walls};
 }
 
-/* Of what there is a word for each held voxel. */
+/* The buffers with one word per held voxel. */
 static status keep_voxels(struct gpu *gpu, struct particles *p)
 {
     status st = OK;
@@ -37,7 +37,7 @@ done:
     return st;
 }
 
-/* A field in the order in p->surface; its buffer becomes the spare one. */
+/* Gathers a field in the order of p->surface into the spare buffer, and swaps the two. */
 static void reorder(struct gpu *gpu, struct particles *p, struct gpu_buffer **field,
                     struct gpu_buffer **spare, size_t n)
 {
@@ -49,7 +49,7 @@ static void reorder(struct gpu *gpu, struct particles *p, struct gpu_buffer **fi
 
 enum stay { STAYS_LEFT, STAYS_WAITING, STAYS_ALL };
 
-/* Which particles stay, 1 or viability; 0: they go. May be p->place. */
+/* Which particles stay: not 0 (1 or the viability). May be p->place. */
 static struct gpu_buffer *staying(struct gpu *gpu, struct particles *p, enum stay stay)
 {
     const struct count_params k = {(uint)p->n};
@@ -65,8 +65,7 @@ static struct gpu_buffer *staying(struct gpu *gpu, struct particles *p, enum sta
     return p->place;
 }
 
-/* The order of particles_index(), for fields up to `keep`, and stress. The spare buffers, of vectors and of words, are zero after
- * it. */
+/* particles_index() for fields up to `keep`, and stress. `vector` and `word` are spare buffers, which are 0 afterwards. */
 static status index_fields(struct gpu *gpu, struct gpu_work *work, struct particles *p, int keep,
                            enum stay stay, struct gpu_buffer **vector, struct gpu_buffer **word)
 {
@@ -81,7 +80,7 @@ static status index_fields(struct gpu *gpu, struct gpu_work *work, struct partic
     const struct gpu_sort sort = {.keys = p->flags,
                                   .ids = p->field[ROCK_id],
                                   .start = p->start,
-                                  .order = p->surface, /* found anew after this */
+                                  .order = p->surface, /* recomputed after this */
                                   .taken = p->taken,
                                   .unordered = p->place,
                                   .n = p->n,
@@ -101,13 +100,13 @@ done:
     return st;
 }
 
-/* The fields of the state: two that are derived, and stale, serve as spare. */
+/* Sorts the STATE fields; two DERIVED ones, which are stale, serve as spare buffers. */
 static status index_state(struct gpu *gpu, struct gpu_work *work, struct particles *p, enum stay stay)
 {
     return index_fields(gpu, work, p, STATE, stay, &p->field[ROCK_N], &p->field[ROCK_von_mises]);
 }
 
-/* All fields. */
+/* Sorts all fields. */
 static status index_derived(struct gpu *gpu, struct gpu_work *work, struct particles *p)
 {
     status st = OK;
@@ -137,7 +136,8 @@ status particles_create(struct gpu *gpu, struct gpu_work *work, const struct roc
     *p = (struct particles){
         .n = rock->n, .n_max = rock->n, .voxels = {voxels[0], voxels[1], voxels[2]}, .h = h};
     for (int f = 0; f < ROCK_FIELDS; f++) {
-        if ((f == ROCK_v && !(keep == DERIVED && moves(rock))) || (rock_field_asked(f) && !rock->field[f]))
+        if ((f == ROCK_v && !(keep == DERIVED && moves(rock))) ||
+            (rock_field_is_optional(f) && !rock->field[f]))
             continue;
         TRY(gpu_buffer_create(gpu, rock_field_table[f].name, p->n_max, rock_field_size((enum rock_field)f),
                               &p->field[f]));
@@ -239,7 +239,7 @@ status particles_download(struct gpu *gpu, const struct particles *p, int keep, 
     status st = OK;
     TRY(rock_alloc(out, p->n, keep));
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_asked(f) && rock_field_table[f].keep <= keep && p->field[f])
+        if (rock_field_is_optional(f) && rock_field_table[f].keep <= keep && p->field[f])
             TRY(rock_keep(out, (enum rock_field)f));
     for (int f = 0; f < ROCK_FIELDS; f++)
         if (out->field[f] && p->field[f])

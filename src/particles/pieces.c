@@ -8,7 +8,7 @@
 
 static const enum rock_field of_values[DEEP_VALUES] = {ROCK_stress, ROCK_von_mises, ROCK_erodibility};
 
-/* How many particles each layer of voxels has, of the rock alone; false if they are not in the order of layers. */
+/* Counts the rock's particles in each slab of voxels; false if they are not sorted by slab. */
 static bool count_rock(const struct rock *rock, const struct frame_deep *deep, size_t *count)
 {
     int last = 0;
@@ -31,7 +31,7 @@ static size_t count_deep(const struct frame_deep *deep, size_t slab, size_t k)
     return n;
 }
 
-/* Layers as long as they fit into a piece. */
+/* Adds slabs to a piece as long as they fit. */
 static status cut_by_layer(struct rock_pieces *p, const size_t *count)
 {
     const struct frame_deep *deep = p->deep;
@@ -42,7 +42,7 @@ static status cut_by_layer(struct rock_pieces *p, const size_t *count)
     p->n = 0;
     for (size_t k = 0; k < nz; k++) {
         const size_t made = count_deep(deep, slab, k);
-        if (in_piece > 0 && in_piece + count[k] + made > PIECE_MOST) {
+        if (in_piece > 0 && in_piece + count[k] + made > PIECE_MAX) {
             p->start[++p->n] = at;
             in_piece = 0;
         }
@@ -57,7 +57,7 @@ static void cut_by_number(struct rock_pieces *p)
 {
     for (p->n = 0; p->n == 0 || p->start[p->n].rock < p->rock->n; p->n++) {
         const size_t left = p->rock->n - p->start[p->n].rock;
-        p->start[p->n + 1].rock = p->start[p->n].rock + (left < PIECE_MOST ? left : PIECE_MOST);
+        p->start[p->n + 1].rock = p->start[p->n].rock + (left < PIECE_MAX ? left : PIECE_MAX);
     }
 }
 
@@ -67,7 +67,7 @@ status rock_pieces_begin(const struct rock *rock, const struct frame_deep *deep,
     size_t *count = NULL;
     const size_t layers = deep ? (size_t)deep->voxels[2] : 0;
     *p = (struct rock_pieces){.rock = rock, .deep = deep};
-    TRY(memory_alloc((layers > rock->n / PIECE_MOST ? layers : rock->n / PIECE_MOST) + 2, sizeof *p->start,
+    TRY(memory_alloc((layers > rock->n / PIECE_MAX ? layers : rock->n / PIECE_MAX) + 2, sizeof *p->start,
                      "pieces of rock", &p->start));
     TRY(memory_alloc(layers, sizeof *count, "layers of rock", &count));
     if (layers && count_rock(rock, deep, count))
@@ -97,7 +97,7 @@ static void copy_items(const struct rock *in, size_t from, size_t n, struct rock
         memcpy((char *)out->field[f] + to * size, (const char *)in->field[f] + from * size, n * size);
 }
 
-/* The particles of deep voxels, behind n others in *out. */
+/* Makes the particles of deep voxels, after n others in *out. */
 static status add_deep(const struct rock_pieces *p, size_t i, struct rock *out, size_t n)
 {
     status st = OK;

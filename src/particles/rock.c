@@ -29,7 +29,7 @@ status rock_alloc(struct rock *rock, size_t n, int keep)
     status st = OK;
     *rock = (struct rock){.n = n};
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_table[f].keep <= keep && !rock_field_asked(f))
+        if (rock_field_table[f].keep <= keep && !rock_field_is_optional(f))
             TRY(memory_alloc(n, rock_field_size((enum rock_field)f), rock_field_table[f].name,
                              &rock->field[f]));
 done:

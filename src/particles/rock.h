@@ -1,4 +1,4 @@
-/* The rock as host memory: one array a field, as scenes make it, checkpoints keep it and files show it. */
+/* The rock in host memory, one array per field. Scenes make it, checkpoints store it, files show it. */
 #ifndef HOODOO_ROCK_H
 #define HOODOO_ROCK_H
 
@@ -26,10 +26,10 @@ struct rock_field_info {
 
 extern const struct rock_field_info rock_field_table[ROCK_FIELDS];
 
-/* The field (enum rock_field) that a value of values.def is; -1 if it is none. */
+/* The field (enum rock_field) that a value of values.def shows; -1: none. */
 extern const int value_field[VALUES];
 
-/* n particles. Arrays have n * components items; a field nobody has filled yet is NULL. */
+/* n particles. Arrays have n * components items; NULL: the field is not set. */
 struct rock {
     size_t n;
     union {
@@ -41,19 +41,19 @@ struct rock {
     };
 };
 
-/* Does only some rock have the field: where the job asks for it? Its arrays are NULL elsewhere. */
-static inline bool rock_field_asked(int field)
+/* Is the field only kept if the job needs it? Otherwise its arrays are NULL. */
+static inline bool rock_field_is_optional(int field)
 {
     return field == ROCK_exposed_kyr || field == ROCK_seepage;
 }
 
-/* Zeroed arrays for n particles, for fields with keep <= `keep` (STATE, or DERIVED for all), but for those that only some rock
- * has: rock_keep() adds one of these. */
+/* Zeroed arrays for n particles, for fields with keep <= `keep` (STATE, or DERIVED for all), without optional ones, of which rock_keep()
+ * adds one. Free with rock_free(). E_MEMORY. */
 MUST_USE status rock_alloc(struct rock *rock, size_t n, int keep);
 MUST_USE status rock_keep(struct rock *rock, enum rock_field field);
 void rock_free(struct rock *rock);
 
-/* Bytes of one particle's value of a field. */
+/* The size of a field's value of one particle, bytes. */
 size_t rock_field_size(enum rock_field field);
 
 #endif

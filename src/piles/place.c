@@ -11,7 +11,7 @@ struct places {
     size_t n, capacity;
 };
 
-/* Rock i of the tiles stacked at one place, wherever a layer holds its centre. `column` numbers the place
+/* Adds rock i of the tiles stacked at one position, wherever a layer contains its centre. `column` numbers the position
  * among `columns`. */
 static status place_rock(const struct pile_tile *t, size_t i, double x, double y, size_t column,
                          size_t columns, double (*span)[2], size_t n, struct places *out)
@@ -47,7 +47,8 @@ status pile_place_all(const struct pile_tile *t, const double size[2], pile_laye
                 TRY(place_rock(t, i, x, y, (b * nx + a) * t->n + i, nx * ny * t->n, span,
                                layers(user, x, y, span, SPANS), &places));
             }
-    TRY(memory_grow(&places.at, &places.capacity, 1, sizeof *places.at, "rocks")); /* none is a valid list */
+    TRY(memory_grow(&places.at, &places.capacity, 1, sizeof *places.at,
+                    "rocks")); /* so that an empty list is not NULL */
     *out = places.at;
     *n = places.n;
     places.at = NULL;

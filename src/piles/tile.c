@@ -8,10 +8,10 @@
 #include "base/vector.h"
 #include "piles/piles.h"
 
-/* Share of the tile that spheres fill: random placing gets to 0.38 and no further. */
+/* Share of the tile's volume in spheres; random sequential placing saturates at 0.38. */
 #define PACKING 0.30
 
-/* Edges and corners are rounded where two faces are nearer to each other than this, in radii. */
+/* Edges and corners are rounded where two faces are closer to each other than this, in radii. */
 #define ROUNDING 0.35
 
 enum { TRIALS = 200000, PLANES = 64, CHIPS = 9, CONTACT_TRIALS = 24 };
@@ -44,7 +44,7 @@ static void direction(uint32_t seed, uint32_t a, uint32_t b, double out[3])
 
 /* ---- centres */
 
-/* From a to b by the shortest way, the tile repeating. */
+/* The shortest vector from a to b in the periodic tile. */
 static void shortest(const struct pile_tile *t, const double a[3], const double b[3], double out[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -79,7 +79,7 @@ static int by_distance(const void *a, const void *b)
     return (x->other > y->other) - (x->other < y->other);
 }
 
-/* The nearest bisecting planes around rock i: far more than a cell has faces. */
+/* The closest bisecting planes around rock i, many more than a cell has faces. */
 static status find_cell(const struct pile_tile *t, size_t i, struct cell *c)
 {
     status st = OK;
@@ -108,7 +108,7 @@ done:
     return st;
 }
 
-/* How deep p is below the nearest of the planes but `except`. */
+/* The depth of p below the closest of the planes, except plane `except`. */
 static double depth_at(const struct cell *c, const double p[3], size_t except)
 {
     double depth = HUGE_VAL;
@@ -129,7 +129,7 @@ static status add_contact(struct pile_rock *r, const struct pile_contact *contac
     return st;
 }
 
-/* The face of the cell beyond that is the face `f` of rock i's. */
+/* The face of the neighbouring cell that coincides with face f of rock i. */
 static size_t same_face(const struct cell *beyond, size_t i, const struct plane *f)
 {
     for (size_t k = 0; k < beyond->n; k++) {
@@ -141,7 +141,7 @@ static size_t same_face(const struct cell *beyond, size_t i, const struct plane 
     return SIZE_MAX;
 }
 
-/* A random point of the face, clear of the rounded edges; false: the face is too small for one. */
+/* A random point of the face outside of its rounded edges; false: the face is too small. */
 static bool point_on_face(const struct cell *cell, size_t i, size_t face, double radius, uint32_t seed,
                           uint32_t what, double out[3])
 {
@@ -162,7 +162,7 @@ static bool point_on_face(const struct cell *cell, size_t i, size_t face, double
     return false;
 }
 
-/* Every face is looked at from the rock with the lower number, or if it is its own neighbour from one side. */
+/* Each face is visited once: from the rock with the lower number, or, between a rock and its own image, from one side. */
 static status find_contacts(struct pile_tile *t, const struct pile_options *o, size_t i,
                             const struct cell *cell)
 {
@@ -191,12 +191,12 @@ done:
     return st;
 }
 
-/* ---- the worn rock */
+/* ---- the eroded rock */
 
 struct worn {
     const struct pile_rock *rock;
     const struct cell *cell;
-    struct plane chip[CHIPS]; /* corners that broke off, clear of the contacts */
+    struct plane chip[CHIPS]; /* corners that have broken off, away from the contacts */
     size_t n_chips;
     double radius, erosion;
 };
@@ -207,7 +207,7 @@ static double smooth_min(double a, double b, double width)
     return fmin(a, b) - 0.25 * width * h * h;
 }
 
-/* Above 0 inside the rock: how deep p is in its cell, less what wears away there. */
+/* Positive inside the rock: the depth of p in its cell minus the erosion there. */
 static double inside(const struct worn *w, const double p[3])
 {
     double width = ROUNDING * w->radius, depth = 4 * w->radius, resistance = 0;
@@ -216,7 +216,7 @@ static double inside(const struct worn *w, const double p[3])
         own[k] = w->cell->plane[k].d - dot3(w->cell->plane[k].n, p);
         depth = fmin(depth, own[k]);
     }
-    /* Each face that is nearly as near rounds the edge it makes; the nearest itself counts as one, too much. */
+    /* Each face that is almost as close as the closest rounds their common edge; the closest one is also counted, hence the minus one. */
     for (size_t k = 0; k < w->cell->n; k++) {
         double h = 1 - (own[k] - depth) / width;
         rounded += h > 0 ? h * h : 0;
@@ -232,7 +232,7 @@ static double inside(const struct worn *w, const double p[3])
     return worn;
 }
 
-/* Where the ray along u leaves the rock. */
+/* The distance at which the ray from the centre along u leaves the rock. */
 static double leave(const struct worn *w, const double u[3])
 {
     double low = 0, high = 0, step = 0.1 * w->radius;
@@ -268,7 +268,7 @@ static void chip(struct worn *w, uint32_t seed, uint32_t rock)
     }
 }
 
-/* Only planes that some ray meets, or that round it, matter to the mesh. */
+/* Keeps the planes that any ray of the mesh meets or is rounded by. */
 static void trim(struct cell *c, const double (*u)[3], size_t n, double radius)
 {
     bool used[PLANES] = {false};
@@ -289,7 +289,7 @@ static void trim(struct cell *c, const double (*u)[3], size_t n, double radius)
     c->n = kept;
 }
 
-/* The directions nearest to the contacts become theirs, so that the mesh goes through them. */
+/* Moves the mesh directions closest to contacts onto them, so that the mesh passes through the contacts. */
 static void aim(const struct pile_rock *r, const double (*sphere)[3], double (*u)[3], size_t n)
 {
     for (size_t c = 0; c < r->n_contacts; c++) {
@@ -297,7 +297,7 @@ static void aim(const struct pile_rock *r, const double (*sphere)[3], double (*u
         double length = sqrt(dot3(at, at)), best = -HUGE_VAL;
         size_t nearest = 0;
         for (size_t v = 0; v < n; v++)
-            /* One that has been turned serves its own contact. */
+            /* A direction that has been moved belongs to its contact. */
             if (dot3(u[v], at) > best && memcmp(u[v], sphere[v], sizeof u[v]) == 0) {
                 best = dot3(u[v], at);
                 nearest = v;
@@ -365,7 +365,7 @@ static size_t middle_of(double (*u)[3], size_t *n, uint32_t (*edge)[3], size_t *
     return (*n)++;
 }
 
-/* An icosahedron, each triangle cut in four, `detail` times. */
+/* An icosahedron, `detail` times subdivided into four. */
 static status make_sphere(int detail, double (**out)[3], size_t *n, uint32_t **triangle, size_t *n_triangles)
 {
     static const uint32_t faces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},

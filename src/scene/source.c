@@ -144,7 +144,7 @@ static status check_memory(size_t n)
 {
     size_t bytes = 0;
     for (int f = 0; f < ROCK_FIELDS; f++)
-        if (rock_field_table[f].keep == STATE && !rock_field_asked(f))
+        if (rock_field_table[f].keep == STATE && !rock_field_is_optional(f))
             bytes += rock_field_size((enum rock_field)f);
     if (n > memory_available() / bytes)
         return fail(E_MEMORY,

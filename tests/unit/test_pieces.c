@@ -77,7 +77,7 @@ static void check_pieces(const struct rock_pieces *pieces, size_t *sizes)
     for (size_t i = 0; i < pieces->n; i++) {
         struct rock piece;
         assert_ok(rock_piece(pieces, i, &piece));
-        assert_true(piece.n <= PIECE_MOST && piece.n % (NX * NY) == 0);
+        assert_true(piece.n <= PIECE_MAX && piece.n % (NX * NY) == 0);
         assert_null(piece.viability);
         for (size_t k = 0; k < piece.n; k++) {
             const size_t id = piece.id[k];
@@ -133,7 +133,7 @@ static void other_rock_is_cut_by_number(void **state)
         rock_piece_free(&pieces, &piece);
     }
     assert_int_equal(sum, ALL);
-    assert_int_equal(pieces.n, (ALL + PIECE_MOST - 1) / PIECE_MOST);
+    assert_int_equal(pieces.n, (ALL + PIECE_MAX - 1) / PIECE_MAX);
     rock_pieces_end(&pieces);
 
     rock.n = 1000;
