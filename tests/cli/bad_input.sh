@@ -94,7 +94,7 @@ check "frames before the job" refused 2 "--frames 1-3: the job's frames are 1001
 check "an unknown option" refused 2 "unknown option --outt; did you mean --out?" run "$job" --outt x
 check "an unknown word for an option" refused 2 "--resume" run "$job" --resume maybe
 check "--resume require, and nothing there" refused 7 "--resume require" run "$job" --out require --resume require
-check "a block without the one before it" refused 7 "run the block before it first" run "$job" --out block --frames 1005-1008
+check "a block without the one before it" refused 7 "run the preceding block of frames first" run "$job" --out block --frames 1005-1008
 
 # ---- the device
 

@@ -126,7 +126,7 @@ for wedge, word in (("[{key: name, values: [x]}]", "cannot differ"), ("[{key: no
         f.write(text + f"wedge: {{over: {wedge}}}\n")
     code, said = hoodoo("plan", "bad.yaml")
     ok(code == 2 and word in said, f"wedge {wedge} is refused", code, said)
-for body, word in (("seed\n", "no line of values"), ("seed\n1,2\n", "more fields"), ("seed,fps\n1\n", "fewer fields"), ('seed\n"1\n', "past its line"), ('seed\n"1', "quote"), ("seed\n\x01\n", "control"), ("", "no line")):
+for body, word in (("seed\n", "no line of values"), ("seed\n1,2\n", "more fields"), ("seed,fps\n1\n", "fewer fields"), ('seed\n"1\n', "spans several lines"), ('seed\n"1', "quote"), ("seed\n\x01\n", "control"), ("", "no line")):
     with open("wedges.csv", "w") as f:
         f.write(body)
     code, said = hoodoo("plan", "wedges.yaml")
