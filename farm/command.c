@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The value that {name} stands for. */
+/* The value for {name}; NULL: none. */
 static const char *value_named(const struct command_values *v, const char *name, size_t length)
 {
 #define COMMAND_LOOK(member)                                                                                 \
@@ -14,25 +14,26 @@ static const char *value_named(const struct command_values *v, const char *name,
     return NULL;
 }
 
-/* One word of `length` bytes with its value put in, behind what is in c->text; false if it does not fit. */
-static bool add_word(struct farm_command *c, size_t *used, const char *word, size_t length,
-                     const struct command_values *values)
+/* Appends an argument of the template, of `length` bytes, with its value filled in, to c->text and c->argv. False if it does not
+ * fit. */
+static bool add_argument(struct farm_command *c, size_t *used, const char *argument, size_t length,
+                         const struct command_values *values)
 {
-    const size_t room = sizeof c->text - *used;
-    const char *open = memchr(word, '{', length),
-               *close = open ? memchr(open, '}', length - (size_t)(open - word)) : NULL;
+    const size_t space = sizeof c->text - *used;
+    const char *open = memchr(argument, '{', length),
+               *close = open ? memchr(open, '}', length - (size_t)(open - argument)) : NULL;
     const char *value = "";
     int written;
     if (close) {
         value = value_named(values, open + 1, (size_t)(close - open) - 1);
         if (!value)
             return true;
-        written = snprintf(c->text + *used, room, "%.*s%s%.*s", (int)(open - word), word, value,
-                           (int)(word + length - close - 1), close + 1);
+        written = snprintf(c->text + *used, space, "%.*s%s%.*s", (int)(open - argument), argument, value,
+                           (int)(argument + length - close - 1), close + 1);
     } else {
-        written = snprintf(c->text + *used, room, "%.*s", (int)length, word);
+        written = snprintf(c->text + *used, space, "%.*s", (int)length, argument);
     }
-    if (written < 0 || (size_t)written >= room || c->n + 1 >= sizeof c->argv / sizeof *c->argv)
+    if (written < 0 || (size_t)written >= space || c->n + 1 >= sizeof c->argv / sizeof *c->argv)
         return false;
     c->argv[c->n++] = c->text + *used;
     *used += (size_t)written + 1;
@@ -45,12 +46,12 @@ status command_fill(const char *hoodoo, enum farm_kind kind, const struct comman
     size_t used = 0;
     c->n = 0;
     c->argv[c->n++] = hoodoo;
-    for (const char *word = farm_kinds[kind].command; *word;) {
-        const size_t length = strcspn(word, " ");
-        if (!add_word(c, &used, word, length, values))
+    for (const char *at = farm_kinds[kind].command; *at;) {
+        const size_t length = strcspn(at, " ");
+        if (!add_argument(c, &used, at, length, values))
             return fail(E_USAGE, "the command of a task (%s) is longer than %zu bytes", farm_kinds[kind].name,
                         sizeof c->text);
-        word += length + (word[length] == ' ');
+        at += length + (at[length] == ' ');
     }
     c->argv[c->n] = NULL;
     return OK;
@@ -81,10 +82,10 @@ done:
     return st;
 }
 
-void farm_quote(struct text *out, const char *word)
+void farm_quote(struct text *out, const char *argument)
 {
     text_add(out, "'");
-    for (const char *s = word; *s; s++) {
+    for (const char *s = argument; *s; s++) {
         if (*s == '\'')
             text_add(out, "'\\''");
         else

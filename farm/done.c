@@ -1,4 +1,4 @@
-/* How far a farm's tasks are, as the files tell. */
+/* Which tasks of a farm are done, and how fast its frames are made, from the files that exist. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,7 +99,7 @@ static status sim_done(const char *root, const struct job *job, struct frame_ran
         *done = st == OK && !*bad && m.job_hash == hash;
         manifest_free(&m);
         if (st != E_MEMORY)
-            st = OK; /* missing or damaged is no error here */
+            st = OK; /* a missing or damaged manifest is not an error here */
         TRY(st);
     }
 done:
@@ -107,10 +107,10 @@ done:
     return st;
 }
 
-/* Is root/`made` there as its record says, by its size, made of the frame that is there; and no older than `from` if it is made of
- * other products (NULL: of a frame)? */
-static status current(const char *root, const char *name, const char *made, const struct path *from,
-                      bool *done)
+/* *done: whether the product root/`made` has the size in its record and was made from the existing frame. A product that is made
+ * from another product, `from`, must also be no older than that; NULL: it is made from a frame. */
+static status product_current(const char *root, const char *name, const char *made, const struct path *from,
+                              bool *done)
 {
     struct path path;
     struct product p;
@@ -123,7 +123,7 @@ static status current(const char *root, const char *name, const char *made, cons
     return st == E_MEMORY ? st : OK;
 }
 
-/* Are the files there that the task makes of a frame? */
+/* *done stays true if all files that the task makes of the frame are current. */
 static status frame_done(const struct farm *f, const struct farm_task *t, int frame, bool *done)
 {
     status st = OK;
@@ -136,7 +136,8 @@ static status frame_done(const struct farm *f, const struct farm_task *t, int fr
     for (size_t i = 0; i < n && *done; i++) {
         const char *part = kind->part ? kind->part(job, i) : t->show;
         TRY(folder_name(&made, job->name, kind->makes, frame, part));
-        TRY(current(root.text, job->name, made.text, kind->from == FILE_VOLUMES ? NULL : &from, done));
+        TRY(product_current(root.text, job->name, made.text, kind->from == FILE_VOLUMES ? NULL : &from,
+                            done));
     }
 done:
     return st;
@@ -151,13 +152,13 @@ static status views_done(const struct farm *f, const struct farm_task *t, bool *
     TRY(farm_root(f, t->wedge, &root));
     for (int view = t->views.first; view <= t->views.last && *done; view++) {
         TRY(folder_view(&made, job->name, t->show, frame, view));
-        TRY(current(root.text, job->name, made.text, NULL, done));
+        TRY(product_current(root.text, job->name, made.text, NULL, done));
     }
 done:
     return st;
 }
 
-/* What is made of the last frame of each wedge. */
+/* The same for a task of all wedges, whose product is made from the last frame of each wedge. */
 static status across_done(const struct farm *f, const struct farm_task *t, bool *done)
 {
     status st = OK;
@@ -168,7 +169,7 @@ static status across_done(const struct farm *f, const struct farm_task *t, bool 
         const struct job *job = f->wedge[i].job;
         TRY(farm_root(f, (int)job->wedge.index, &root));
         TRY(folder_path(&from, root.text, job->name, kind->from, job->frames.last, NULL));
-        TRY(current(f->root.text, job->name, made.text, &from, done));
+        TRY(product_current(f->root.text, job->name, made.text, &from, done));
     }
 done:
     return st;

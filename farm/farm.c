@@ -35,7 +35,7 @@ done:
     return st;
 }
 
-/* A branch's own frames, and with --from its checkpoint. */
+/* Sets the first frame of a branch; with `from` (OUT@FRAME), the job becomes a branch that starts at that checkpoint. */
 static status prepare(const struct farm *f, const char *from, struct job *job)
 {
     status st = OK;
@@ -211,7 +211,7 @@ done:
 
 /* ---- what every task reads */
 
-/* A run would refuse the folder later, task by task, at night. */
+/* Refuses a folder of another job now, before each task would do so. */
 static status check_owner(const struct farm *f, const struct job *job)
 {
     struct path root, path;

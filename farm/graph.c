@@ -21,7 +21,7 @@ bool graph_has_still(const struct job *job, int frame)
 
 /* ---- building */
 
-/* "w0001.show.von-mises.1001-1010": '_' is none of a name's letters. */
+/* A name such as "w0001.show.von-mises.1001-1010". Names contain no '_'. */
 static void name_task(struct farm_task *t)
 {
     const bool views = farm_kinds[t->kind].cut == CUT_VIEWS;
@@ -64,7 +64,7 @@ static void estimate_task(struct farm_task *t, const struct farm_wedge *w)
         t->disk_bytes += w->estimate.checkpoint_bytes * (uint64_t)w->job->checkpoint.keep;
 }
 
-/* Adds `task`, named and, but for tasks of all wedges (w is NULL), estimated. */
+/* Appends a copy of `task`, with a name, and with estimates unless it is a task of all wedges (w is NULL). */
 static status add_task(struct farm_graph *g, const struct farm_wedge *w, const struct farm_task *task)
 {
     status st = memory_grow(&g->task, &g->capacity, g->n + 1, sizeof *g->task, "the tasks");
@@ -81,7 +81,7 @@ static status add_task(struct farm_graph *g, const struct farm_wedge *w, const s
     return OK;
 }
 
-/* The task added last waits for `task` too. */
+/* Makes the task that was added last wait for `task`. */
 static status add_after(struct farm_graph *g, size_t task)
 {
     status st = memory_grow(&g->after, &g->after_capacity, g->n_after + 1, sizeof *g->after, "the tasks");
@@ -92,7 +92,8 @@ static status add_after(struct farm_graph *g, size_t task)
     return OK;
 }
 
-/* The next run of frames in `block`, from *frame on, that are taken and evenly apart: a task's worth. */
+/* Finds the frames of the next task: at most farm.chunk_frames evenly spaced frames of `block`, from *frame on, for which takes()
+ * holds. Advances *frame behind them. False if there are none. */
 static bool next_chunk(const struct job *job, bool (*takes)(const struct job *, int),
                        struct frame_range block, int *frame, struct frame_range *out)
 {
@@ -111,7 +112,7 @@ static bool next_chunk(const struct job *job, bool (*takes)(const struct job *, 
     return n > 0;
 }
 
-/* What is derived from the frames of a block, the task `sim`. */
+/* Adds the tasks of one kind that derive products from the frames of the block that the task `sim` simulates. */
 static status add_chunks(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind,
                          const char *show, size_t sim)
 {
@@ -126,7 +127,7 @@ done:
     return st;
 }
 
-/* The blocks of a wedge, each with what is derived from it; *last is the last of them. */
+/* Adds the blocks of frames of a wedge, each with the tasks that depend on it alone. *last: the task of the last block. */
 static status add_blocks(struct farm_graph *g, const struct farm_wedge *w, size_t *last)
 {
     status st = OK;
@@ -154,7 +155,8 @@ done:
     return st;
 }
 
-/* The task added last waits for those from `first` on that its kind comes after; of the blocks for the last one. */
+/* Makes the task that was added last wait for all tasks from `first` on whose kinds its own kind comes after; of the blocks of
+ * frames only for `last_sim`. */
 static status add_all_after(struct farm_graph *g, size_t first, size_t last_sim)
 {
     status st = OK;
@@ -167,7 +169,7 @@ done:
     return st;
 }
 
-/* What is made of a wedge's frames together: one task, or tasks for some of the turntable's views each. */
+/* Adds the tasks of one kind that depend on all frames of a wedge: one task, or several that share the turntable's views. */
 static status add_finish(struct farm_graph *g, const struct farm_wedge *w, enum farm_kind kind, size_t first,
                          size_t last_sim)
 {
@@ -207,7 +209,7 @@ done:
     return st;
 }
 
-/* A task across the wedges, if more than one of them has what it is made of. */
+/* Adds a task of all wedges if at least two tasks make what it needs. */
 static status add_across(struct farm_graph *g, const struct farm_wedge *wedge, enum farm_kind kind)
 {
     status st = OK;
@@ -228,7 +230,7 @@ done:
     return st;
 }
 
-/* The task that ends the job: it waits for all others, of the blocks for the last one of each wedge. */
+/* Adds the task that ends the job. It waits for all others; of the blocks of frames for the last one of each wedge. */
 static status add_end(struct farm_graph *g, const struct farm_wedge *wedge)
 {
     status st = OK;

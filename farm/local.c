@@ -20,7 +20,7 @@
 enum { PAUSE_S = 1 };
 
 /* How long a stop request may go unnoticed if its signal came to another thread, and how far a pause may overrun. */
-static const double LOOK_S = 0.1;
+static const double POLL_S = 0.1;
 
 /* ---- workers */
 
@@ -354,7 +354,7 @@ status local_run(const struct farm *f, const struct local_options *options)
             options->tick(options->user, &l.state);
             ticked = clock_seconds();
         }
-        wait = LOOK_S;
+        wait = POLL_S;
     }
     if (options->tick)
         options->tick(options->user, &l.state);
