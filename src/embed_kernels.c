@@ -1,12 +1,13 @@
-/* embed_kernels OUT SHADER...: a part of the build. Compiles shaders to SPIR-V, each in three variants, and has every one
- * validated. All of a folder in one process: glslang takes longer to set up its built-in functions than for a shader. Writes
+/* embed_kernels OUT SHADER...: a program of the build. It compiles each shader to SPIR-V in three variants and validates them. One
+ * process compiles all shaders of a folder, because glslang needs more time to set up its built-in functions than to compile a
+ * shader. It writes
  *
- *   OUT.spv   the words of all, one after another
- *   OUT.c     a struct kernel_source (gpu/kernel_source.h) for each, with OUT.spv in it
- *   OUT.d     what was read, for make
+ *   OUT.spv   the SPIR-V of all variants, one after the other
+ *   OUT.c     a struct kernel_source (gpu/kernel_source.h) for each shader, which includes OUT.spv
+ *   OUT.d     the files that were read, for make
  *
- * A shader declares a buffer as READ_F(0, name), WRITE_V(1, name) and so on (shaders/shared/buffers.glsl), one a line; the
- * letters become a string such as "rF wV ", by which the dispatch wrapper knows what to bind. */
+ * A shader declares each buffer on a line of its own, as READ_F(0, name), WRITE_V(1, name) and so on (shaders/shared/buffers.glsl).
+ * The letters become a string such as "rF wV ", from which the dispatch wrapper knows how to bind the buffers. */
 #include <errno.h>
 #include <glslang/Include/glslang_c_interface.h>
 #include <glslang/Public/resource_limits_c.h>
@@ -30,7 +31,7 @@ static _Noreturn void die(const char *format, ...)
     exit(1);
 }
 
-/* Bytes that grow, with a 0 behind them. */
+/* A growing array of bytes, terminated by 0. */
 struct bytes {
     char *p;
     size_t n;
@@ -79,7 +80,7 @@ static void close_output(FILE *f, const char *path)
         die("%s: cannot be written", path);
 }
 
-/* What was read, once each. */
+/* The files that were read, each once. */
 static char *seen[PATHS];
 static int n_seen;
 
@@ -93,7 +94,7 @@ static void remember(const char *path)
     n_seen++;
 }
 
-/* A shader's text with what it includes, which is named from the folder shaders/ on. */
+/* Appends the text of a shader, with its includes expanded. Includes are relative to shaders/. */
 static void flatten(const char *path, struct bytes *text, int depth)
 {
     if (depth == DEEPEST)
@@ -137,14 +138,14 @@ static void validate(const char *path, const char *variant, const uint32_t *word
     spvContextDestroy(context);
 }
 
-/* Adds the words of one variant to `spv`. Returns how many bytes they are. */
+/* Appends the SPIR-V of one variant to `spv` and returns its size in bytes. */
 static size_t compile(const char *path, const char *text, const char *variant, struct bytes *spv)
 {
     char define[128];
     snprintf(define, sizeof define,
              "#extension GL_GOOGLE_cpp_style_line_directive : require\n#define VARIANT_%s 1\n", variant);
     struct bytes code = {0};
-    const char *body = strchr(text, '\n'); /* nothing may stand before #version */
+    const char *body = strchr(text, '\n'); /* #version must come first */
     body = body ? body + 1 : text;
     add(&code, text, (size_t)(body - text));
     add(&code, define, strlen(define));
@@ -181,7 +182,7 @@ static size_t compile(const char *path, const char *text, const char *variant, s
     return n * sizeof(uint32_t);
 }
 
-/* "rF wV ": what the shader's own lines say, by binding. */
+/* The string of buffers by binding, such as "rF wV ", from the shader's own lines. */
 static void find_bindings(const char *path, char out[3 * BINDINGS + 1])
 {
     struct bytes own = read_all(path);
@@ -204,7 +205,7 @@ static void find_bindings(const char *path, char out[3 * BINDINGS + 1])
     free(own.p);
 }
 
-/* shaders/stress/dot.comp.glsl is stress_dot. */
+/* The name of a kernel: stress_dot for shaders/stress/dot.comp.glsl. */
 static void kernel_name(const char *path, char name[FILENAME_MAX])
 {
     snprintf(name, FILENAME_MAX, "%s", strncmp(path, "shaders/", 8) == 0 ? path + 8 : path);
@@ -263,11 +264,11 @@ int main(int argc, char **argv)
     fprintf(f, "%s:", c_path);
     for (int i = 0; i < n_seen; i++)
         fprintf(f, " %s", seen[i]);
-    for (int i = 0; i < n_seen; i++) /* so that make does not ask for what is gone */
+    for (int i = 0; i < n_seen; i++) /* empty rules, so that make does not fail when a file was deleted */
         fprintf(f, "\n%s:", seen[i]);
     fputc('\n', f);
     close_output(f, path);
-    if (rename(made, c_path) != 0) /* last, for this is what make looks at */
+    if (rename(made, c_path) != 0) /* last, because make looks at this file */
         die("%s: %s", c_path, strerror(errno));
     free(spv.p);
     return 0;

@@ -1,7 +1,7 @@
 #!/bin/sh
-# embed_text.sh FILE...: the files as C, each an array of lines ending in NULL: a/sandstone.inc becomes scene_sandstone;
-# a/report.html, a/style.css and a/script.js become page_report, page_style and page_script; jobs are rows of job_examples.
-# Lines, not one text: C compilers need not take literals of more than 4095 bytes.
+# embed_text.sh FILE...: prints the files as C, each as an array of lines that ends with NULL. a/sandstone.inc becomes
+# scene_sandstone; a/report.html, a/style.css and a/script.js become page_report, page_style and page_script; jobs become rows of
+# job_examples. The text is split into lines because C compilers need not accept literals of more than 4095 bytes.
 set -eu
 echo '/* Made by src/embed_text.sh. */'
 for file; do
