@@ -120,7 +120,7 @@ for value in ("../x", "a b", "$(touch pwned)", "a\nb", ""):
     code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--set", f"name={json.dumps(value)}", "--dry-run")
     ok(code == 2 and "not a name" in said or "is expected" in said or "control" in said or "holds" in said, f"a job called {value!r} is refused", code, said)
 for wedge, word in (("[{key: name, values: [x]}]", "cannot differ"), ("[{key: nosuch, values: [1]}]", "unknown key"), ("[{key: seed, values: []}]", "without values"),
-                    ("[{key: seed, values: [1, 2]}, {key: fps, values: [1]}]", "zipped"), ("[{key: seed, values: [-5]}]", "out of range"),
+                    ("[{key: seed, values: [1, 2]}, {key: fps, values: [1]}]", "the same length"), ("[{key: seed, values: [-5]}]", "out of range"),
                     ("[{key: 'x=1; touch pwned', values: [1]}]", "")):
     with open("bad.yaml", "w") as f:
         f.write(text + f"wedge: {{over: {wedge}}}\n")

@@ -142,7 +142,7 @@ WRONG = [
     (("--seconds", "-1"), 2, "above 0"),
     (("--seconds", "2", "--spacing", "1"), 2, "exclude each other"),
     (("--range", "0:1"), 2, "choose a value with --show"),
-    (("--show", "deposit"), 2, "no layer of it"),
+    (("--show", "deposit"), 2, "not available in look"),
     (("--spacing", "9"), 2, ""),
     (("--out", "nowhere/here.png"), 4, "nowhere/here.png"),
     (("--set", "from=elsewhere.ckpt"), 2, "begins with the job's first frame"),

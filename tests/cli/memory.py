@@ -91,7 +91,7 @@ shutil.rmtree("turns", ignore_errors=True)
 # The same with output.memory_GB, whatever the free memory; a limit below one frame is refused with the amount that would do.
 both = [plan["host_bytes"], plan["host_bytes"] // 10]
 said = subprocess.run([HOODOO, "run", *words, "--out", "turns", "--set", f"output.memory_GB={both[1] / 1e9:g}"], capture_output=True, text=True)
-would = re.search(r"output\.memory_GB: ([0-9.]+) would do", said.stderr)
+would = re.search(r"set output\.memory_GB to at least ([0-9.]+)", said.stderr)
 check(said.returncode == 2 and would and not os.path.exists("turns/frames/arches_cave.1001.json"), f"too small a budget is refused: {said.stderr.strip()}")
 budget = ["--set", f"output.memory_GB={would[1] if would else 1}"]
 less = json.loads(subprocess.run([HOODOO, "plan", *words, *budget, "--rehearse", "0", "--json"], stdout=subprocess.PIPE, check=True).stdout)

@@ -171,8 +171,8 @@ rest = [name for name in os.listdir("o/turntable") if "tmp" in name or name.ends
 check(rest == [], f"nor anything unfinished {rest}")
 child = begin("--views", "300", "--resolution", "320x180")
 busy = []
-while not busy:
-    busy = working_in("o")
+while not busy:  # a child that has not yet started its program still has hoodoo's name
+    busy = [program for program in working_in("o") if program != HOODOO]
 child.kill()
 child.communicate()
 for _ in range(100):
