@@ -1,5 +1,5 @@
 /* One step of a million material points on 128^3 cells: particles to grid, grid, grid to particles, for rock that breaks and
- * slides, on the device and in plain C. peers/taichi.py times Taichi's example at the same size. */
+ * slides, on the device and in plain C. peers/taichi_mpm.py times Taichi's example at the same size. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
