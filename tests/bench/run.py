@@ -139,7 +139,7 @@ def bench(arguments):
     stem = facts["date"].replace(":", "") + "-" + facts["hoodoo"].split("(")[-1].split(",")[0]
     kept = {"kind": "hoodoo bench", "format": 1, "machine": facts, "rows": rows, "failed": failed, "absent": absent}
     (out / f"{stem}.json").write_text(json.dumps(kept, indent=1) + "\n")
-    head = f"{facts['hoodoo']}, on {facts['device']} ({facts['driver']}), {facts['cpu']}, {facts['cores']} cores, " \
+    head = f"{facts['hoodoo']},\non {facts['device']} ({facts['driver']}),\n{facts['cpu']}, {facts['cores']} cores, " \
            f"load {facts['load']:.1f} at the start, {facts['date']}."
     notes = [f"Not installed, and left out: {', '.join(absent)}."] if absent else []
     (out / f"{stem}.md").write_text("\n\n".join(["# Benches", head, table(rows), *notes]) + "\n")
