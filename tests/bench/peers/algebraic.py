@@ -6,22 +6,19 @@ solution's. The times count set-up and solution, but not the assembly of the mat
 """
 import glob
 import json
-import os
 import sys
 import time
 import warnings
+
+from left import ABSENT, left_by
 
 try:
     import numpy as np
     import scipy.sparse as sp
 except ImportError:
-    sys.exit(77)
+    sys.exit(ABSENT)
 
-path = os.path.join(os.environ.get("BENCH_FOLDER", "."), "system")
-if not os.path.exists(path):
-    print("    algebraic.py: the bench of stress has left no system; run that in the same run")
-    sys.exit(77)
-with open(path, "rb") as f:
+with open(left_by("stress", "system"), "rb") as f:
     *cells, weight = f.readline().split()
     nx, ny, nz = (int(n) for n in cells)
     K = np.frombuffer(f.read(24 * 24 * 8)).reshape(24, 24)
@@ -92,7 +89,7 @@ try:
     import pyamg
 except ImportError:
     print("    PyAMG is not installed")
-    sys.exit(77)
+    sys.exit(ABSENT)
 
 
 def by_pyamg(iterations, tolerance=1e-30):

@@ -1,20 +1,17 @@
 """Routing with depressions filled on the 1024 x 1024 heights that tests/bench/water.c left in BENCH_FOLDER, by fastscapelib:
 single receivers, pits resolved by a minimum spanning tree, and the discharge summed along them."""
 import json
-import os
 import sys
 import time
+
+from left import ABSENT, left_by
 
 try:
     import fastscapelib
     import numpy as np
 except ImportError:
-    sys.exit(77)
-path = os.path.join(os.environ.get("BENCH_FOLDER", "."), "heights")
-if not os.path.exists(path):
-    print("    fastscape.py: the bench of water has left no heights; run that in the same run")
-    sys.exit(77)
-heights = np.fromfile(path, np.float32).astype(float).reshape(1024, 1024)
+    sys.exit(ABSENT)
+heights = np.fromfile(left_by("water", "heights"), np.float32).astype(float).reshape(1024, 1024)
 grid = fastscapelib.RasterGrid(heights.shape, [1.0, 1.0], fastscapelib.NodeStatus.FIXED_VALUE)
 flow = fastscapelib.FlowGraph(grid, [fastscapelib.SingleFlowRouter(), fastscapelib.MSTSinkResolver()])
 samples = []

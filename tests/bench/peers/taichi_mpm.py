@@ -7,10 +7,12 @@ import sys
 import tempfile
 import time
 
+from left import ABSENT
+
 try:
     import taichi
 except ImportError:
-    sys.exit(77)
+    sys.exit(ABSENT)
 
 THREADS = len(os.sched_getaffinity(0))
 path = os.path.join(os.path.dirname(taichi.__file__), "examples", "simulation", "mpm3d.py")
