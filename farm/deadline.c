@@ -49,8 +49,7 @@ static status put_references(const struct farm *f, struct text *t)
         TRY(job_inputs(f->wedge[i].job, &inputs, &n));
         for (size_t k = 0; k < n; k++)
             json_text(t, NULL, inputs[k].path);
-        free(inputs);
-        inputs = NULL;
+        job_inputs_free(&inputs, n);
     }
     json_end_array(t);
     json_array(t, "directories");
@@ -67,7 +66,7 @@ static status put_references(const struct farm *f, struct text *t)
     json_end_object(t);
     TRY(text_status(t));
 done:
-    free(inputs);
+    job_inputs_free(&inputs, n);
     return st;
 }
 

@@ -1,4 +1,4 @@
-/* hoodoo-read-mesh: reads one glTF mesh in a sandbox, on behalf of hoodoo (meshinput/serve.h). */
+/* hoodoo-read-mesh: reads one mesh in a sandbox, on behalf of hoodoo (meshinput/serve.h). */
 #include "base/begin.h"
 #include "meshinput/serve.h"
 

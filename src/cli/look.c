@@ -88,7 +88,7 @@ static status watch_all(struct looking *l)
         TRY(watch_file(l, inputs[i].path));
 done:
     log_silence(hushed);
-    free(inputs);
+    job_inputs_free(&inputs, n);
     job_destroy(&job);
     return st;
 }

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/gltf.h"
 #include "base/memory.h"
 #include "job/parse.h"
 
@@ -91,14 +92,24 @@ static void put_curve(struct walk *w, const struct curve *c, size_t width)
         put_count(w, (size_t)c->ease);
 }
 
+static status add_input(struct walk *w, struct job_input input)
+{
+    status st = OK;
+    for (size_t i = 0; i < w->n_inputs; i++)
+        if (strcmp(w->inputs[i].path, input.path) == 0)
+            return OK;
+    TRY(memory_grow(&w->inputs, &w->capacity, w->n_inputs + 1, sizeof *w->inputs, "the job's input files"));
+    TRY(memory_strdup(input.path, &input.path));
+    w->inputs[w->n_inputs++] = input;
+done:
+    return st;
+}
+
 /* Accepts regular files only: a pipe or /dev/zero could be read forever. */
-static status walk_input(struct walk *w, const char *path)
+static status walk_file(struct walk *w, char *path)
 {
     struct job_input input = {.path = path};
     struct stat info;
-    put_count(w, *path != 0);
-    if (!*path)
-        return OK;
     if (stat(path, &info) != 0)
         return fail(E_INPUT, "%s: %s: %s", w->path, path, strerror(errno));
     if (!S_ISREG(info.st_mode))
@@ -111,14 +122,23 @@ static status walk_input(struct walk *w, const char *path)
     }
     put_count(w, input.hash);
     put_count(w, input.size);
-    if (!w->only_inputs)
+    return w->only_inputs ? add_input(w, input) : OK;
+}
+
+/* The file, and the files that it refers to. */
+static status walk_input(struct walk *w, char *path)
+{
+    status st = OK;
+    struct gltf_buffers buffers = {0};
+    put_count(w, *path != 0);
+    if (!*path)
         return OK;
-    for (size_t i = 0; i < w->n_inputs; i++)
-        if (strcmp(w->inputs[i].path, path) == 0)
-            return OK;
-    st = memory_grow(&w->inputs, &w->capacity, w->n_inputs + 1, sizeof *w->inputs, "the job's input files");
-    if (st == OK)
-        w->inputs[w->n_inputs++] = input;
+    TRY(walk_file(w, path));
+    TRY(gltf_buffers(path, &buffers));
+    for (size_t i = 0; i < buffers.n; i++)
+        TRY(walk_file(w, buffers.path[i]));
+done:
+    gltf_buffers_free(&buffers);
     return st;
 }
 
@@ -389,7 +409,7 @@ static void walk_end(struct walk *w)
 {
     text_free(&w->canonical);
     free(w->leaf);
-    free(w->inputs);
+    job_inputs_free(&w->inputs, w->n_inputs);
 }
 
 /* Of the cameras, only those of output.aov.cameras affect files. */
@@ -540,7 +560,16 @@ status job_inputs(const struct job *job, struct job_input **out, size_t *n)
     *out = w.inputs;
     *n = w.n_inputs;
     w.inputs = NULL;
+    w.n_inputs = 0;
 done:
     walk_end(&w);
     return st;
+}
+
+void job_inputs_free(struct job_input **inputs, size_t n)
+{
+    for (size_t i = 0; *inputs && i < n; i++)
+        free((*inputs)[i].path);
+    free(*inputs);
+    *inputs = NULL;
 }

@@ -237,14 +237,15 @@ MUST_USE status job_is_default(const struct job *job, const char *key, bool *out
  * section around it. Never fails: if no position is known, the result is the file name. */
 void job_key_place(const char *path, const char *key, char out[300]);
 
-/* A file that the job reads (mesh, heightfield, jointmap ...), with the hash of its content. */
+/* A file that the job reads (mesh, heightfield, jointmap ...) or that such a file refers to (base/gltf.h), with the hash of its content. */
 struct job_input {
-    const char *path; /* borrowed from the job */
+    char *path;
     uint64_t hash, size;
 };
 
-/* Lists the input files in order of appearance; *out is released with free(). E_INPUT if one cannot be read. */
+/* Lists the input files in order of appearance. Free *out with job_inputs_free(). E_INPUT if one cannot be read. */
 MUST_USE status job_inputs(const struct job *job, struct job_input **out, size_t *n);
+void job_inputs_free(struct job_input **inputs, size_t n);
 
 /* Describes keys as text, wrapped to `width` columns: all sections (`what` is NULL), the keys of a section ("wind", "box"), one key
  * ("wind.speed_m_s", "strata.0.to_m"), or every key with the word in its path, meaning or unit. E_USAGE: there is none; the

@@ -1,7 +1,8 @@
-/* Wavefront OBJ: vertices and faces; everything else (normals, texture coordinates, groups, lines) is ignored. */
+/* Wavefront OBJ: vertices, with the colours that many programs append to them, and faces; everything else (normals, texture coordinates,
+ * groups, lines) is ignored. */
 #include <stdlib.h>
 
-#include "meshinput/read.h"
+#include "meshinput/decode.h"
 
 /* The vertex index of a face's corner: 1 is the first vertex of the file, -1 the last so far. "/texture/normal" after it must be
  * well-formed but is ignored. */
@@ -26,21 +27,18 @@ done:
     return st;
 }
 
-static status read_face(struct cursor *r, struct mesh *mesh)
+static status read_face(struct cursor *r, struct mesh *mesh, struct polygon *face)
 {
     status st = OK;
-    uint32_t first = 0, last = 0, corner = 0;
-    size_t n = 0;
-    for (; !cursor_at_line_end(r) && *r->at != '#'; n++) {
+    uint32_t corner = 0;
+    face->n = 0;
+    while (!cursor_at_line_end(r) && *r->at != '#') {
         TRY(read_corner(r, mesh, &corner));
-        if (n == 0)
-            first = corner;
-        if (n >= 2)
-            TRY(mesh_add_triangle(mesh, first, last, corner));
-        last = corner;
+        TRY(polygon_add(face, corner));
     }
-    if (n < 3)
-        st = cursor_fail(r, "a face has %zu corners, but it needs at least 3", n);
+    if (face->n < 3)
+        return cursor_fail(r, "a face has %zu corners, but it needs at least 3", face->n);
+    TRY(mesh_add_polygon(mesh, face));
 done:
     return st;
 }
@@ -54,21 +52,39 @@ static bool line_is(struct cursor *r, char key)
     return true;
 }
 
+/* "x y z", "x y z w", "x y z red green blue" or "x y z red green blue alpha". */
+static status read_vertex(struct cursor *r, struct mesh *mesh)
+{
+    static const char *const names[] = {"red", "green", "blue", "alpha"};
+    status st = OK;
+    double x[3], more[4];
+    size_t n = 0;
+    for (int a = 0; a < 3; a++)
+        TRY(cursor_number(r, &x[a]));
+    TRY(mesh_add_vertex(mesh, x));
+    for (; n < 4 && !cursor_at_line_end(r) && *r->at != '#'; n++)
+        TRY(cursor_number(r, &more[n]));
+    for (size_t i = 0; n >= 3 && i < n; i++)
+        if (attribute_is(r->attribute, names[i]))
+            TRY(mesh_add_value(mesh, more[i]));
+done:
+    return st;
+}
+
 status obj_read(struct cursor *r, struct mesh *mesh)
 {
     status st = OK;
-    double x[3];
+    struct polygon face = {0};
     for (; r->at < r->end; cursor_next_line(r)) {
         if (cursor_at_line_end(r))
             continue;
         if (line_is(r, 'v')) {
-            for (int a = 0; a < 3; a++)
-                TRY(cursor_number(r, &x[a]));
-            TRY(mesh_add_vertex(mesh, x));
+            TRY(read_vertex(r, mesh));
         } else if (line_is(r, 'f')) {
-            TRY(read_face(r, mesh));
+            TRY(read_face(r, mesh, &face));
         }
     }
 done:
+    polygon_free(&face);
     return st;
 }

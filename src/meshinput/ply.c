@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "meshinput/read.h"
+#include "meshinput/decode.h"
 
 enum ply_type { PLY_NONE, PLY_I8, PLY_U8, PLY_I16, PLY_U16, PLY_I32, PLY_U32, PLY_F32, PLY_F64 };
 enum ply_encoding { PLY_ASCII, PLY_LITTLE, PLY_BIG };
-enum { PLY_X, PLY_Y, PLY_Z, PLY_CORNERS, PLY_IGNORED };
+enum { PLY_X, PLY_Y, PLY_Z, PLY_CORNERS, PLY_VALUE, PLY_IGNORED };
 enum { MAX_ELEMENTS = 16, MAX_PROPERTIES = 64 };
 
 static const size_t type_size[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
@@ -16,6 +16,7 @@ static const size_t type_size[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
 struct property {
     enum ply_type count, type; /* count: PLY_NONE unless a list */
     int role;
+    double scale; /* PLY_VALUE: what its values are multiplied by */
 };
 
 struct element {
@@ -31,6 +32,7 @@ struct ply {
     enum ply_encoding encoding;
     size_t n_elements, n_vertices;
     struct element element[MAX_ELEMENTS];
+    struct polygon face;
 };
 
 /* ---- header */
@@ -52,10 +54,25 @@ static enum ply_type type_named(const char *name)
     return PLY_NONE;
 }
 
-static int role_of(const struct element *e, const struct property *p, const char *name)
+/* The factor that makes colours of unsigned integers 0..1, as they are meant; other properties are read as stored. */
+static double scale_of(enum ply_type type, const char *name)
+{
+    static const char *const colors[] = {"red", "green", "blue", "alpha"};
+    for (size_t i = 0; i < sizeof colors / sizeof *colors; i++) {
+        const size_t n = strlen(name), k = strlen(colors[i]);
+        if (n >= k && strcmp(name + n - k, colors[i]) == 0)
+            return type == PLY_U8 ? 1 / 255.0 : type == PLY_U16 ? 1 / 65535.0 : 1;
+    }
+    return 1;
+}
+
+static int role_of(const struct element *e, const struct property *p, const char *name,
+                   struct attribute *attribute)
 {
     if (e->is_vertex && p->count == PLY_NONE && name[0] >= 'x' && name[0] <= 'z' && name[1] == '\0')
         return name[0] - 'x';
+    if (e->is_vertex && p->count == PLY_NONE)
+        return attribute_is(attribute, name) ? PLY_VALUE : PLY_IGNORED;
     bool corners = strcmp(name, "vertex_indices") == 0 || strcmp(name, "vertex_index") == 0;
     return e->is_face && p->count != PLY_NONE && corners ? PLY_CORNERS : PLY_IGNORED;
 }
@@ -84,7 +101,7 @@ static status read_element(struct ply *ply, const char *line)
 static status read_property(struct ply *ply, const char *line)
 {
     char type[64], count[64], name[64];
-    struct property p = {PLY_NONE, PLY_NONE, PLY_IGNORED};
+    struct property p = {PLY_NONE, PLY_NONE, PLY_IGNORED, 1};
     if (ply->n_elements == 0)
         return cursor_fail(ply->r, "a property is declared before any element");
     struct element *e = &ply->element[ply->n_elements - 1];
@@ -101,7 +118,8 @@ static status read_property(struct ply *ply, const char *line)
     p.type = type_named(type);
     if (p.type == PLY_NONE)
         return cursor_fail(ply->r, "unknown type '%s'", type);
-    p.role = role_of(e, &p, name);
+    p.role = role_of(e, &p, name, ply->r->attribute);
+    p.scale = scale_of(p.type, name);
     for (size_t i = 0; p.role != PLY_IGNORED && i < e->n_properties; i++)
         if (e->property[i].role == p.role)
             return cursor_fail(ply->r, "the property '%s' is declared twice", name);
@@ -246,7 +264,7 @@ static status read_list(struct ply *ply, const struct property *p)
 {
     status st = OK;
     double n, value;
-    uint32_t first = 0, last = 0;
+    ply->face.n = 0;
     TRY(read_value(ply, p->count, &n));
     if (!(n >= 0) || n != floor(n))
         return value_fail(ply, "a list's count is negative or not an integer");
@@ -260,13 +278,10 @@ static status read_list(struct ply *ply, const struct property *p)
             continue;
         if (!(value >= 0 && value < (double)ply->n_vertices) || value != floor(value))
             return value_fail(ply, "a face refers to a vertex that does not exist");
-        uint32_t corner = (uint32_t)value;
-        if (i == 0)
-            first = corner;
-        if (i >= 2)
-            TRY(mesh_add_triangle(ply->mesh, first, last, corner));
-        last = corner;
+        TRY(polygon_add(&ply->face, (uint32_t)value));
     }
+    if (p->role == PLY_CORNERS)
+        TRY(mesh_add_polygon(ply->mesh, &ply->face));
 done:
     return st;
 }
@@ -274,7 +289,8 @@ done:
 static status read_item(struct ply *ply, const struct element *e)
 {
     status st = OK;
-    double x[3] = {0}, value;
+    double x[3] = {0}, attribute = 0, value;
+    bool has = false;
     for (size_t k = 0; k < e->n_properties; k++) {
         const struct property *p = &e->property[k];
         if (p->count != PLY_NONE) {
@@ -282,6 +298,12 @@ static status read_item(struct ply *ply, const struct element *e)
             continue;
         }
         TRY(read_value(ply, p->type, &value));
+        if (p->role == PLY_VALUE && !(fabs(value) <= 1e30))
+            return value_fail(ply, "the attribute is not finite or larger than 1e30");
+        if (p->role == PLY_VALUE) {
+            attribute = value * p->scale;
+            has = true;
+        }
         if (p->role > PLY_Z)
             continue;
         if (!(fabs(value) <= 1e30))
@@ -290,6 +312,8 @@ static status read_item(struct ply *ply, const struct element *e)
     }
     if (e->is_vertex)
         TRY(mesh_add_vertex(ply->mesh, x));
+    if (has)
+        TRY(mesh_add_value(ply->mesh, attribute));
 done:
     return st;
 }
@@ -306,5 +330,6 @@ status ply_read(struct cursor *r, struct mesh *mesh)
         for (size_t k = 0; k < ply.element[i].n && ply.element[i].n_properties > 0; k++)
             TRY(read_item(&ply, &ply.element[i]));
 done:
+    polygon_free(&ply.face);
     return st;
 }

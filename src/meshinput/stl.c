@@ -3,7 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "meshinput/read.h"
+#include "meshinput/decode.h"
 
 enum { HEADER = 80, TRIANGLE = 50 }; /* bytes */
 

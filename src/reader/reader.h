@@ -1,5 +1,5 @@
 /* Decoding of files that may be hostile, in helper programs: hoodoo-read (OpenVDB, OpenEXR), hoodoo-read-image (OpenImageIO) and
- * hoodoo-read-mesh (Assimp).
+ * hoodoo-read-mesh (OBJ, PLY, STL, OFF, and glTF by Assimp).
  *
  * A reader is a child process of its own program, so it shares no memory with hoodoo, and is restricted: limits on memory and CPU time
  * that grow with the file, no core dump, no stdout or stderr, and only the system calls that reading needs (serve.h). If it crashes or

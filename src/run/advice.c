@@ -526,7 +526,7 @@ status advice_log(const struct job *job)
         log_warn("%s%s%s: %s", job->wedge.index ? job->name : "", job->wedge.index ? ": " : "", a.item[i].key,
                  a.item[i].text);
 done:
-    free(input);
+    job_inputs_free(&input, n);
     advice_free(&a);
     return st == E_MEMORY ? st : OK;
 }

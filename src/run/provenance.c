@@ -218,7 +218,7 @@ static status add_inputs(struct text *t, const struct job *job)
 {
     status st = OK;
     struct job_input *input = NULL;
-    size_t n;
+    size_t n = 0;
     char hash[17];
     TRY(job_inputs(job, &input, &n));
     json_array(t, "inputs");
@@ -231,7 +231,7 @@ static status add_inputs(struct text *t, const struct job *job)
     }
     json_end_array(t);
 done:
-    free(input);
+    job_inputs_free(&input, n);
     return st;
 }
 

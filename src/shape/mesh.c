@@ -6,11 +6,10 @@
 #include <string.h>
 
 #include "base/log.h"
+#include "meshinput/ask.h"
 #include "meshinput/edges.h"
-#include "meshinput/read.h"
 #include "meshinput/repair.h"
 #include "meshinput/winding.h"
-#include "reader/mesh_part.h"
 
 /* Limit of a mesh's grid values: about 1 GiB, including the memory to build it. */
 #define MAX_GRID_VALUES 64e6
@@ -275,7 +274,7 @@ status mesh_shape_create(const struct job_mesh *job, const struct placement *pla
     status st = OK;
     struct work w = empty_work;
     w.path = job->file;
-    TRY(mesh_read(job->file, &w.mesh));
+    TRY(mesh_read(job->file, NULL, &w.mesh));
     if (w.mesh.y_up && job->up != MESH_UP_Y)
         log_warn(
             "%s: glTF files are y up, but mesh.up is z: set mesh.up: y unless the mesh lies on its side in the file",
@@ -298,8 +297,7 @@ status volume_shape_create(const struct job_volume *job, const struct placement 
     char density[32];
     w.path = job->file;
     snprintf(density, sizeof density, "%.9g", job->density);
-    TRY(mesh_read_by("hoodoo-read", "vdb.shape", job->file, (const char *const[]){job->grid, density, NULL},
-                     &part, &w.mesh));
+    TRY(mesh_read_volume(job->file, (const char *const[]){job->grid, density, NULL}, &part, &w.mesh));
     const bool y_up = job->up == VOLUME_UP_Y || (job->up == VOLUME_UP_FILE && part.y_up);
     log_note("%s: grid '%s' is read as %s%s, %c up", job->file, part.grid,
              part.is_fog ? "a fog volume, solid above a density of " : "a level set",

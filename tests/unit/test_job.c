@@ -351,7 +351,7 @@ static void files_are_found_beside_the_job_and_hashed_by_content(void **state)
     assert_string_equal(input[0].path, path);
     assert_int_equal(input[0].size, 8);
     assert_non_null(strstr(input[1].path, "/one/sub/ground.exr"));
-    free(input);
+    job_inputs_free(&input, n);
 
     write_bytes("one/rock.obj", "v 0 0 1\n", 8);
     assert_true(hash_of(one) != hash);
@@ -396,6 +396,34 @@ static void later_keys_leave_the_hash_until_they_are_used(void **state)
     }
 }
 
+/* The buffers of a glTF file count like the file itself. */
+static void files_of_files_are_inputs(void **state)
+{
+    (void)state;
+    static const char gltf[] = "{\"buffers\":[{\"uri\":\"a%20b.bin\"},{\"uri\":\"data:,\"}]}";
+    static const char text[] =
+        "{name: a, frames: 1, domain: {size_m: [1, 2, 3], spacing_m: 1}, scene: {mesh: {file: "
+        "rock.gltf}}}";
+    struct job *job = NULL;
+    struct job_input *input = NULL;
+    size_t n = 0;
+    write_bytes("rock.gltf", gltf, sizeof gltf - 1);
+    write_bytes("a b.bin", "1234", 4);
+    write_bytes("gltf.yaml", text, sizeof text - 1);
+    assert_int_equal(job_load("gltf.yaml", NULL, 0, &job), OK);
+    const uint64_t hash = hash_of(job);
+    assert_int_equal(job_inputs(job, &input, &n), OK);
+    assert_int_equal(n, 2);
+    assert_non_null(strstr(input[1].path, "/a b.bin"));
+    job_inputs_free(&input, n);
+    write_bytes("a b.bin", "1235", 4);
+    assert_true(hash_of(job) != hash);
+    assert_int_equal(remove("a b.bin"), 0);
+    assert_int_equal(job_inputs(job, &input, &n), E_INPUT);
+    assert_non_null(strstr(status_message(), "a b.bin"));
+    job_destroy(&job);
+}
+
 static void a_job_without_files_has_no_inputs(void **state)
 {
     (void)state;
@@ -404,7 +432,7 @@ static void a_job_without_files_has_no_inputs(void **state)
     size_t n = 9;
     assert_int_equal(job_inputs(job, &input, &n), OK);
     assert_int_equal(n, 0);
-    free(input);
+    job_inputs_free(&input, n);
     job_destroy(&job);
 }
 
@@ -465,6 +493,7 @@ int main(void)
         cmocka_unit_test(the_hash_sees_what_is_simulated),
         cmocka_unit_test(files_are_found_beside_the_job_and_hashed_by_content),
         cmocka_unit_test(later_keys_leave_the_hash_until_they_are_used),
+        cmocka_unit_test(files_of_files_are_inputs),
         cmocka_unit_test(a_job_without_files_has_no_inputs),
         cmocka_unit_test(reference_page_and_schema_are_up_to_date),
         cmocka_unit_test(the_example_of_the_reference_page_loads),

@@ -1,7 +1,7 @@
 /* Meshes that other programs got wrong in public (tests/inputs/README.md has the rows), volumes of OpenVDB, and formulas: what rock
  * each of them is. */
 #include "effort.h"
-#include "meshinput/mesh.h"
+#include "meshinput/ask.h"
 #include "scene_help.h"
 
 enum { SIDE = 16 }; /* voxels of the domain, of half a metre */
@@ -291,6 +291,66 @@ static void gltf_files(void **state)
     assert_close(volume_of_file("turned.glb", n), 32, 1e-6);
 }
 
+/* The asset of glb() as JSON, and its buffer in a file beside it whose name has a blank. */
+static void gltf_with_its_buffer_beside_it(void **state)
+{
+    (void)state;
+    static const char *const key = "\"buffers\":[{";
+    char json[2000];
+    const size_t n = glb();
+    uint32_t n_json;
+    memcpy(&n_json, text + 12, sizeof n_json);
+    const char *at = memmem(text, n, key, strlen(key));
+    assert_non_null(at);
+    at += strlen(key);
+    snprintf(json, sizeof json, "%.*s\"uri\":\"cube%%20data.bin\",%.*s", (int)(at - text - 20), text + 20,
+             (int)(text + 20 + n_json - at), at);
+    write_file("cube data.bin", text + n - 168, 168);
+    memset(text, 0, sizeof text);
+    add("%s", json);
+    assert_close(volume_of_file("apart.gltf", 0), 32, 1e-6);
+    struct job_node node = MESH(.file = write_text("apart.gltf", json), .up = MESH_UP_Z);
+    write_file("cube data.bin", json, 20);
+    assert_failed(solid_create(&node, 0.25, 2, &(struct solid *){NULL}), E_INPUT, "apart.gltf", "gltf");
+}
+
+/* A face like an L, in the order that makes a fan from its first corner reach out of it: an L of 3 m2 drawn 2 m high. */
+static void concave(const char *form)
+{
+    static const double corner[6][2] = {{1, 0}, {2, 0}, {2, 2}, {0, 2}, {0, 1}, {1, 1}};
+    const bool off = *form == 'o';
+    if (off)
+        add("OFF\n12 8 0\n");
+    for (int z = 0; z < 2; z++)
+        for (int c = 0; c < 6; c++)
+            add("%s%g %g %d\n", off ? "" : "v ", 2 + corner[c][0], 2 + corner[c][1], 2 + 2 * z);
+    for (int z = 0; z < 2; z++) {
+        add(off ? "6" : "f");
+        for (int k = 0; k < 6; k++)
+            add(" %d", (z ? (k + 4) % 6 : (9 - k) % 6) + 6 * z + !off);
+        add("\n");
+    }
+    for (int c = 0; c < 6; c++)
+        add("%s %d %d %d %d\n", off ? "4" : "f", c + !off, (c + 1) % 6 + !off, (c + 1) % 6 + 6 + !off,
+            c + 6 + !off);
+}
+
+static void concave_faces_keep_their_shape(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"concave.obj", "concave.off"};
+    for (int i = 0; i < 2; i++) {
+        concave(names[i] + 8);
+        struct job_node node = MESH(.file = write_text(names[i], text), .up = MESH_UP_Z);
+        struct solid *solid = NULL;
+        assert_int_equal(solid_create(&node, 0.125, 1, &solid), OK);
+        /* In the notch, just below the plane of the upper face: 0.6 m from the nearest wall. */
+        assert_close(solid_at(solid, (const double[]){2.4, 2.4, 3.95}).distance, 0.6, 0.1);
+        solid_destroy(&solid);
+        assert_close(volume_of_file(names[i], 0), 6, 1e-3);
+    }
+}
+
 /* Each says what it is and what to do. */
 static void others_are_named(void **state)
 {
@@ -305,14 +365,19 @@ static void others_are_named(void **state)
         {"Kaydara FBX Binary  ", "FBX", "convert it to", 20},
         {"PK\3\4....", "zip", "convert it to", 8},
         {" BDV\0\0\0\0", "OpenVDB", "volume", 8},
-        {"{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"a.bin\",\"byteLength\":4}]}", "gltf",
-         ".glb", 70},
+        {"{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"a.bin\",\"byteLength\":4}]}", "a.bin",
+         "No such file", 70},
+        {"{\"buffers\":[{\"uri\":\"..%2fa.bin\"}]}", "same folder", ".glb", 0},
+        {"{\"buffers\":[{\"uri\":\"http://a/b\"}]}", "same folder", ".glb", 0},
+        {"{\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}", "KHR_draco", "without compression", 0},
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0", ":4:", "number", 49},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "", "", 37},
-        {"glTF\2\0\0\0\xff\xff\xff\xff", "glb", "", 12},
+        {"glTF\2\0\0\0\xff\xff\xff\xff", "GLB", "truncated", 12},
     };
     for (size_t i = 0; i < sizeof file / sizeof *file; i++) {
-        struct job_node node = MESH(.file = write_file("other", file[i].bytes, file[i].n), .up = MESH_UP_Z);
+        struct job_node node =
+            MESH(.file = write_file("other", file[i].bytes, file[i].n ? file[i].n : strlen(file[i].bytes)),
+                 .up = MESH_UP_Z);
         struct solid *solid = NULL;
         assert_failed(solid_create(&node, 0.25, 2, &solid), E_INPUT, file[i].word, file[i].other);
     }
@@ -340,7 +405,7 @@ static void damaged_files_never_crash(void **state)
                 text[next_random(&x) % n] ^= (char)(1 << next_random(&x) % 8);
             write_file("damaged", text, i % 4 ? n : next_random(&x) % n);
             struct mesh mesh;
-            const status st = mesh_read(name, &mesh);
+            const status st = mesh_read(name, NULL, &mesh);
             assert_true(st == OK || st == E_INPUT);
             for (size_t t = 0; st == OK && t < mesh.n_triangles * 3; t++)
                 assert_true(mesh.triangle[t / 3][t % 3] < mesh.n_vertices);
@@ -409,6 +474,8 @@ int main(void)
         cmocka_unit_test(stl_files),
         cmocka_unit_test(off_files),
         cmocka_unit_test(gltf_files),
+        cmocka_unit_test(gltf_with_its_buffer_beside_it),
+        cmocka_unit_test(concave_faces_keep_their_shape),
         cmocka_unit_test(others_are_named),
         cmocka_unit_test(damaged_files_never_crash),
         cmocka_unit_test(formulas_are_shapes),
