@@ -127,13 +127,20 @@ done:
 
 static status check_paint(const struct yaml *map, const struct job_paint *p)
 {
-    if (!p->shape && !p->image && !p->noise)
-        return yaml_fail(map, NULL, "gives no place to paint: add shape, image or noise");
+    if (!p->shape && !p->image && !p->mesh_attribute && !p->noise)
+        return yaml_fail(map, NULL, "gives no place to paint: add shape, image, mesh_attribute or noise");
     if (p->falloff_m > 0 && !p->shape)
         return yaml_fail(place(map, "falloff_m"), NULL, "applies to a shape, and none is given");
     if (p->vegetation < 0 && p->vegetation != -1)
         return yaml_fail(place(map, "vegetation"), NULL, "negative (0 to 1, or -1 for unchanged)");
     return OK;
+}
+
+static status check_mesh_attribute(const struct yaml *map, const struct job_mesh_attribute *m)
+{
+    return m->from == m->to
+               ? yaml_fail(place(map, "to"), NULL, "equal to from (%g): no value paints", m->from)
+               : OK;
 }
 
 static status check_light(const struct yaml *map, const struct job_light *l)
@@ -243,6 +250,8 @@ status check_section(enum job_section_id section, const struct yaml *map, const 
         return check_image(map, base);
     case SECTION_paint:
         return check_paint(map, base);
+    case SECTION_mesh_attribute:
+        return check_mesh_attribute(map, base);
     case SECTION_cylinder:
         return check_cylinder(map, base);
     case SECTION_plane:

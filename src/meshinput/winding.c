@@ -6,8 +6,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "meshinput/curve.h"
 
-enum { LEAF = 6, DIGIT = 11, CURVE_BITS = 21 };
+enum { LEAF = 6 };
 
 /* A node's series about its middle: the sum of its triangles' area vectors, and their first moments, symmetrised. */
 struct node {
@@ -20,38 +21,6 @@ struct winding {
     float (*corner)[9];           /* [n_triangles], relative to the origin, in Morton order */
     struct node *node;            /* the children of i are 2i and 2i + 1; the root is 1 */
 };
-
-/* ---- Morton order */
-
-/* Inserts two zero bits after each of the lowest 21 bits. */
-static uint64_t spread_bits(uint64_t x)
-{
-    x = (x | x << 32) & UINT64_C(0x1f00000000ffff);
-    x = (x | x << 16) & UINT64_C(0x1f0000ff0000ff);
-    x = (x | x << 8) & UINT64_C(0x100f00f00f00f00f);
-    x = (x | x << 4) & UINT64_C(0x10c30c30c30c30c3);
-    return (x | x << 2) & UINT64_C(0x1249249249249249);
-}
-
-struct item {
-    uint64_t key;
-    uint32_t triangle;
-};
-
-/* Radix sort, least significant digit first. The result is in item[n]; other[n] is scratch. */
-static void sort_items(struct item *item, struct item *other, size_t n)
-{
-    for (int shift = 0; shift < 3 * CURVE_BITS; shift += DIGIT) {
-        size_t start[(1 << DIGIT) + 1] = {0};
-        for (size_t i = 0; i < n; i++)
-            start[(item[i].key >> shift & ((1 << DIGIT) - 1)) + 1]++;
-        for (size_t d = 0; d < 1 << DIGIT; d++)
-            start[d + 1] += start[d];
-        for (size_t i = 0; i < n; i++)
-            other[start[item[i].key >> shift & ((1 << DIGIT) - 1)]++] = item[i];
-        memcpy(item, other, n * sizeof *item);
-    }
-}
 
 struct box {
     double lo[3], hi[3];
@@ -67,34 +36,19 @@ static void box_add(struct box *box, const double x[3])
 
 static const struct box nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
-static status order(struct winding *w, const double (*vertex)[3], const uint32_t (*triangle)[3],
-                    const struct box *box)
+/* Copies the triangles in their order along the curve. */
+static status copy_corners(struct winding *w, const double (*vertex)[3], const uint32_t (*triangle)[3],
+                           const struct box *box)
 {
     status st = OK;
-    struct item *item = NULL, *other = NULL;
-    double size = 0;
-    TRY(memory_alloc(w->n_triangles, sizeof *item, "a mesh's winding numbers", &item));
-    TRY(memory_alloc(w->n_triangles, sizeof *other, "a mesh's winding numbers", &other));
-    for (int a = 0; a < 3; a++)
-        size = fmax(size, box->hi[a] - box->lo[a]);
-    for (size_t t = 0; t < w->n_triangles; t++) {
-        item[t].triangle = (uint32_t)t;
-        for (int a = 0; a < 3; a++) {
-            double x = 0;
-            for (int k = 0; k < 3; k++)
-                x += vertex[triangle[t][k]][a] / 3;
-            const double share = size > 0 ? (x - box->lo[a]) / size : 0;
-            item[t].key |= spread_bits((uint64_t)(fmin(fmax(share, 0), 1) * ((1 << CURVE_BITS) - 1))) << a;
-        }
-    }
-    sort_items(item, other, w->n_triangles);
+    uint32_t *order = NULL;
+    TRY(curve_order(vertex, triangle, w->n_triangles, box->lo, box->hi, &order));
     for (size_t t = 0; t < w->n_triangles; t++)
         for (int k = 0; k < 3; k++)
             for (int a = 0; a < 3; a++)
-                w->corner[t][3 * k + a] = (float)(vertex[triangle[item[t].triangle][k]][a] - w->origin[a]);
+                w->corner[t][3 * k + a] = (float)(vertex[triangle[order[t]][k]][a] - w->origin[a]);
 done:
-    free(item);
-    free(other);
+    free(order);
     return st;
 }
 
@@ -234,7 +188,7 @@ status winding_create(const double (*vertex)[3], size_t n_vertices, const uint32
         w->origin[a] = n_vertices ? (box.lo[a] + box.hi[a]) / 2 : 0;
     TRY(memory_alloc(n_triangles, sizeof *w->corner, "a mesh's winding numbers", &w->corner));
     TRY(memory_alloc(2 * w->n_leaves, sizeof *w->node, "a mesh's winding numbers", &w->node));
-    TRY(order(w, vertex, triangle, &box));
+    TRY(copy_corners(w, vertex, triangle, &box));
     TRY(build(w, far));
     *out = w;
     w = NULL;

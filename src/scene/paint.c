@@ -7,12 +7,14 @@
 #include "base/random.h"
 #include "scene/projection.h"
 #include "scene/scene.h"
+#include "scene/vertex_paint.h"
 #include "shape/noise.h"
 
 /* The mask of one entry. */
 struct mask {
-    struct solid *shape;      /* or NULL */
-    struct projection *image; /* or NULL */
+    struct solid *shape;           /* or NULL */
+    struct projection *image;      /* or NULL */
+    struct vertex_paint *vertices; /* or NULL */
     struct noise noise;
 };
 
@@ -30,6 +32,8 @@ static status mask_create(const struct job *job, const struct job_paint *e, stru
         TRY(solid_create(e->shape, h / 2, e->falloff_m + h, &out->shape));
     if (e->image)
         TRY(projection_create(e->image, h, &out->image));
+    if (e->mesh_attribute)
+        TRY(vertex_paint_create(e->mesh_attribute, &out->vertices));
     if (e->noise) {
         const struct job_noise noise = {
             .scale_m = e->noise->scale_m, .octaves = e->noise->octaves, .flatten = e->noise->flatten};
@@ -65,6 +69,7 @@ void paint_destroy(struct paint_set **set)
     for (size_t i = 0; i < (*set)->n; i++) {
         solid_destroy(&(*set)->mask[i].shape);
         projection_destroy(&(*set)->mask[i].image);
+        vertex_paint_destroy(&(*set)->mask[i].vertices);
     }
     free((*set)->mask);
     free(*set);
@@ -122,6 +127,8 @@ struct paint_values paint_at(const struct paint_set *set, const double x[3], dou
         double w = edge_weight(p.distance, e->falloff_m);
         if (w > 0 && e->image)
             w *= projection_at(mask->image, x);
+        if (w > 0 && e->mesh_attribute)
+            w *= vertex_paint_at(mask->vertices, x);
         if (w > 0 && e->noise)
             w *= noise_weight(e->noise, &mask->noise, x);
         if (w == 0)

@@ -1,4 +1,4 @@
-/* Paint: changes to the properties of particles, masked by a shape, an image and noise. */
+/* Paint: changes to the properties of particles, masked by a shape, an image, values of a mesh and noise. */
 #ifndef HOODOO_PAINT_H
 #define HOODOO_PAINT_H
 
@@ -9,7 +9,8 @@
 
 struct paint_set;
 
-/* The n entries of a list of the job. Job and entries must outlive the set. Errors of solid_create() and image_read(). */
+/* The n entries of a list of the job. Job and entries must outlive the set. Errors of solid_create(), image_read() and
+ * vertex_paint_create(). */
 MUST_USE status paint_create(const struct job *job, const struct job_paint *entry, size_t n,
                              struct paint_set **out);
 void paint_destroy(struct paint_set **set);

@@ -51,8 +51,8 @@ enum solid_share solid_in_box(const struct solid *solid, const double min[3], co
  * bits, with any number of threads.
  *
  * Noise   Rates are multiplied by exp(amplitude * n(P)), n of zero mean and unit variance (shape/noise.h).
- * Paint   Entries are blended over each other in order. An entry's weight is the product of its shape's falloff, its image and its
- *         noise; at weight 1 its factor replaces what was painted before. A factor of 1 paints nothing. A particle is inert where the
+ * Paint   Entries are blended over each other in order. An entry's weight is the product of its shape's falloff, its image, its
+ *         mesh_attribute and its noise; at weight 1 its factor replaces what was painted before. A factor of 1 paints nothing. A particle is inert where the
  *         shape contains P and the weight is at least 1/2.
  * Beds    sources[].bed_m is removed from the scene along path_m.
  *

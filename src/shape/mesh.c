@@ -62,6 +62,19 @@ static status place_vertices(struct mesh *mesh, const char *path, bool y_up, boo
     return OK;
 }
 
+status mesh_read_placed(const struct mesh_source *source, struct mesh *mesh, double min[3], double max[3])
+{
+    status st = OK;
+    TRY(mesh_read(source->file, source->attribute, mesh));
+    if (mesh->y_up && !source->y_up)
+        log_warn(
+            "%s: glTF files are y up, but %s.up is z: set %s.up: y unless the mesh lies on its side in the file",
+            source->file, source->key, source->key);
+    TRY(place_vertices(mesh, source->file, source->y_up, source->auto_origin, source->place, min, max));
+done:
+    return st;
+}
+
 static double longest_side(const struct work *w)
 {
     double longest = 0;
@@ -274,13 +287,12 @@ status mesh_shape_create(const struct job_mesh *job, const struct placement *pla
     status st = OK;
     struct work w = empty_work;
     w.path = job->file;
-    TRY(mesh_read(job->file, NULL, &w.mesh));
-    if (w.mesh.y_up && job->up != MESH_UP_Y)
-        log_warn(
-            "%s: glTF files are y up, but mesh.up is z: set mesh.up: y unless the mesh lies on its side in the file",
-            job->file);
-    TRY(place_vertices(&w.mesh, job->file, job->up == MESH_UP_Y, job->origin == MESH_ORIGIN_AUTO, place,
-                       w.min, w.max));
+    TRY(mesh_read_placed(&(struct mesh_source){.file = job->file,
+                                               .key = "mesh",
+                                               .y_up = job->up == MESH_UP_Y,
+                                               .auto_origin = job->origin == MESH_ORIGIN_AUTO,
+                                               .place = place},
+                         &w.mesh, w.min, w.max));
     TRY(make_sdf(&w, job->fill_holes_m, detail, reach, out, min, max));
     *file_m3 = w.file_m3;
 done:

@@ -2,8 +2,21 @@
 #ifndef HOODOO_SHAPE_MESH_H
 #define HOODOO_SHAPE_MESH_H
 
+#include "meshinput/mesh.h"
 #include "meshinput/sdf.h"
 #include "shape/placement.h"
+
+struct mesh_source {
+    const char *file, *key; /* key: the name of the job's section, for messages */
+    const char *attribute;  /* NULL: none */
+    bool y_up, auto_origin;
+    const struct placement *place;
+};
+
+/* Reads a mesh with its vertices in world space, and extends min..max by them, m. Free *mesh with mesh_free(), also on error. E_INPUT: the
+ * file is missing, damaged or hostile, has no such attribute, or is farther than 1e6 m from the origin. E_MEMORY. */
+MUST_USE status mesh_read_placed(const struct mesh_source *source, struct mesh *mesh, double min[3],
+                                 double max[3]);
 
 /* Reads, repairs and voxelises a mesh. `detail`, `reach`: as for solid_create(). Outputs: *out, to be freed with vdb_sdf_destroy(); min and
  * max, its bounding box, m; *file_m3, the volume that its triangles enclose, or NAN if the mesh is open. E_INPUT: the file is missing,

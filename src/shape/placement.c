@@ -86,24 +86,32 @@ static struct keys keys_of(const struct job_node *node)
     return KEYS(node->u.box);
 }
 
-struct placement placement_child(const struct placement *parent, const struct job_node *node)
+struct placement placement_transform(const struct placement *parent, const double scale[3],
+                                     const double rotate_deg[3], const double translate_m[3])
 {
-    struct keys k = keys_of(node);
-    struct placement above = *parent, p = {.inert = parent->inert || k.inert};
+    struct placement above = *parent, p = {.inert = parent->inert};
     double rotated[3][3], forward[3][4], back[3][4];
-    rotation(k.rotate_deg, rotated);
+    rotation(rotate_deg, rotated);
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) {
-            forward[r][c] = rotated[r][c] * k.scale[c];
-            back[r][c] = rotated[c][r] / k.scale[r];
+            forward[r][c] = rotated[r][c] * scale[c];
+            back[r][c] = rotated[c][r] / scale[r];
         }
-        forward[r][3] = k.translate_m[r];
+        forward[r][3] = translate_m[r];
     }
     for (int r = 0; r < 3; r++)
         back[r][3] = -(back[r][0] * forward[0][3] + back[r][1] * forward[1][3] + back[r][2] * forward[2][3]);
     multiply(above.world_from_local, forward, p.world_from_local);
     multiply(back, above.local_from_world, p.local_from_world);
-    p.min_scale = parent->min_scale * fmin(k.scale[0], fmin(k.scale[1], k.scale[2]));
+    p.min_scale = parent->min_scale * fmin(scale[0], fmin(scale[1], scale[2]));
+    return p;
+}
+
+struct placement placement_child(const struct placement *parent, const struct job_node *node)
+{
+    const struct keys k = keys_of(node);
+    struct placement p = placement_transform(parent, k.scale, k.rotate_deg, k.translate_m);
+    p.inert |= k.inert;
     return p;
 }
 

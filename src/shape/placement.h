@@ -14,6 +14,10 @@ struct placement {
 
 struct placement placement_identity(void);
 
+/* Scaled, then rotated, then moved, then placed at `parent`. */
+struct placement placement_transform(const struct placement *parent, const double scale[3],
+                                     const double rotate_deg[3], const double translate_m[3]);
+
 /* The placement of `node`, a child of a node placed at `parent`: composes the transforms; inert if either is. */
 struct placement placement_child(const struct placement *parent, const struct job_node *node);
 

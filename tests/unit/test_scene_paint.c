@@ -254,6 +254,129 @@ static double share_above(double threshold, double soft, uint32_t seed, struct r
     return p.weight / (0.125 * (double)p.n);
 }
 
+/* ---- values of a mesh's vertices */
+
+/* A square over the block, whose vertices have the attribute 0 at x = 0 and full at x = 20 m, in every format that has attributes. */
+static const char *write_square(const char *name, const char *full)
+{
+    static const char *const quad[2] = {"0 0 21", "20 0 21"}, *const other[2] = {"0 20 21", "20 20 21"};
+    char text[1000];
+    const char *none = strchr(full, '.') ? "0.0" : "0";
+    if (strstr(name, ".ply"))
+        snprintf(
+            text, sizeof text,
+            "ply\nformat ascii 1.0\nelement vertex 4\nproperty uchar red\nproperty float x\nproperty float y\n"
+            "property float z\nproperty double quality\nelement face 1\nproperty list uchar int vertex_index\n"
+            "end_header\n0 %s 7\n255 %s %s\n255 %s %s\n0 %s 7\n4 0 1 2 3\n",
+            quad[0], quad[1], full, other[1], full, other[0]);
+    else if (strstr(name, ".obj"))
+        snprintf(text, sizeof text, "v %s %s 0 0\nv %s %s 0 0\nv %s %s 0 0\nv %s %s 0 0\nf 1 2 3 4\n",
+                 quad[0], none, quad[1], full, other[1], full, other[0], none);
+    else
+        snprintf(text, sizeof text,
+                 "COFF\n4 1 0\n%s %s 0 0 255\n%s %s 0 0 255\n%s %s 0 0 255\n%s %s 0 0 255\n4 0 1 2 3\n",
+                 quad[0], none, quad[1], full, other[1], full, other[0], none);
+    return write_text(name, text);
+}
+
+/* The same with COLOR_0 and COLOR_1 in a glTF, which is y up. */
+static const char *write_gltf(void)
+{
+    static const char json[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"COLOR_0\":1,\"COLOR_1\":2},\"indices\":3}]}],"
+        "\"buffers\":[{\"uri\":\"colors.bin\",\"byteLength\":188}],\"bufferViews\":["
+        "{\"buffer\":0,\"byteOffset\":0,\"byteLength\":48},{\"buffer\":0,\"byteOffset\":48,\"byteLength\":64},"
+        "{\"buffer\":0,\"byteOffset\":112,\"byteLength\":64},{\"buffer\":0,\"byteOffset\":176,\"byteLength\":12}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":\"VEC3\","
+        "\"min\":[0,21,-20],\"max\":[20,21,0]},{\"bufferView\":1,\"componentType\":5126,\"count\":4,\"type\":\"VEC4\"},"
+        "{\"bufferView\":2,\"componentType\":5126,\"count\":4,\"type\":\"VEC4\"},"
+        "{\"bufferView\":3,\"componentType\":5123,\"count\":6,\"type\":\"SCALAR\"}]}";
+    static const struct {
+        float position[4][3], first[4][4], second[4][4];
+        uint16_t index[6];
+    } numbers = {{{0, 21, 0}, {20, 21, 0}, {20, 21, -20}, {0, 21, -20}},
+                 {{0}, {0.5f, 0, 0, 1}, {0.5f, 0, 0, 1}, {0}},
+                 {{0}, {0, 0, 1, 1}, {0, 0, 1, 1}, {0}},
+                 {0, 1, 2, 0, 2, 3}};
+    write_file("colors.bin", &numbers, sizeof numbers);
+    return write_text("colors.gltf", json);
+}
+
+static void vertices_paint_what_is_nearest(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *full, *attribute;
+        double from, to;
+    } mesh[] = {
+        {"red.ply", "27", "red", 0, 1},    {"more.ply", "27", "quality", 7, 27},
+        {"red.obj", "0.8", "red", 0, 0.8}, {"red.off", "255", "red", 0, 1},
+        {NULL, NULL, "red", 0, 0.5},       {NULL, NULL, "COLOR_1.blue", 0, 1},
+    };
+    for (size_t i = 0; i < sizeof mesh / sizeof *mesh; i++) {
+        char *file = strdup(mesh[i].name ? write_square(mesh[i].name, mesh[i].full) : write_gltf());
+        struct job_mesh_attribute m = {.file = file,
+                                       .attribute = (char *)(uintptr_t)mesh[i].attribute,
+                                       .from = mesh[i].from,
+                                       .to = mesh[i].to,
+                                       .scale = {1, 1, 1},
+                                       .up = mesh[i].name ? MESH_ATTRIBUTE_UP_Z : MESH_ATTRIBUTE_UP_Y};
+        struct job_paint paint =
+            PAINT(.mesh_attribute = &m, .erodibility = 3, .interlock = 2, .viability = 0.5);
+        for (int h = 1; h <= 2; h++) { /* two spacings */
+            struct job job = cube_job(&block, 40 / h, 0.5 * h);
+            struct rock rock;
+            job.paint = &paint;
+            job.n_paint = 1;
+            if (scene_sample(&job, &rock) != OK)
+                fail_msg("%s", status_message());
+            for (size_t p = 0; p < rock.n; p++) {
+                const double w = (double)rock.P[4 * p] / 20;
+                assert_close((double)rock.interlock_factor[p], 1 + w, 1e-5);
+                assert_close((double)rock.rate_factor[p], (1 + 2 * w) / (1 - 0.5 * w), 1e-5);
+            }
+            rock_free(&rock);
+        }
+        /* Only within 3 m of the square: the upper 2 m of the block. */
+        m.depth_m = 3;
+        paint.viability = 1;
+        assert_close(paint_block(&paint, 1, NULL).weight, 20 * 20 * 2 / 2.0, 0.03);
+        free(file);
+    }
+}
+
+static void attributes_that_are_missing_are_named(void **state)
+{
+    (void)state;
+    static const char *const wanted[][3] = {{"green", "'red', 'quality'", "'green'"},
+                                            {"q", "'quality'", "'q'"}};
+    struct job_mesh_attribute m = {
+        .file = strdup(write_square("red.ply", "27")), .to = 1, .scale = {1, 1, 1}};
+    struct job_paint paint = PAINT(.mesh_attribute = &m, .erodibility = 3);
+    struct job job = cube_job(&block, 40, 0.5);
+    struct rock rock;
+    job.paint = &paint;
+    job.n_paint = 1;
+    for (size_t i = 0; i < sizeof wanted / sizeof *wanted; i++) {
+        m.attribute = (char *)(uintptr_t)wanted[i][0];
+        assert_failed(scene_sample(&job, &rock), E_INPUT, wanted[i][1], wanted[i][2]);
+    }
+    free(m.file);
+    m.attribute = (char *)(uintptr_t) "red";
+    static const char *const files[][3] = {
+        {"plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "have none"},
+        {"some.obj", "v 0 0 0 1 1 1\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "only 1 of its 3 vertices"},
+        {"a.stl",
+         "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n",
+         "have none"},
+        {"nan.off", "COFF\n3 1 0\n0 0 0 1 1 nan\n", ":3:"}};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        m.file = write_text(files[i][0], files[i][1]);
+        assert_failed(scene_sample(&job, &rock), E_INPUT, files[i][2], files[i][0]);
+    }
+}
+
 static void noise_paints_patches(void **state)
 {
     (void)state;
@@ -450,6 +573,8 @@ int main(void)
         cmocka_unit_test(an_image_is_seen_upright_from_its_front),
         cmocka_unit_test(depth_stops_behind_the_first_rock),
         cmocka_unit_test(hostile_images_are_refused),
+        cmocka_unit_test(vertices_paint_what_is_nearest),
+        cmocka_unit_test(attributes_that_are_missing_are_named),
         cmocka_unit_test(noise_paints_patches),
         cmocka_unit_test(masks_and_shapes_multiply),
         cmocka_unit_test(beds_are_taken_out),
