@@ -5,7 +5,7 @@ PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa
 	libseccomp-dev libmicrohttpd-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
 	libcgal-dev libeigen3-dev gdal-bin
-LONG_PACKAGES = libcgal-demo
+LONG_PACKAGES = libcgal-demo debootstrap
 PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
 BENCH_PACKAGES = python3-petsc4py-real python3-venv
 BENCH_WHEELS = taichi==1.7.4 fastscapelib==0.3.0 pyamg==5.4.1 'numpy<2'
@@ -18,6 +18,7 @@ MAKEFLAGS += --jobs=$(shell nproc)
 endif
 
 VERSION = 0.2.0
+BUNDLE = hoodoo-$(VERSION)-linux-x86_64
 BUILD = build
 SHARE = $(BUILD)
 CC = gcc
@@ -110,6 +111,14 @@ $(BUILD)/hoodoo-read-mesh: $(BUILD)/src/read_mesh.o $(BUILD)/libhoodoo.a
 	@echo "link $@"
 	$(Q)$(CXX) $(OPT) -o $@ $^ -lassimp -lxxhash -lseccomp
 
+# The image reader of a bundle decodes with the libraries of the formats instead of OpenImageIO.
+$(BUILD)/bundle/decode_shim.o: src/image/decode_shim.cpp | $(BUILD)/.deps
+	@echo "c++ $@"
+	$(Q)mkdir -p $(@D) && $(CXX) $(CPPFLAGS) -DHOODOO_OWN_FORMATS $(CXXFLAGS) -MMD -MP -c -o $@ $<
+$(BUILD)/bundle/hoodoo-read-image: $(BUILD)/src/read_image.o $(BUILD)/bundle/decode_shim.o $(BUILD)/libhoodoo.a
+	@echo "link $@"
+	$(Q)$(CXX) $(OPT) -o $@ $^ -lOpenEXR-3_1 -lImath-3_1 -ltiff -ljpeg -lpng16 -lseccomp
+
 VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,vdb/bytes vdb/points vdb/volumes meshinput/sdf shape/function) \
 	$(patsubst %,$(BUILD)/src/%.o,base/hash base/memory base/status base/text base/version job/values particles/rock)
 $(VDB_OBJ): private PIC = -fPIC
@@ -193,7 +202,7 @@ $(BUILD)/tests/fuzz/%: tests/fuzz/%.c tests/fuzz/fuzz.h $(BUILD)/libhoodoo.a
 	$(Q)mkdir -p $(@D) && $(CC) $(CPPFLAGS) -Itests $(CFLAGS) -fsanitize=fuzzer -o $@ $< $(BUILD)/libhoodoo.a $(LDLIBS) -lseccomp
 
 ## test: build and run the tests (under 20 minutes on 2 cores)
-test: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN) $(BUILD)/tests/ref/mesh_check
+test: $(BUILD)/hoodoo $(BUILD)/bundle/hoodoo-read-image $(BUILD)/.deps-test $(TEST_BIN) $(BUILD)/tests/ref/mesh_check
 	$(Q)HOODOO_TEST_BUT=tests/later sh tests/run.sh $(BUILD) unit gpu physics restart cli
 
 ## test-later: tests of the same folders that take minutes each; .ci/run runs them, too
@@ -201,11 +210,11 @@ test-later: $(BUILD)/hoodoo $(BUILD)/.deps-test $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) $$(cat tests/later)
 
 ## test-peers: Slurm, OpenJD, Blender, USD, Chromium and others with hoodoo's files (large packages)
-test-peers: $(BUILD)/hoodoo $(BUILD)/.deps-peers $(BUILD)/venv-usd/.done
+test-peers: $(BUILD)/hoodoo $(BUILD)/$(BUNDLE).tar.zst $(BUILD)/.deps-peers $(BUILD)/venv-usd/.done
 	$(Q)sh tests/run.sh $(BUILD) peers
 
 ## test-long: slow proofs: every interruption, resolutions, sweeps
-test-long: $(BUILD)/hoodoo $(BUILD)/.deps-long $(TEST_BIN)
+test-long: $(BUILD)/hoodoo $(BUILD)/$(BUNDLE).tar.zst $(BUILD)/.deps-long $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) long
 
 FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/killed.py restart/full_disk.sh
@@ -279,6 +288,27 @@ install: $(BUILD)/hoodoo
 	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/hoodoo/jobs jobs/*.yaml jobs/*.png jobs/*.json jobs/README.md jobs/TUTORIAL.md
 	install -D -m 644 -t $(DESTDIR)$(PREFIX)/share/doc/hoodoo LICENSE CHANGELOG.md README.md
 
+STAGE = $(BUILD)/bundle/$(BUNDLE)
+LAUNCHED = hoodoo hoodoo-read hoodoo-read-image hoodoo-read-mesh
+$(BUILD)/bundle/launch: bundle/launch.c | $(BUILD)/.deps
+	$(Q)mkdir -p $(@D) && $(CC) -std=c11 -D_GNU_SOURCE $(WARN) -Os -static -s -o $@ $<
+$(BUILD)/bundle/host-libc: bundle/host_libc.c | $(BUILD)/.deps
+	$(Q)mkdir -p $(@D) && $(CC) -std=c11 $(WARN) -O1 -s -o $@ $<
+$(BUILD)/bundle/host-libstdc++: bundle/host_libstdcxx_shim.cpp | $(BUILD)/.deps
+	$(Q)mkdir -p $(@D) && $(CXX) -std=c++17 -O0 -s -o $@ $<
+
+## bundle: pack hoodoo and its libraries into build/hoodoo-VERSION-linux-x86_64.tar.zst, which runs on any x86-64 Linux
+bundle: $(BUILD)/$(BUNDLE).tar.zst
+$(BUILD)/$(BUNDLE).tar.zst: $(BUILD)/hoodoo $(addprefix $(BUILD)/bundle/,hoodoo-read-image launch host-libc host-libstdc++) bundle/collect.py bundle/README.md
+	$(Q)rm -rf $(STAGE) && $(MAKE) --no-print-directory install DESTDIR=$(STAGE) PREFIX= >/dev/null
+	$(Q)mkdir -p $(STAGE)/lib/programs && cp bundle/README.md $(STAGE)
+	$(Q)cp $(BUILD)/bundle/hoodoo-read-image $(STAGE)/libexec/hoodoo/
+	$(Q)mv $(STAGE)/bin/hoodoo $(STAGE)/libexec/hoodoo/hoodoo-read* $(STAGE)/lib/programs/ && cp $(addprefix $(BUILD)/bundle/,host-libc host-libstdc++) $(STAGE)/lib/programs/
+	$(Q)cp $(BUILD)/bundle/launch $(STAGE)/bin/hoodoo
+	$(Q)for p in $(filter-out hoodoo,$(LAUNCHED)); do cp $(BUILD)/bundle/launch $(STAGE)/libexec/hoodoo/$$p; done
+	$(Q)strip $(addprefix $(STAGE)/lib/programs/,$(LAUNCHED)) $(STAGE)/libexec/hoodoo/hoodoo-vdb.so
+	$(Q)/usr/bin/python3 bundle/collect.py $(STAGE) $@
+
 ## clean: remove all build folders (out/ stays)
 clean:
 	rm -rf build build-asan build-tsan
@@ -287,7 +317,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-long deps-dev deps-peers deps-bench demo test test-later test-peers test-long faults bench bench-compare reference gallery format lint test-asan test-tsan test-sanitized fuzz fuzz-built install clean help
+.PHONY: all deps deps-test deps-long deps-dev deps-peers deps-bench demo test test-later test-peers test-long faults bench bench-compare reference gallery format lint test-asan test-tsan test-sanitized fuzz fuzz-built install bundle clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
--include $(shell find $(BUILD) -name '*.d' 2>/dev/null)
+-include $(shell find $(BUILD) -type f -name '*.d' 2>/dev/null)

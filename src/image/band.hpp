@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <OpenImageIO/imageio.h>
+#include "image/library.hpp"
 
 namespace
 {

@@ -7,7 +7,7 @@
 #include <strings.h>
 #include <vector>
 
-#include <OpenImageIO/imageio.h>
+#include "image/library.hpp"
 
 #include "image/rows.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <OpenImageIO/imageio.h>
+#include "image/library.hpp"
 
 #include "image/band.hpp"
 #include "image/choice.hpp"

@@ -191,7 +191,7 @@ static void read_tiff(const char *path, int part, int channel, struct image_hint
     TIFFClose(tiff);
 }
 
-/* ---- PNG: its eXIf chunk holds a small TIFF, whose tag 274 is the orientation */
+/* ---- PNG: its eXIf chunk holds a small TIFF */
 
 static uint32_t number_of(const unsigned char *p, size_t n, bool big_endian)
 {
@@ -201,7 +201,7 @@ static uint32_t number_of(const unsigned char *p, size_t n, bool big_endian)
     return v;
 }
 
-static int orientation_of(const unsigned char *exif, size_t n)
+int image_exif_orientation(const unsigned char *exif, size_t n)
 {
     if (n < 8)
         return 0;
@@ -224,7 +224,7 @@ static void read_png(FILE *f, struct image_hints *h)
     while (fread(head, 1, 8, f) == 8) {
         const uint32_t size = number_of(head, 4, true);
         if (memcmp(head + 4, "eXIf", 4) == 0 && size <= sizeof exif && fread(exif, 1, size, f) == size) {
-            h->orientation = orientation_of(exif, size);
+            h->orientation = image_exif_orientation(exif, size);
             return;
         }
         if (fseek(f, (long)size + 4, SEEK_CUR) != 0)

@@ -4,6 +4,7 @@
 #define HOODOO_IMAGE_HINTS_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #include "base/status.h"
 
@@ -28,6 +29,9 @@ struct image_hints {
 
 /* The metadata of one channel of one part. Metadata that cannot be read counts as absent. */
 struct image_hints image_hints_read(const char *path, int part, int channel);
+
+/* The orientation in n bytes of EXIF, a small TIFF whose tag 274 it is; 0: none. */
+int image_exif_orientation(const unsigned char *exif, size_t n);
 
 #ifdef __cplusplus
 }
