@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "farm/needs.h"
+
 /* The value for {name}; NULL: none. */
 static const char *value_named(const struct command_values *v, const char *name, size_t length)
 {
@@ -40,12 +42,44 @@ static bool add_argument(struct farm_command *c, size_t *used, const char *argum
     return true;
 }
 
-status command_fill(const char *hoodoo, enum farm_kind kind, const struct command_values *values,
+static bool given(const char *text)
+{
+    return text && *text;
+}
+
+struct command_head command_head(const struct job *job, enum farm_kind kind, const char *hoodoo)
+{
+    const struct job_tasks *keys = farm_requests(job, kind);
+    const char *binary = given(keys->binary) ? keys->binary : job->farm.binary;
+    struct command_head head = {given(binary) ? binary : hoodoo, keys->prologue, keys->n_prologue};
+    if (!head.n_prologue) {
+        head.prologue = job->farm.prologue;
+        head.n_prologue = job->farm.n_prologue;
+    }
+    return head;
+}
+
+status command_check(const struct job *job)
+{
+    for (int k = 0; k < FARM_KINDS; k++) {
+        const size_t n = command_head(job, (enum farm_kind)k, "").n_prologue;
+        if (n > COMMAND_PROLOGUE)
+            return fail(
+                E_USAGE,
+                "farm: a prologue has %zu arguments, and at most %d are allowed: put them into a script", n,
+                COMMAND_PROLOGUE);
+    }
+    return OK;
+}
+
+status command_fill(const struct command_head *head, enum farm_kind kind, const struct command_values *values,
                     struct farm_command *c)
 {
     size_t used = 0;
     c->n = 0;
-    c->argv[c->n++] = hoodoo;
+    for (size_t i = 0; i < head->n_prologue && i < COMMAND_PROLOGUE; i++)
+        c->argv[c->n++] = head->prologue[i];
+    c->argv[c->n++] = head->hoodoo;
     for (const char *at = farm_kinds[kind].command; *at;) {
         const size_t length = strcspn(at, " ");
         if (!add_argument(c, &used, at, length, values))
@@ -77,7 +111,8 @@ status farm_command(const struct farm *f, const struct farm_task *t, const char 
                                           .device = device,
                                           .jobs = jobs ? side : NULL,
                                           .progress = "plain"};
-    TRY(command_fill(f->hoodoo.text, t->kind, &values, c));
+    const struct command_head head = command_head(farm_job(f, t), t->kind, f->hoodoo.text);
+    TRY(command_fill(&head, t->kind, &values, c));
 done:
     return st;
 }

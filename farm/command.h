@@ -31,15 +31,32 @@ struct command_values {
 #undef COMMAND_MEMBER
 };
 
+enum { COMMAND_ARGUMENTS = 20, COMMAND_PROLOGUE = 43 };
+
 struct farm_command {
-    const char *argv[20]; /* ends with NULL; points into `text` */
+    const char
+        *argv[COMMAND_PROLOGUE + COMMAND_ARGUMENTS + 1]; /* ends with NULL; points into `text` and the job */
     size_t n;
     char text[3 * PATH_BYTES + 1024];
 };
 
-/* Fills in the template of a kind. argv[0] is `hoodoo`, which is borrowed. E_USAGE: the command is too long. */
-MUST_USE status command_fill(const char *hoodoo, enum farm_kind kind, const struct command_values *values,
-                             struct farm_command *out);
+/* What a task's command begins with: words that a user puts before it, and the program. */
+struct command_head {
+    const char *hoodoo;
+    char *const *prologue; /* [n_prologue] */
+    size_t n_prologue;
+};
+
+/* The head of the tasks of a kind, by the job's keys farm.KIND.binary and farm.KIND.prologue, or else farm.binary and farm.prologue.
+ * `hoodoo`: the program if the job names none. Borrows from both. */
+struct command_head command_head(const struct job *job, enum farm_kind kind, const char *hoodoo);
+
+/* E_USAGE: a prologue of the job is longer than COMMAND_PROLOGUE. */
+MUST_USE status command_check(const struct job *job);
+
+/* Fills in the template of a kind. The head is borrowed. E_USAGE: the command is too long. */
+MUST_USE status command_fill(const struct command_head *head, enum farm_kind kind,
+                             const struct command_values *values, struct farm_command *out);
 
 /* The command of a task, which borrows from `f`. `device`: for tasks that run on a device; NULL: the default. `jobs`: how many
  * pictures may be made at a time; 0: as many as there are cores. E_USAGE. */

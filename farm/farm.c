@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/beside.h"
 #include "base/memory.h"
 #include "base/nearest.h"
+#include "farm/command.h"
 #include "farm/end.h"
 #include "farm/submission.h"
 #include "output/folder.h"
@@ -19,10 +21,10 @@ static status set_paths(struct farm *f, const char *out)
 {
     status st = OK;
     struct path here, relative;
-    ssize_t n = readlink("/proc/self/exe", f->hoodoo.text, sizeof f->hoodoo.text - 1);
-    if (n < 0 || (size_t)n == sizeof f->hoodoo.text - 1)
-        return fail(E_OUTPUT, "/proc/self/exe: %s", n < 0 ? strerror(errno) : "its path is too long");
-    f->hoodoo.text[n] = '\0';
+    char self[BESIDE_PATH];
+    if (!beside_self(self))
+        return fail(E_OUTPUT, "the path of this program is not known (/proc/self/exe) or too long");
+    TRY(path_format(&f->hoodoo, "%s", self));
     TRY(out ? path_format(&relative, "%s", out) : path_join(&relative, "out", f->base->name));
     if (!getcwd(here.text, sizeof here.text)) {
         st = fail(E_OUTPUT, "the current folder: %s", strerror(errno));
@@ -75,6 +77,7 @@ status farm_load(const char *path, const char *const *given, size_t n_given, con
             TRY(job_load_wedge(path, sets, n_sets, f->base, only ? only : (int)i + 1, &w->job));
         else
             TRY(job_load(path, sets, n_sets, &w->job));
+        TRY(command_check(w->job));
         TRY(prepare(f, from, w->job));
         TRY(model_estimate(w->job, &w->estimate));
     }

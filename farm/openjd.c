@@ -13,6 +13,8 @@ enum { NOTIFY_DEVICE_S = 300, NOTIFY_S = 30, NOTIFY_MOST_S = 600, MIB = 1 << 20 
 
 enum { STEP_NAME = 64 };
 
+#define PROGRAM "{{Param.Hoodoo}}" /* of tasks for which the job names none */
+
 /* What the functions below share: the text that is written, and facts of the tasks. */
 struct writer {
     const struct farm *farm;
@@ -223,18 +225,34 @@ static void put_host(const struct writer *w, const struct step *s)
     json_end_object(t);
 }
 
+/* Braces of the job's own words would be expanded by OpenJD. */
+static status check_head(const struct command_head *head)
+{
+    for (size_t i = 0; i < head->n_prologue; i++)
+        if (strstr(head->prologue[i], "{{"))
+            return fail(
+                E_USAGE,
+                "farm: '{{' in the prologue's argument '%.80s' has a meaning in OpenJD: put it into a script",
+                head->prologue[i]);
+    if (strstr(head->hoodoo, "{{") && strcmp(head->hoodoo, PROGRAM) != 0)
+        return fail(E_USAGE, "farm: '{{' in the binary '%.80s' has a meaning in OpenJD: use another path",
+                    head->hoodoo);
+    return OK;
+}
+
 /* The program itself and not a shell: only the first process gets the notice. */
 static status put_script(const struct writer *w, const struct step *s)
 {
+    status st = OK;
     struct text *t = w->out;
     struct farm_command c;
-    status st = command_fill("", s->kind, &s->values, &c);
-    if (st != OK)
-        return st;
+    const struct command_head head = command_head(w->farm->wedge[0].job, s->kind, PROGRAM);
+    TRY(check_head(&head));
+    TRY(command_fill(&head, s->kind, &s->values, &c));
     json_object(t, "script");
     json_object(t, "actions");
     json_object(t, "onRun");
-    json_text(t, "command", "{{Param.Hoodoo}}");
+    json_text(t, "command", c.argv[0]);
     json_array(t, "args");
     for (size_t i = 1; i < c.n; i++)
         json_text(t, NULL, c.argv[i]);
@@ -250,7 +268,8 @@ static status put_script(const struct writer *w, const struct step *s)
     json_end_object(t);
     json_end_object(t);
     json_end_object(t);
-    return OK;
+done:
+    return st;
 }
 
 static void put_dependency(struct text *t, const char *name)

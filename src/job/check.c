@@ -364,11 +364,15 @@ done:
 /* Lists of arguments for programs: a list or mapping among them would arrive as its YAML. */
 static status check_farm_arguments(const struct yaml *root)
 {
-    static const char *const kinds[] = {"sim", "derive", "preview", "finish", NULL};
+    static const struct {
+        const char *kind, *key; /* kind NULL: of the farm itself */
+    } lists[] = {{"sim", "sbatch"},   {"derive", "sbatch"},   {"preview", "sbatch"},   {"finish", "sbatch"},
+                 {"sim", "prologue"}, {"derive", "prologue"}, {"preview", "prologue"}, {"finish", "prologue"},
+                 {NULL, "prologue"},  {NULL, "on_done"}};
     const struct yaml *farm = yaml_get(root, "farm");
-    for (size_t k = 0; farm && k < sizeof kinds / sizeof *kinds; k++) {
-        const struct yaml *map = kinds[k] ? yaml_get(farm, kinds[k]) : farm,
-                          *list = map ? yaml_get(map, kinds[k] ? "sbatch" : "on_done") : NULL;
+    for (size_t k = 0; farm && k < sizeof lists / sizeof *lists; k++) {
+        const struct yaml *map = lists[k].kind ? yaml_get(farm, lists[k].kind) : farm,
+                          *list = map ? yaml_get(map, lists[k].key) : NULL;
         for (const struct yaml *item = list ? list->first : NULL; item; item = item->next)
             if (item->kind != YAML_SCALAR)
                 return yaml_fail(

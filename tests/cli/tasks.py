@@ -6,13 +6,17 @@ import shlex
 import subprocess
 import sys
 
-from script import TOP, finish, hoodoo, ok
+from script import HOODOO, TOP, finish, hoodoo, ok
 
 sys.dont_write_bytecode = True
 JOB = os.path.join(TOP, "tests/restart/twelve.yaml")
 SMALL = ["--set", "frames=1001-1004", "--set", "farm.block_frames=2", "--set", "farm.chunk_frames=2", "--set", "farm.meshes=true", "--set", "farm.still_every=0",
          "--set", "farm.turntable=0", "--set", "farm.cameras=[main]", "--set", "output.aov.cameras=[]"]
-code, said = hoodoo("submit", JOB, "--to", "tasks", "--device", "cpu", "--out", "out", *SMALL)
+# A prologue that notes what it is given, for all tasks but meshes, whose binary is a link of another name.
+os.symlink(HOODOO, "linked hoodoo")
+LINK, NOTES = os.path.abspath("linked hoodoo"), os.path.abspath("notes")
+HEAD = ["--set", f"farm.prologue=[sh, -c, 'echo \"$1 $2\" >>{NOTES}; exec \"$@\"', --]", "--set", "farm.derive.prologue=[env, A=b c]", "--set", "farm.derive.binary=" + LINK]
+code, said = hoodoo("submit", JOB, "--to", "tasks", "--device", "cpu", "--out", "out", *SMALL, *HEAD)
 farm = json.loads(said[said.index("{"):])
 tasks = {t["name"]: t for t in farm["tasks"]}
 ok(code == 0 and farm["format"] == 1 and os.path.exists("out/farm/job.yaml") and len(tasks) == farm["task_count"], "the tasks, and the job they read", said)
@@ -36,6 +40,10 @@ while len(done) < len(tasks):
     ok(not missing, f"{t['name']} makes the outputs it names, {len(t['outputs'])}", missing)
     done.add(t["name"])
     order.append(t["name"])
+with open(NOTES) as file:
+    noted = file.read().splitlines()
+ok(sorted(noted) == sorted([f"{HOODOO} run"] * 2 + [f"{HOODOO} status"]), "the prologue is given the command", noted)
+ok(all(t["argv"][:3] == ["env", "A=b c", LINK] for t in tasks.values() if t["kind"] == "derive"), "a kind's own prologue and binary replace the farm's")
 ok(len(done) == len(tasks), f"all {len(tasks)} are run, one by one", order)
 code, said = hoodoo("verify", "out")
 ok(code == 0, "and the folder is whole", said)
@@ -70,7 +78,14 @@ for device, wanted in (("cpu", 0), ("slurm", 4)):
        f"OpenJD likewise, {device}", amounts)
 code, said = hoodoo("submit", JOB, "--to", "slurm", "--out", "out", "--dry-run", "--json", *SMALL, "--set", "frames=1001-1006")
 ok(code == 0 and "--time=" in said, "frame times in the folder give a time limit", said)
-for bad in ("farm.sim.sbatch=[[a, b]]", "farm.on_done=[{a: b}]"):
+code, said = hoodoo("submit", JOB, "--to", "openjd", "--out", "other", "--dry-run", *SMALL, *HEAD)
+run = [s["script"]["actions"]["onRun"] for s in json.loads(said[said.index("{"):])["steps"]]
+ok(code == 0 and {(r["command"], r["args"][1 if r["command"] == "env" else 3]) for r in run} == {("sh", "{{Param.Hoodoo}}"), ("env", LINK)}, "OpenJD has prologue and binary", run)
+code, said = hoodoo("submit", JOB, "--to", "slurm", "--device", "cpu", "--out", "other", "--dry-run", *SMALL, "--set", "farm.prologue=[" + ", ".join("a" * 44) + "]")
+ok(code == 2 and "at most 43" in said, "a prologue too long is refused", said)
+code, said = hoodoo("submit", JOB, "--to", "openjd", "--out", "other", "--dry-run", *SMALL, "--set", "farm.sim.prologue=['{{Param.OutDir}}']")
+ok(code == 2 and "'{{'" in said, "OpenJD's braces are refused", said)
+for bad in ("farm.prologue=[[a]]", "farm.sim.sbatch=[[a, b]]", "farm.on_done=[{a: b}]"):
     code, said = hoodoo("plan", JOB, "--device", "none", "--set", bad)
     ok(code == 2 and "not an argument" in said, f"{bad} is refused", said)
 ok(not os.path.exists("other"), "a dry run leaves nothing")

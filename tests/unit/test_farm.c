@@ -297,7 +297,7 @@ static void kinds_say_what_is_needed(void **state)
                          strstr(kind->command, "{wedge}") == NULL);
         assert_int_equal(kind->side_by_side, kind->cut == CUT_LIST || kind->cut == CUT_VIEWS);
         /* Words without a value are left out, and no brace is left. */
-        assert_ok(command_fill("hoodoo", (enum farm_kind)k, &none, &c));
+        assert_ok(command_fill(&(struct command_head){.hoodoo = "hoodoo"}, (enum farm_kind)k, &none, &c));
         for (size_t i = 1; i < c.n; i++)
             assert_null(strpbrk(c.argv[i], "{}"));
         assert_string_equal(c.argv[c.n - 1], kind->cut == CUT_JOB ? "--end" : "--progress=none");
