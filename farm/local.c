@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "farm/command.h"
+#include "farm/schedule.h"
 #include "farm/tries.h"
 #include "gpu/gpu.h"
 
@@ -106,6 +107,7 @@ struct local {
     const struct farm *farm;
     const struct local_options *options;
     struct task *task;
+    size_t *order; /* of tasks, the most urgent first */
     struct worker worker[LOCAL_WORKERS];
     struct child child[LOCAL_WORKERS]; /* of each worker; pid 0: idle */
     struct local_state state;
@@ -266,13 +268,14 @@ done:
     return st;
 }
 
-/* Starts ready tasks on idle workers, simulation first. */
+/* Starts ready tasks on idle workers: those that use a device first, and the most urgent of each, so that wedges advance together. */
 static status start_ready(struct local *l)
 {
     status st = OK;
     const struct farm_graph *g = &l->farm->graph;
     for (int others = 0; others < 2; others++)
-        for (size_t i = 0; i < g->n; i++) {
+        for (size_t place = 0; place < g->n; place++) {
+            const size_t i = l->order[place];
             bool sim = farm_kinds[g->task[i].kind].device, yes;
             if (l->task[i].state != WAITING || sim == (others == 1))
                 continue;
@@ -336,6 +339,7 @@ status local_run(const struct farm *f, const struct local_options *options)
     struct local l = {.farm = f, .options = options, .state = {.total = f->graph.n}};
     double ticked = 0, wait = 0;
     TRY(memory_alloc(f->graph.n, sizeof *l.task, "the tasks", &l.task));
+    TRY(schedule_order(&f->graph, &l.order));
     for (size_t i = 0; i < f->graph.n; i++)
         if (f->chosen && !f->chosen[i]) {
             l.task[i].state = DONE; /* what chosen tasks wait for is done: farm_choose() */
@@ -362,5 +366,6 @@ status local_run(const struct farm *f, const struct local_options *options)
         st = verdict(&l);
 done:
     free(l.task);
+    free(l.order);
     return st;
 }

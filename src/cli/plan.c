@@ -8,6 +8,7 @@
 #include "cli/answer.h"
 #include "cli/cli.h"
 #include "cli/plan_time.h"
+#include "farm/cost.h"
 #include "farm/describe.h"
 #include "run/memory.h"
 
@@ -34,8 +35,8 @@ static void describe_memory(const struct model_estimate *e, const struct gpu *gp
 }
 
 /* Without a device (`gpu` is NULL), what depends on the device is omitted. */
-static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *asked, bool words,
-                     const char *device, struct text *t)
+static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *asked,
+                     const struct cost_asked *cost, bool words, const char *device, struct text *t)
 {
     status st = OK;
     const struct job *job = f->wedge[0].job;
@@ -86,6 +87,8 @@ static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *a
     if (gpu)
         json_bool(t, "fits_in_memory", memory.fits);
     TRY(farm_describe(f, words, device, t));
+    if (cost->n)
+        TRY(cost_describe(&f->graph, cost, words, t));
     json_end_object(t);
     TRY(text_status(t));
 done:
@@ -101,6 +104,8 @@ status cli_plan(int argc, char **argv)
     struct gpu *gpu = NULL;
     struct text t = {0};
     struct plan_asked asked = {.common = &c, .patience = 10};
+    struct cost_asked cost = {0};
+    const char *nodes = NULL, *price = NULL;
     bool help = false;
     int wedge = 0;
     const struct option options[] = {
@@ -111,7 +116,11 @@ status cli_plan(int argc, char **argv)
         OPTION_FROM(&c),
         OPTION_JSON(&c),
         {"rehearse", "SECONDS", OPTION_NUMBER, &asked.patience,
-         "time to spend on simulating the first frames on the device, from which the total time is estimated (default: 10; 0: no estimate)"}};
+         "time to spend on simulating the first frames on the device, from which the total time is estimated (default: 10; 0: no estimate)"},
+        {"nodes", "N,N...", OPTION_TEXT, &nodes,
+         "time, node hours and cost of the job on so many nodes, such as 1,4,16, each of which runs a task at a time"},
+        {"price", "PRICE/h", OPTION_TEXT, &price,
+         "the price of a node for an hour, such as 2.5/h (with --nodes)"}};
     TRY(options_parse(&usage_plan, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
@@ -119,12 +128,18 @@ status cli_plan(int argc, char **argv)
         st = fail(E_USAGE, "--rehearse %g: must be 0 or more seconds", asked.patience);
         goto done;
     }
+    if (price && !nodes) {
+        st = fail(E_USAGE, "--price needs --nodes");
+        goto done;
+    }
+    if (nodes)
+        TRY(cost_parse(nodes, price, &cost));
     asked.path = operands.item[0];
     TRY(farm_load(operands.item[0], c.sets.item, c.sets.n, c.from, wedge, c.out, &farm));
     const bool none = c.device && strcmp(c.device, "none") == 0;
     if (!none)
         TRY(gpu_create(&(struct gpu_options){.device = c.device}, &gpu));
-    TRY(answer(&farm, gpu, &asked, !c.json, none ? NULL : c.device, &t));
+    TRY(answer(&farm, gpu, &asked, &cost, !c.json, none ? NULL : c.device, &t));
     TRY(answer_print(&t, c.json));
 done:
     text_free(&t);

@@ -85,6 +85,20 @@ code, said = hoodoo("submit", JOB, "--to", "slurm", "--device", "cpu", "--out", 
 ok(code == 2 and "at most 43" in said, "a prologue too long is refused", said)
 code, said = hoodoo("submit", JOB, "--to", "openjd", "--out", "other", "--dry-run", *SMALL, "--set", "farm.sim.prologue=['{{Param.OutDir}}']")
 ok(code == 2 and "'{{'" in said, "OpenJD's braces are refused", said)
+# Cost.
+code, said = hoodoo("plan", JOB, "--device", "cpu", "--out", "out", "--json", *SMALL, "--set", "farm.meshes=false", "--set", "farm.cameras=[]", "--nodes", "1,2",
+                    "--price", "3600/h", "--rehearse", "1")
+plan = json.loads(said)
+one, two = plan["nodes"]
+seconds = {t["name"]: t["estimated_seconds"] for t in plan["tasks"]}
+ok(code == 0 and plan["critical_path"] == ["sim.1001-1002", "sim.1003-1004", "end"] and one["nodes"] == 1 and two["used"] == 1, "a chain of blocks is the critical path", said)
+ok(abs(one["cost"] - one["node_hours"] * 3600) <= 2 and abs(one["wall_seconds"] - plan["shortest_seconds"]) <= 1 and one["wall_seconds"] <= sum(seconds.values()) and
+   one["busy_percent"] == 100, "its time, hours and cost are those of the chain", one)
+code, said = hoodoo("plan", JOB, "--device", "none", *SMALL, "--nodes", "1,2")
+ok(code == 2 and "the time of a frame is not known" in said, "without frame times there is no cost", said)
+for bad in (["--nodes", "0"], ["--nodes", "1,"], ["--price", "2"], ["--nodes", "2", "--price", "x"]):
+    code, said = hoodoo("plan", JOB, "--device", "none", *bad)
+    ok(code == 2, f"{' '.join(bad)} is refused", said)
 for bad in ("farm.prologue=[[a]]", "farm.sim.sbatch=[[a, b]]", "farm.on_done=[{a: b}]"):
     code, said = hoodoo("plan", JOB, "--device", "none", "--set", bad)
     ok(code == 2 and "not an argument" in said, f"{bad} is refused", said)
