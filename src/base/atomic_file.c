@@ -44,38 +44,49 @@ static status fsync_folder_of(const char *path)
     return bad ? fail(E_OUTPUT, "%s: cannot fsync the folder: %s", folder.text, strerror(bad)) : OK;
 }
 
+status atomic_file_begin(const char *path, struct draft *d)
+{
+    status st = OK;
+    *d = (struct draft){0};
+    TRY(path_format(&d->path, "%s", path));
+    TRY(atomic_file_temporary(path, "", &d->temporary));
+    d->fd = open(d->temporary.text, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (d->fd < 0)
+        return fail(E_OUTPUT, "%s: cannot be written: %s", path, strerror(errno));
+    d->on_disk = true;
+done:
+    return st;
+}
+
+status atomic_file_finish(struct draft *d)
+{
+    status st = OK;
+    const struct path path = d->path;
+    TRY(draft_flush(d));
+    if (fsync(d->fd) != 0)
+        st = fail(E_OUTPUT, "%s: cannot fsync: %s", path.text, strerror(errno));
+    d->on_disk = false;
+    if (close(d->fd) != 0 && st == OK)
+        st = fail(E_OUTPUT, "%s: cannot close: %s", path.text, strerror(errno));
+    if (st == OK && rename(d->temporary.text, path.text) != 0)
+        st = fail(E_OUTPUT, "%s: cannot rename into place: %s", path.text, strerror(errno));
+    if (st != OK)
+        unlink(d->temporary.text);
+done:
+    draft_drop(d);
+    return st == OK ? fsync_folder_of(path.text) : st;
+}
+
 status atomic_file_write(const char *path, const void *bytes, size_t n)
 {
-    struct path temporary;
-    status st = atomic_file_temporary(path, "", &temporary);
-    if (st != OK)
-        return st;
-    int fd = open(temporary.text, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd < 0)
-        return fail(E_OUTPUT, "%s: cannot be written: %s", path, strerror(errno));
-    size_t written = 0;
-    while (written < n) {
-        ssize_t k = write(fd, (const char *)bytes + written, n - written);
-        if (k < 0 && errno == EINTR)
-            continue;
-        if (k <= 0) {
-            st = fail(E_OUTPUT, "%s: only %zu of %zu bytes could be written: %s", path, written, n,
-                      strerror(k < 0 ? errno : ENOSPC));
-            break;
-        }
-        written += (size_t)k;
-    }
-    if (st == OK && fsync(fd) != 0)
-        st = fail(E_OUTPUT, "%s: cannot fsync: %s", path, strerror(errno));
-    if (close(fd) != 0 && st == OK)
-        st = fail(E_OUTPUT, "%s: cannot close: %s", path, strerror(errno));
-    if (st == OK && rename(temporary.text, path) != 0)
-        st = fail(E_OUTPUT, "%s: cannot rename into place: %s", path, strerror(errno));
-    if (st != OK) {
-        unlink(temporary.text);
-        return st;
-    }
-    return fsync_folder_of(path);
+    struct draft d;
+    status st = atomic_file_begin(path, &d);
+    if (st == OK)
+        st = draft_append(&d, bytes, n);
+    if (st == OK)
+        return atomic_file_finish(&d);
+    draft_drop(&d);
+    return st;
 }
 
 status atomic_file_adopt(const char *temporary, const char *path)

@@ -8,11 +8,19 @@
 
 #include <stddef.h>
 
+#include "base/draft.h"
 #include "base/path.h"
 #include "base/status.h"
 
 /* Writes n bytes to `path`. E_OUTPUT: the message has the path, the bytes written and the system's reason. */
 MUST_USE status atomic_file_write(const char *path, const void *bytes, size_t n);
+
+/* Begins a file that is written bit by bit. End it with atomic_file_finish(), or give it up with draft_drop(), which is harmless after
+ * both. E_OUTPUT. */
+MUST_USE status atomic_file_begin(const char *path, struct draft *out);
+
+/* Syncs the file and moves it into place. Drops the draft, also on an error. */
+MUST_USE status atomic_file_finish(struct draft *draft);
 
 /* Creates the folder `path` and its parents. E_OUTPUT if that fails or the path is not a folder. */
 MUST_USE status folder_make(const char *path);

@@ -29,7 +29,8 @@ static void describe_memory(const struct model_estimate *e, const struct gpu *gp
     if (gpu)
         json_integer(t, "device_free_bytes", (int64_t)m->there.device);
     json_integer(t, "host_bytes", (int64_t)e->host_bytes);
-    json_integer(t, "frames_in_memory", e->one_frame ? 1 : 2);
+    static const char *const paces[PACES] = {"overlap", "alternate", "stream"};
+    json_text(t, "frame_pace", paces[e->pace]);
     json_integer(t, "process_bytes", (int64_t)m->process);
     json_integer(t, "host_free_bytes", (int64_t)m->host_free);
 }
@@ -47,7 +48,7 @@ static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *a
     struct memory memory = {.process = run_memory_process(gpu, &e), .host_free = memory_available()};
     if (gpu) {
         memory.there = run_memory_available(gpu);
-        memory.fits = run_memory_fits(memory.there, run_memory_needed(gpu, &e));
+        memory.fits = run_memory_fits(memory.there, run_memory_needed(gpu, &e, PACE_STREAM));
     }
     TRY(plan_frame_times(asked, gpu, f, &time));
     TRY(farm_graph(f));

@@ -6,20 +6,6 @@
 #include "base/memory.h"
 #include "field/field.h"
 
-/* Bricks whose means are transferred at a time. */
-enum { TOGETHER = 2048 };
-
-static size_t chunk_of(size_t count, size_t first)
-{
-    return (count - first < TOGETHER ? count - first : TOGETHER) * BRICK_SAMPLES;
-}
-
-/* Transfer buffer for the means of a few bricks. */
-static status chunk_create(size_t count, float **out)
-{
-    return memory_alloc(FIELD_MEANS * chunk_of(count, 0), sizeof **out, "field means", out);
-}
-
 /* ---- download */
 
 static status download_bricks(struct gpu *gpu, const struct field *f, struct frame_grids *out)
@@ -36,40 +22,31 @@ done:
     return st;
 }
 
-/* The grids of the means' four components; NULL: not wanted. */
-struct mean_grids {
-    float *value[FIELD_MEANS];
-};
-
-/* Downloads all components together, so that the means are transferred once. */
-static status download_means(struct gpu *gpu, const struct field *f, const struct mean_grids *to)
+/* A vector's components are computed one after the other. */
+static status read_vector(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which,
+                          size_t n, float *out)
 {
     status st = OK;
-    float *chunk = NULL;
-    TRY(chunk_create(f->n_bricks, &chunk));
-    for (size_t first = 0; first < f->n_bricks; first += TOGETHER) {
-        const size_t n = chunk_of(f->n_bricks, first);
-        TRY(gpu_download(gpu, f->means, first * BRICK_SAMPLES, chunk, n));
-        for (size_t c = 0; c < FIELD_MEANS; c++)
-            for (size_t i = 0; to->value[c] && i < n; i++)
-                to->value[c][first * BRICK_SAMPLES + i] = chunk[FIELD_MEANS * i + c];
+    float *plane = NULL;
+    TRY(memory_alloc(n, sizeof *plane, value_table[which].name, &plane));
+    for (int c = 0; c < 3 && p->field[value_field[which]]; c++) {
+        field_around(gpu, f, p, which, c);
+        TRY(gpu_download(gpu, f->other, 0, plane, n));
+        for (size_t i = 0; i < n; i++)
+            out[3 * i + (size_t)c] = plane[i];
     }
 done:
-    free(chunk);
+    free(plane);
     return st;
 }
 
-/* Downloads a grid that is not one of the means. */
-static status download_value(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which,
-                             float *out)
+/* Once the distances have been computed, `other` is free for values that are not in a buffer of their own. */
+status field_read(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which, float *out)
 {
     status st = OK;
     const size_t n = f->n_bricks * BRICK_SAMPLES;
-    float *plane = NULL;
     if (n == 0)
         return OK;
-    if (value_table[which].from == FROM_AROUND)
-        TRY(memory_alloc(n, sizeof *plane, value_table[which].name, &plane));
     switch (value_table[which].from) {
     case FROM_DISTANCE:
         return gpu_download(gpu, f->distance, 0, out, n);
@@ -77,21 +54,17 @@ static status download_value(struct gpu *gpu, struct field *f, struct particles 
         TRY(gpu_download(gpu, f->share, 0, out, n));
         for (size_t i = 0; i < n; i++)
             out[i] = fminf(out[i], 1);
-        break;
+        return OK;
     case FROM_AROUND:
-        for (int c = 0; c < 3 && p->field[value_field[which]]; c++) {
-            field_around(gpu, f, p, which, c);
-            TRY(gpu_download(gpu, f->other, 0, plane, n));
-            for (size_t i = 0; i < n; i++)
-                out[3 * i + (size_t)c] = plane[i];
-        }
+        return read_vector(gpu, f, p, which, n, out);
+    case FROM_MEANS:
+        field_one_mean(gpu, f, field_mean(which));
         break;
-    default: /* means over the surface particles; `other` is free after the distances have been computed */
+    default: /* means over the surface particles */
         field_skin(gpu, f, p, which);
-        TRY(gpu_download(gpu, f->other, 0, out, n));
     }
+    TRY(gpu_download(gpu, f->other, 0, out, n));
 done:
-    free(plane);
     return st;
 }
 
@@ -102,11 +75,9 @@ static bool makes(enum value_id which, unsigned has)
     return (v->where & IN_VOLUMES) && (v->has & has) && v->from != FROM_AIR && v->from != FROM_TERRAIN;
 }
 
-status field_download(struct gpu *gpu, struct field *f, struct particles *p, unsigned has,
-                      struct frame_grids *out)
+status field_grids(struct gpu *gpu, const struct field *f, unsigned has, struct frame_grids *out)
 {
     status st = OK;
-    struct mean_grids means = {0};
     struct grid_lattice lattice = {.voxel = f->voxel};
     memcpy(lattice.n, f->n, sizeof lattice.n);
     memcpy(lattice.origin, f->origin, sizeof lattice.origin);
@@ -114,17 +85,9 @@ status field_download(struct gpu *gpu, struct field *f, struct particles *p, uns
     TRY(download_bricks(gpu, f, out));
     for (int v = 1; v < VALUES; v++) {
         struct frame_grid *grid;
-        if (!makes((enum value_id)v, has))
-            continue;
-        TRY(frame_grids_add(out, (enum value_id)v, &grid));
-        TRY(memory_alloc(f->n_bricks * BRICK_SAMPLES, (size_t)grid->components * sizeof *grid->value,
-                         grid->name, &grid->value));
-        if (field_mean((enum value_id)v) >= 0)
-            means.value[field_mean((enum value_id)v)] = grid->value;
-        else
-            TRY(download_value(gpu, f, p, (enum value_id)v, grid->value));
+        if (makes((enum value_id)v, has))
+            TRY(frame_grids_add(out, (enum value_id)v, &grid));
     }
-    TRY(download_means(gpu, f, &means));
 done:
     if (st != OK)
         frame_grids_free(out);
@@ -133,12 +96,20 @@ done:
 
 /* ---- upload */
 
+/* Bricks whose means are transferred at a time. */
+enum { TOGETHER = 2048 };
+
+static size_t chunk_of(size_t count, size_t first)
+{
+    return (count - first < TOGETHER ? count - first : TOGETHER) * BRICK_SAMPLES;
+}
+
 /* Uploads the means from the grids that exist. */
 static status upload_means(struct gpu *gpu, struct field *f, const struct frame_grids *grids)
 {
     status st = OK;
     float *chunk = NULL;
-    TRY(chunk_create(f->n_bricks, &chunk));
+    TRY(memory_alloc(FIELD_MEANS * chunk_of(f->n_bricks, 0), sizeof *chunk, "field means", &chunk));
     for (size_t first = 0; first < f->n_bricks; first += TOGETHER) {
         const size_t n = chunk_of(f->n_bricks, first);
         memset(chunk, 0, FIELD_MEANS * n * sizeof *chunk);

@@ -229,7 +229,7 @@ done:
     return st;
 }
 
-void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which)
+void field_skin(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which)
 {
     const struct field_params k = params_of(f, p);
     if (k.n)
@@ -237,11 +237,18 @@ void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum valu
                 p->field[value_field[which]], f->list, f->share, f->other);
 }
 
-void field_around(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which, int component)
+void field_around(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which, int component)
 {
     struct field_params k = params_of(f, p);
     k.component = (uint)component;
     if (k.n)
         GPU_RUN(gpu, field_vector, k.n, k, p->held.words, p->start, p->field[value_field[which]], f->list,
                 f->share, f->other);
+}
+
+void field_one_mean(struct gpu *gpu, struct field *f, int component)
+{
+    const struct field_params k = {.n = (uint)(f->n_bricks * BRICK_SAMPLES), .component = (uint)component};
+    if (k.n)
+        GPU_RUN(gpu, field_component, k.n, k, f->means, f->other);
 }

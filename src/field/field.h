@@ -64,17 +64,23 @@ MUST_USE status field_upload(struct gpu *gpu, struct field *f, const struct fram
 MUST_USE status field_keep(struct gpu *gpu, struct field *f, size_t n);
 
 /* Writes to `other` the average of a particle value over nearby surface particles. Records only. */
-void field_skin(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which);
+void field_skin(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which);
 
 /* Writes to `other` the average of a component of a particle vector over all nearby particles. Records only. */
-void field_around(struct gpu *gpu, struct field *f, struct particles *p, enum value_id which, int component);
+void field_around(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which, int component);
 
 /* The component of `means` that holds a value; -1: none. */
 int field_mean(enum value_id value);
 
-/* Makes the volume grids of all values that the field and the particles provide, given what the frame `has` (HAS_*, values.def), in the
- * field's bricks. Free with frame_grids_free(). Waits for the device. E_MEMORY. */
-MUST_USE status field_download(struct gpu *gpu, struct field *f, struct particles *p, unsigned has,
-                               struct frame_grids *out);
+/* Writes to `other` one of the means (field_mean()). Records only. */
+void field_one_mean(struct gpu *gpu, struct field *f, int component);
+
+/* Lists the volume grids of all values that the field and the particles provide, given what the frame `has` (HAS_*, values.def), in the
+ * field's bricks and without samples. Free with frame_grids_free(). Waits for the device. E_MEMORY. */
+MUST_USE status field_grids(struct gpu *gpu, const struct field *f, unsigned has, struct frame_grids *out);
+
+/* The samples of one of these grids: [n_bricks * 512], of vectors three each. Uses `other`. Waits for the device. E_MEMORY. */
+MUST_USE status field_read(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which,
+                           float *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* Host memory that frames take. Two frames are in memory at a time, because one is written while the next one is made. */
+/* Host memory that frames take. */
 #ifndef HOODOO_FRAME_HOST_H
 #define HOODOO_FRAME_HOST_H
 
@@ -11,12 +11,24 @@ uint64_t host_rock_bytes(size_t n);
  * voxels are rock and `bare` of them are at its surface. */
 uint64_t host_grid_samples(const int voxels[3], uint64_t rock, uint64_t bare);
 
-/* Bytes of one frame of the job whose grids have `samples` samples each; `own` are the bytes that only frames of its model have. */
-uint64_t host_frame_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
-                          uint64_t own);
+/* How frames are made and written. Each pace takes less memory than the one before it, and more time. */
+enum frame_pace {
+    PACE_OVERLAP,   /* a frame is written while the next one is made, so two are in memory */
+    PACE_ALTERNATE, /* each is written before the next one is made */
+    PACE_STREAM,    /* likewise, and the samples of volumes are read from the device grid by grid while they are written */
+    PACES
+};
 
-/* The most that frames take: one that is being written and one that is being made. Within a tenth of measurements. */
-uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, uint64_t samples,
-                           uint64_t own, const struct disk_frame *files);
+/* The grids of a frame, and what else only frames of its model have. */
+struct host_frame {
+    uint64_t samples; /* of each grid */
+    size_t grids;     /* floats per sample, of all grids */
+    size_t kept;      /* floats per sample of grids that are in memory while others are streamed */
+    uint64_t own;     /* bytes */
+};
+
+/* The most that frames take at a pace. Within a tenth of measurements. */
+uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size,
+                           const struct host_frame *frame, enum frame_pace pace);
 
 #endif

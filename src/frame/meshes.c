@@ -119,7 +119,7 @@ static status write_files(const struct meshes *m, bool rocks, int frame, struct 
     status st = OK;
     char comment[400];
     struct text text = {0};
-    struct vdb_bytes usd = {0};
+    struct draft usd = {0};
     struct recipe recipe = m->recipe;
     TRY(recipe_of_frame(&recipe, m->job->name, frame));
     snprintf(comment, sizeof comment, "hoodoo %s: %.255s, frame %d; metres, %s up", hoodoo_version,
@@ -140,7 +140,7 @@ static status write_files(const struct meshes *m, bool rocks, int frame, struct 
     TRY(put(&recipe, m, FILE_MESH_USD, rocks, usd.bytes, usd.size));
 done:
     text_free(&text);
-    free(usd.bytes);
+    draft_drop(&usd);
     return st;
 }
 

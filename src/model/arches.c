@@ -37,6 +37,7 @@ struct arches {
     int n_materials;
     struct stacks stacks;
     struct pile_tile tile;
+    struct terrain_view view; /* of a frame, until release() */
 };
 
 static struct arches *of(struct model *m)
@@ -142,21 +143,27 @@ static status step(struct model *m)
 
 /* ---- what a frame shows */
 
-/* Moves the view's ratios to the frame's grids, which have the same bricks. */
-static status move_ratios(struct terrain_view *v, struct frame_grids *grids)
+/* The shares of the ground's materials. */
+static status add_ratios(struct frame_grids *grids)
 {
     status st = OK;
-    for (int m = MATERIAL_BEDROCK; m < MATERIALS_OWN; m++)
-        for (int value = 1; value < VALUES; value++) {
-            struct frame_grid *grid;
-            if (value_material[value] != m)
-                continue;
+    struct frame_grid *grid;
+    for (int value = 1; value < VALUES; value++)
+        if (value_table[value].from == FROM_TERRAIN)
             TRY(frame_grids_add(grids, (enum value_id)value, &grid));
-            grid->value = v->ratio[m - MATERIAL_BEDROCK];
-            v->ratio[m - MATERIAL_BEDROCK] = NULL;
-        }
 done:
     return st;
+}
+
+static status read_terrain(struct model *m, enum value_id which, float *out)
+{
+    terrain_ratio(&of(m)->view, value_material[which], out);
+    return OK;
+}
+
+static void release(struct model *m)
+{
+    terrain_view_free(&of(m)->view);
 }
 
 /* Samples the terrain and makes the files' content from the samples. */
@@ -164,36 +171,33 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
 {
     status st = OK;
     struct model *m = &t->m;
-    struct particles p = {0};
-    struct terrain_view v = {
+    struct terrain_view *v = &t->view;
+    *v = (struct terrain_view){
         .job = m->job, .stacks = &t->stacks, .n_materials = t->n_materials, .voxel = m->field.voxel};
-    memcpy(v.n, m->field.n, sizeof v.n);
-    memcpy(v.origin, m->field.origin, sizeof v.origin);
+    memcpy(v->n, m->field.n, sizeof v->n);
+    memcpy(v->origin, m->field.origin, sizeof v->origin);
     gpu_stage(m->gpu, "surface");
-    TRY(terrain_sample(&v));
-    TRY(particles_create(m->gpu, m->work, &v.rock, DERIVED, m->voxels, m->h, &p));
-    p.walls = job_walls(m->job);
-    m->shown = &p;
-    rock_free(&v.rock);
+    TRY(terrain_sample(v));
+    TRY(particles_create(m->gpu, m->work, &v->rock, DERIVED, m->voxels, m->h, &m->made));
+    m->made.walls = job_walls(m->job);
+    m->shown = &m->made;
+    rock_free(&v->rock);
     gpu_stage(m->gpu, "field");
-    const struct field_share known = {v.bricks.count, v.bricks.number, v.bricks.slot, v.share};
-    TRY(field_build_share(m->gpu, &m->field, &p, &known));
-    free(v.share);
-    v.share = NULL;
+    const struct field_share known = {v->bricks.count, v->bricks.number, v->bricks.slot, v->share};
+    TRY(field_build_share(m->gpu, &m->field, &m->made, &known));
+    free(v->share);
+    v->share = NULL;
     if (wants.points)
-        TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
+        TRY(particles_download(m->gpu, &m->made, DERIVED, &out->rock));
     if (wants.volumes) {
-        TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
-        TRY(move_ratios(&v, &out->grids));
+        TRY(model_grids(m, HAS_ALWAYS, &out->grids));
+        TRY(add_ratios(&out->grids));
     }
     if (wants.pictures) {
         gpu_stage(m->gpu, "pictures");
-        TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &p, NULL, out));
+        TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &m->made, NULL, out));
     }
 done:
-    m->shown = NULL;
-    particles_destroy(m->gpu, &p);
-    terrain_view_free(&v);
     return st;
 }
 
@@ -346,8 +350,8 @@ static status estimate(const struct job *job, struct model_needs *needs)
     needs->size.n_surface = needs->size.n_near = needs->size.n_kept = needs->capacity =
         needs->size.n_particles;
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
-    needs->samples = host_grid_samples(n, 0, needs->size.n_surface);
-    needs->frame_bytes = value_grids(HAS_TERRAIN) * needs->samples * sizeof(float);
+    needs->frame.samples = host_grid_samples(n, 0, needs->size.n_surface);
+    needs->frame.grids = value_grids(HAS_TERRAIN);
     /* Sorting the rock on the device needs an extra vector and word per particle. */
     needs->device_bytes = 20 * needs->size.n_particles;
     /* The samples of a frame are freed before the frame is complete, so only the stacks count. */
@@ -371,5 +375,7 @@ const struct model_type arches_type = {
     .destroy = destroy,
     .step = step,
     .output = output,
+    .read_terrain = read_terrain,
+    .release = release,
     .save = save,
 };

@@ -600,7 +600,7 @@ static status output(struct model *m, struct frame *out)
     }
     if (wants.volumes) {
         TRY(rocks_on_deposits(m->job, &out->rock, &a->tile, &out->rocks));
-        TRY(field_download(m->gpu, &m->field, &a->particles, has, &out->grids));
+        TRY(model_grids(m, has, &out->grids));
         if (!m->field.whole)
             TRY(inside_values(m->gpu, &a->elastic, &out->grids));
     }

@@ -68,11 +68,12 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     const unsigned has = arenite_has(job, water_ever_flows(job), plants_wanted(job) || edits_plant(job),
                                      arenite_ever(job, deposit_wanted), job_keeps_exposed(job));
     needs->device_bytes = device_bytes(job, needs->voxels, &needs->size, needs->capacity);
-    needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
+    needs->frame.samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     const uint64_t ages = job_keeps_exposed(job) ? n : 0;
-    needs->frame_bytes = (value_grids(has) - value_grids(HAS_ALWAYS)) * needs->samples * sizeof(float) +
-                         ages * rock_field_size(ROCK_exposed_kyr) +
-                         (job_seeps(job) ? n * rock_field_size(ROCK_seepage) : 0);
+    needs->frame.grids = value_grids(has) - value_grids(HAS_ALWAYS);
+    needs->frame.kept = arenite_uses_stress_grid(job) ? 2 : 0; /* see inside_values() */
+    needs->frame.own = ages * rock_field_size(ROCK_exposed_kyr) +
+                       (job_seeps(job) ? n * rock_field_size(ROCK_seepage) : 0);
     needs->disk = (struct disk_particle){
         .inside = 15.5, .bare = 45, .volumes_inside = 2.2, .volumes_bare = 88, .channel = 1.9, .has = has};
     needs->checkpoint_bytes = 15 * (uint64_t)n + ages + held_words(needs->voxels) / 4 +

@@ -159,7 +159,7 @@ static status show(struct goblins *g, struct frame_wants wants, struct particles
     if (wants.points)
         TRY(particles_download(g->m.gpu, p, DERIVED, &out->rock));
     if (wants.volumes) {
-        TRY(field_download(g->m.gpu, &g->m.field, p, HAS_ALWAYS, &out->grids));
+        TRY(model_grids(&g->m, HAS_ALWAYS, &out->grids));
         TRY(inside_values(g->m.gpu, &g->elastic, &out->grids));
     }
     if (wants.pictures) {
@@ -178,7 +178,6 @@ static status output(struct model *m, struct frame *out)
     size_t n = voxel_count(m->voxels);
     float *share = NULL, *factor = NULL;
     struct rock rock = {0};
-    struct particles p = {0};
     gpu_stage(m->gpu, "surface");
     TRY(memory_alloc(n, sizeof *share, "voxels", &share));
     TRY(memory_alloc(n, sizeof *factor, "voxels", &factor));
@@ -187,17 +186,15 @@ static status output(struct model *m, struct frame *out)
     if (!wants.points && !wants.volumes && !wants.pictures)
         goto done;
     TRY(make_rock(g, share, factor, &rock));
-    TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels, m->h, &p));
-    p.walls = job_walls(m->job);
-    m->shown = &p;
-    TRY(gpu_upload(m->gpu, p.field[ROCK_erodibility], 0, rock.erodibility, rock.n));
-    TRY(show(g, wants, &p, out));
+    TRY(particles_create(m->gpu, m->work, &rock, STATE, m->voxels, m->h, &m->made));
+    m->made.walls = job_walls(m->job);
+    m->shown = &m->made;
+    TRY(gpu_upload(m->gpu, m->made.field[ROCK_erodibility], 0, rock.erodibility, rock.n));
+    TRY(show(g, wants, &m->made, out));
 done:
     free(share);
     free(factor);
     rock_free(&rock);
-    m->shown = NULL;
-    particles_destroy(m->gpu, &p);
     return st;
 }
 
@@ -353,7 +350,8 @@ static status estimate(const struct job *job, struct model_needs *needs)
                                                : 0);
     /* Frames are made from the voxels and the particles made of them. */
     needs->host_bytes = state + host_rock_bytes(needs->size.n_particles);
-    needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
+    needs->frame.kept = job->goblins.stress ? 2 : 0; /* see inside_values() */
+    needs->frame.samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     needs->disk = job->goblins.stress ? stressed : bare;
     needs->checkpoint_bytes = (uint64_t)(0.1 * (double)state);
     needs->steps = cycles(job);

@@ -135,6 +135,7 @@ status inside_values(struct gpu *gpu, struct elastic *e, struct frame_grids *gri
     struct frame_grid *stress = named(grids, VALUE_stress), *mises = named(grids, VALUE_von_mises),
                       *viability = named(grids, VALUE_viability);
     const struct frame_grid *density = named(grids, VALUE_density);
+    float *share = NULL;
     const size_t n = (size_t)grids->bricks.n[0] * (size_t)grids->bricks.n[1] * (size_t)grids->bricks.n[2];
     if (viability) /* no rock was removed there */
         viability->inside = 1;
@@ -142,11 +143,15 @@ status inside_values(struct gpu *gpu, struct elastic *e, struct frame_grids *gri
         return OK;
     TRY(memory_alloc(n, sizeof *stress->deep, "stress inside", &stress->deep));
     TRY(memory_alloc(n, sizeof *mises->deep, "stress inside", &mises->deep));
+    TRY(frame_grid_read(grids, stress));
+    TRY(frame_grid_read(grids, mises));
+    TRY(grids->source.read(grids->source.user, density, &share));
     TRY(asking_begin(gpu, e, &a));
-    TRY(ask_samples(&a, grids, density->value, stress->value, mises->value));
+    TRY(ask_samples(&a, grids, share, stress->value, mises->value));
     TRY(ask_bricks(&a, grids, n, stress->deep, mises->deep));
     TRY(answer(&a));
 done:
     asking_end(&a);
+    free(share);
     return st;
 }

@@ -1,5 +1,6 @@
 /* Values of a frame's volumes deep inside the rock, where there may be no particles. Viability is 1 there. Stress and von Mises stress come
- * from the stress grid, at the samples of kept bricks, and one value for each brick that is not kept. */
+ * from the stress grid, at the samples of kept bricks, and one value for each brick that is not kept; their samples are in memory
+ * afterwards. */
 #ifndef HOODOO_INSIDE_H
 #define HOODOO_INSIDE_H
 

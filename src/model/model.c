@@ -27,16 +27,18 @@ static const struct model_type *type_of(const struct job *job)
 
 /* ---- the estimate */
 
-/* Chooses how many frames output.memory_GB allows in memory at a time: two, or only one. */
-static status fit_memory_budget(const struct job *job, struct model_estimate *e)
+/* Bytes of host memory that frames may take if the job does not say. */
+static const double AUTOMATIC = 2e9;
+
+/* Chooses the fastest pace that output.memory_GB allows. */
+static status choose_pace(const struct job *job, struct model_estimate *e)
 {
-    const double most = job->output.memory_GB * 1e9;
-    if (most <= 0 || (double)e->host_bytes <= most)
-        return OK;
-    e->one_frame = true;
-    e->host_bytes -= e->overlap_bytes;
-    e->overlap_bytes = 0;
-    if ((double)e->host_bytes <= most)
+    const double most = job->output.memory_GB > 0 ? job->output.memory_GB * 1e9 : AUTOMATIC;
+    e->pace = PACE_OVERLAP;
+    while (e->pace < PACE_STREAM && (double)e->host_at[e->pace] > most)
+        e->pace++;
+    e->host_bytes = e->host_at[e->pace];
+    if (job->output.memory_GB <= 0 || (double)e->host_bytes <= most)
         return OK;
     return fail(
         E_USAGE,
@@ -57,19 +59,61 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     out->n_particles = n;
     out->device_bytes = needs.device_bytes + gpu_work_bytes(type->work_items(job, out->voxels)) +
                         particles_bytes(needs.capacity, out->voxels) +
-                        field_bytes(out->voxels, needs.samples) + aov_bytes(aov_pixels(job));
+                        field_bytes(out->voxels, needs.frame.samples) + aov_bytes(aov_pixels(job));
     out->disk = disk_frame(job, &needs.size, &needs.disk);
     out->disk.other += needs.disk_other;
-    out->host_bytes =
-        needs.host_bytes + host_frames_bytes(job, &needs.size, needs.samples, needs.frame_bytes, &out->disk);
-    out->overlap_bytes = host_frame_bytes(job, &needs.size, needs.samples, needs.frame_bytes);
+    needs.frame.grids += value_grids(HAS_ALWAYS);
+    for (int p = 0; p < PACES; p++)
+        out->host_at[p] =
+            needs.host_bytes + host_frames_bytes(job, &needs.size, &needs.frame, (enum frame_pace)p);
     out->checkpoint_bytes = needs.checkpoint_bytes;
     out->steps = needs.steps;
     out->kernels = needs.kernels;
-    TRY(fit_memory_budget(job, out));
+    TRY(choose_pace(job, out));
 done:
     free(needs.size.point);
     return st;
+}
+
+/* ---- grids whose samples are on the device */
+
+static status read_grid(void *user, const struct frame_grid *grid, float **out)
+{
+    status st = OK;
+    struct model *m = user;
+    const enum value_id which = value_of_name(grid->name);
+    float *value = NULL;
+    TRY(memory_alloc(m->field.n_bricks * BRICK_SAMPLES, (size_t)grid->components * sizeof *value, grid->name,
+                     &value));
+    TRY(value_table[which].from == FROM_TERRAIN ? m->type->read_terrain(m, which, value)
+                                                : field_read(m->gpu, &m->field, m->shown, which, value));
+    *out = value;
+    value = NULL;
+done:
+    free(value);
+    return st;
+}
+
+status model_grids(struct model *m, unsigned has, struct frame_grids *out)
+{
+    const status st = field_grids(m->gpu, &m->field, has, out);
+    out->source = (struct grid_source){m, read_grid};
+    return st;
+}
+
+void model_stream(struct model *m)
+{
+    m->streams = true;
+}
+
+/* Frees what the last frame's grids are read from. */
+static void release(struct model *m)
+{
+    if (m->type->release)
+        m->type->release(m);
+    if (m->shown == &m->made)
+        m->shown = NULL;
+    particles_destroy(m->gpu, &m->made);
 }
 
 /* ---- the state */
@@ -187,6 +231,7 @@ void model_destroy(struct model **handle)
     if (!m)
         return;
     gpu_watch(m->gpu, NULL, NULL);
+    release(m);
     m->type->destroy(m);
     gpu_buffer_destroy(m->gpu, &m->found);
     aov_destroy(m->gpu, &m->aov);
@@ -201,6 +246,7 @@ status model_save(struct model *m, struct checkpoint *out)
 {
     status st = OK;
     *out = (struct checkpoint){.frame = m->frame, .years = m->years};
+    release(m);
     gpu_stage(m->gpu, "checkpoint");
     TRY(section_add_domain(out, m->job));
     TRY(m->type->save(m, out));
@@ -221,6 +267,7 @@ status model_step(struct model *m)
 {
     status st = OK;
     const bool budgets = job_has_processes(m->job);
+    release(m);
     m->frame++;
     m->job = job_at(m->whole, m->frame);
     m->years += m->job->clock.years_per_frame;
@@ -244,17 +291,23 @@ static void note_size(const struct model *m)
 
 status model_output(struct model *m, struct frame *out)
 {
+    status st = OK;
     *out = (struct frame){
         .number = m->frame, .years = m->years, .ledger = m->ledger, .start_volume_m3 = m->start_volume};
     for (int p = 0; p < PROCESSES; p++)
         if (job_has_process(m->job, (enum process)p))
             out->change[out->n_changes++] =
                 (struct frame_change){job_processes[p].name, budget_m3(m->change[p], m->h)};
-    status st = m->type->output(m, out);
+    release(m);
+    TRY(m->type->output(m, out));
+    note_size(m);
+    for (size_t g = 0; g < out->grids.n_grids && !m->streams; g++)
+        TRY(frame_grid_read(&out->grids, &out->grids.grid[g]));
+done:
     if (st != OK)
         frame_free(out);
-    else
-        note_size(m);
+    if (st != OK || !m->streams)
+        release(m);
     return st;
 }
 

@@ -8,6 +8,7 @@
 
 #include "checkpoint/checkpoint.h"
 #include "frame/disk.h"
+#include "frame/host.h"
 #include "gpu/gpu.h"
 #include "job/job.h"
 #include "particles/frame.h"
@@ -19,17 +20,16 @@ struct model_estimate {
     size_t n_particles;
     int voxels[3];
     uint64_t device_bytes;
-    uint64_t host_bytes; /* besides the device's; includes a frame that is written while the next is made */
-    uint64_t
-        overlap_bytes; /* the part of host_bytes that is not needed if each frame is written before the next is made */
-    bool one_frame;         /* output.memory_GB requires that; host_bytes is without overlap_bytes then */
+    enum frame_pace pace;    /* the fastest that output.memory_GB allows */
+    uint64_t host_bytes;     /* besides the device's, at that pace */
+    uint64_t host_at[PACES]; /* the same at each pace */
     struct disk_frame disk; /* of one frame */
     uint64_t checkpoint_bytes;
     double steps; /* of erosion or equilibrium, over all frames */
     int kernels;  /* about how many different kernels run */
 };
 
-/* E_USAGE, E_INPUT: the scene or one of its files is wrong. E_USAGE: one frame takes more than output.memory_GB. */
+/* E_USAGE, E_INPUT: the scene or one of its files is wrong. E_USAGE: streamed frames take more than output.memory_GB. */
 MUST_USE status model_estimate(const struct job *job, struct model_estimate *out);
 
 /* Creates the model at the job's first frame or, if `from` is not NULL, in the state of that checkpoint; E_CHECKPOINT if the checkpoint
@@ -46,6 +46,10 @@ int model_frame(const struct model *model);
 
 /* Makes the current frame in host memory, with what the job writes of it. Free with frame_free(). */
 MUST_USE status model_output(struct model *model, struct frame *out);
+
+/* From now on model_output() leaves the samples of volumes on the device. They are read one grid at a time when the frame is written, which
+ * must be before the model's next function is called. */
+void model_stream(struct model *model);
 
 /* Makes only the pictures of output.aov.cameras, in out->image, even if the job has no pictures of this frame. Their colours include the
  * level ground around the rock, opaque and with the rock's shadow; their other layers do not. Free with frame_free(). */

@@ -23,7 +23,10 @@ void terrain_ledger(const struct stacks *s, const struct material *table, int n_
 enum { TERRAIN_RATIOS = MATERIALS_OWN - MATERIAL_BEDROCK };
 
 /* A frame's samples of the stacks, on the lattice of the surface field (field.h): n samples along each axis from `origin`, `voxel`
- * apart. Kept are the bricks (particles/grids.h) in or near which the surface is, and those inside that are not all bedrock. */
+ * apart. Kept are the bricks (particles/grids.h) in or near which the surface is, and those inside that are not all bedrock.
+ *
+ * Each sample in the ground shows one material, except at the surface, where it may show several: those samples are particles, and only
+ * they have shares of materials. */
 struct terrain_view {
     const struct job *job;
     const struct stacks *stacks;
@@ -31,14 +34,19 @@ struct terrain_view {
     int n[3];
     double origin[3], voxel;
     struct grid_bricks bricks;
-    float *share; /* [bricks * 512]: share of ground, 1/2 on the surface; 0 beyond the lattice */
-    float *ratio
-        [TERRAIN_RATIOS]; /* likewise: shares of the materials from MATERIAL_BEDROCK on, in what shows there */
+    float *share;     /* [bricks * 512]: share of ground, 1/2 on the surface; 0 beyond the lattice */
     struct rock rock; /* one particle for every voxel at the surface; fields that are 0 everywhere are NULL */
+    /* Of what shows at each sample: */
+    uint8_t *found;                    /* [bricks * 512]: the material with the largest share, and flags */
+    size_t *first;                     /* [bricks + 1]: each brick's first particle, in the order of samples */
+    float (*ratio)[TERRAIN_RATIOS];    /* [particles]: shares of the materials from MATERIAL_BEDROCK on */
 };
 
-/* Fills bricks, share, ratio and rock. Free with terrain_view_free(); the caller may take arrays by setting them to NULL. */
+/* Fills bricks, share, rock, found, first and ratio. Free with terrain_view_free(); the caller may free `share` and `rock` before. */
 MUST_USE status terrain_sample(struct terrain_view *v);
+
+/* The share of a material at each sample: [bricks * 512]. Needs neither `share` nor `rock`. */
+void terrain_ratio(const struct terrain_view *v, int material, float *out);
 void terrain_view_free(struct terrain_view *v);
 
 /* The surface to sample (stacks/surface.h): its materials and the width of its filter. */

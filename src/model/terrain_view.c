@@ -98,24 +98,19 @@ static void place_of(const struct terrain_view *v, const int x[3], double p[3])
         p[a] = v->origin[a] + x[a] * v->voxel;
 }
 
-/* Per sample: the material with the largest share, and whether there is a particle. */
-enum { IS_PARTICLE = 0x80, MATERIAL_OF = 0x7f };
+/* Per sample of `found`: the material with the largest share, whether it is ground, and whether there is a particle. */
+enum { IS_PARTICLE = 0x80, IS_GROUND = 0x40, MATERIAL_OF = 0x3f };
 
-static uint8_t look_at(const struct terrain_view *v, const struct surface *s, const struct sample *at)
+/* What is known of a sample from its share alone. */
+static uint8_t find_ground(const struct terrain_view *v, const struct sample *at)
 {
-    float ratio[TERRAIN_RATIOS];
-    double p[3];
+    const float share = v->share[at->at];
     bool side = false;
-    if (v->share[at->at] <= 0)
+    if (share <= 0)
         return 0;
     for (int a = 0; a < 3; a++)
         side |= at->x[a] == FIELD_MARGIN || at->x[a] == v->n[a] - FIELD_MARGIN - 1;
-    const bool band = v->share[at->at] < 1;
-    place_of(v, at->x, p);
-    const uint32_t material = materials_at(s, p, band, ratio);
-    for (int r = 0; r < TERRAIN_RATIOS; r++)
-        v->ratio[r][at->at] = ratio[r];
-    return (uint8_t)(material | (band || side ? IS_PARTICLE : 0));
+    return (uint8_t)(IS_GROUND | (share < 1 || side ? IS_PARTICLE : 0));
 }
 
 /* ---- particles */
@@ -185,43 +180,78 @@ static status sample_all(const struct terrain_view *v, const struct surface *s)
     return st == OK ? OK : fail(st, "%s", why);
 }
 
+/* Finds the ground and counts the particles of each brick. */
+static void find_all(const struct terrain_view *v)
+{
+#pragma omp parallel for schedule(dynamic, 64)
+    for (size_t b = 0; b < v->bricks.count; b++)
+        for (int i = 0; i < BRICK_SAMPLES; i++) {
+            const struct sample at = sample_of(v, b, i);
+            v->found[at.at] = find_ground(v, &at);
+            v->first[b + 1] += (v->found[at.at] & IS_PARTICLE) != 0;
+        }
+    for (size_t b = 0; b < v->bricks.count; b++)
+        v->first[b + 1] += v->first[b];
+}
+
+/* Finds the material of a sample in the ground and, if there is a particle, makes it as number i. */
+static void fill_sample(struct terrain_view *v, const struct surface *s, const struct sample *at, size_t i)
+{
+    float ratio[TERRAIN_RATIOS];
+    double p[3];
+    place_of(v, at->x, p);
+    const uint32_t material = materials_at(s, p, v->share[at->at] < 1, ratio);
+    if (v->found[at->at] & IS_PARTICLE) {
+        memcpy(v->ratio[i], ratio, sizeof ratio);
+        fill_particle(v, s, at, material, i);
+    }
+    v->found[at->at] = (uint8_t)(v->found[at->at] | material);
+}
+
+static void fill_all(struct terrain_view *v, const struct surface *s)
+{
+#pragma omp parallel for schedule(dynamic, 64)
+    for (size_t b = 0; b < v->bricks.count; b++) {
+        size_t particle = v->first[b];
+        for (int i = 0; i < BRICK_SAMPLES; i++) {
+            const struct sample at = sample_of(v, b, i);
+            const bool is_particle = v->found[at.at] & IS_PARTICLE;
+            if (v->found[at.at])
+                fill_sample(v, s, &at, particle);
+            particle += is_particle;
+        }
+    }
+}
+
 status terrain_sample(struct terrain_view *v)
 {
     status st = OK;
     const struct surface s = terrain_surface(v);
-    uint8_t *found = NULL;
-    size_t *first = NULL;
     TRY(terrain_bricks(v, &s));
     const size_t n_bricks = v->bricks.count, n = n_bricks * BRICK_SAMPLES;
     TRY(memory_alloc(n, sizeof *v->share, "the surface", &v->share));
-    for (int r = 0; r < TERRAIN_RATIOS; r++)
-        TRY(memory_alloc(n, sizeof *v->ratio[r], "material ratios", &v->ratio[r]));
-    TRY(memory_alloc(n, sizeof *found, "the surface", &found));
-    TRY(memory_alloc(n_bricks + 1, sizeof *first, "the surface", &first));
+    TRY(memory_alloc(n, sizeof *v->found, "the surface", &v->found));
+    TRY(memory_alloc(n_bricks + 1, sizeof *v->first, "the surface", &v->first));
     TRY(sample_all(v, &s));
-#pragma omp parallel for schedule(dynamic, 64)
-    for (size_t b = 0; b < n_bricks; b++)
-        for (int i = 0; i < BRICK_SAMPLES; i++) {
-            const struct sample at = sample_of(v, b, i);
-            found[at.at] = look_at(v, &s, &at);
-            first[b + 1] += (found[at.at] & IS_PARTICLE) != 0;
-        }
-    for (size_t b = 0; b < n_bricks; b++)
-        first[b + 1] += first[b];
-    TRY(alloc_particles(&v->rock, first[n_bricks]));
-#pragma omp parallel for schedule(dynamic, 64)
-    for (size_t b = 0; b < n_bricks; b++)
-        for (int i = 0; i < BRICK_SAMPLES; i++) {
-            const struct sample at = sample_of(v, b, i);
-            if (found[at.at] & IS_PARTICLE)
-                fill_particle(v, &s, &at, found[at.at] & MATERIAL_OF, first[b]++);
-        }
+    find_all(v);
+    TRY(memory_alloc(v->first[n_bricks], sizeof *v->ratio, "material ratios", &v->ratio));
+    TRY(alloc_particles(&v->rock, v->first[n_bricks]));
+    fill_all(v, &s);
 done:
-    free(found);
-    free(first);
     if (st != OK)
         terrain_view_free(v);
     return st;
+}
+
+void terrain_ratio(const struct terrain_view *v, int material, float *out)
+{
+#pragma omp parallel for schedule(dynamic, 64)
+    for (size_t b = 0; b < v->bricks.count; b++) {
+        size_t from = v->first[b];
+        for (size_t i = b * BRICK_SAMPLES; i < (b + 1) * BRICK_SAMPLES; i++)
+            out[i] = v->found[i] & IS_PARTICLE ? v->ratio[from++][material - MATERIAL_BEDROCK]
+                                               : (v->found[i] & IS_GROUND) && (v->found[i] & MATERIAL_OF) == material;
+    }
 }
 
 void terrain_view_free(struct terrain_view *v)
@@ -231,10 +261,12 @@ void terrain_view_free(struct terrain_view *v)
     v->bricks = (struct grid_bricks){0};
     free(v->share);
     v->share = NULL;
-    for (int r = 0; r < TERRAIN_RATIOS; r++) {
-        free(v->ratio[r]);
-        v->ratio[r] = NULL;
-    }
+    free(v->found);
+    v->found = NULL;
+    free(v->first);
+    v->first = NULL;
+    free(v->ratio);
+    v->ratio = NULL;
     rock_free(&v->rock);
 }
 

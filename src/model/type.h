@@ -6,6 +6,7 @@
 #include "erosion/budget.h"
 #include "field/aov.h"
 #include "field/field.h"
+#include "frame/host.h"
 #include "model/model.h"
 #include "model/numbers.h"
 
@@ -31,6 +32,8 @@ struct model {
     bool only_pictures; /* see model_pictures() */
     const struct particles
         *shown;               /* the rock as particles; NULL while the device does not have it in that form */
+    struct particles made;    /* of a frame, by models whose state is not particles; until model_release() */
+    bool streams;             /* see model_stream() */
     struct gpu_buffer *found; /* numbers.h */
 };
 
@@ -50,8 +53,7 @@ struct model_needs {
     uint64_t disk_other;       /* bytes per frame of files that only this model has */
     size_t capacity;           /* particles for which the device has buffers */
     uint64_t device_bytes;     /* of the model's own buffers */
-    uint64_t samples;          /* of each grid of a frame */
-    uint64_t frame_bytes;      /* host memory of a frame for what only this model's frames have */
+    struct host_frame frame;   /* its `grids` counts only those that not all models have (values.def) */
     uint64_t host_bytes;       /* of the model's own arrays */
     uint64_t checkpoint_bytes;
     double steps;
@@ -86,8 +88,14 @@ struct model_type {
     void (*watch)(const struct model *m, struct watch_list *list);
 
     /* Fills in the frame's volume and stress, and the parts that model_wants() names. Number, years, ledger, start volume and changes are
-     * filled in already. */
+     * filled in already. Grids are begun with model_grids(); what their samples are read from must stay until release(). */
     MUST_USE status (*output)(struct model *m, struct frame *out);
+
+    /* The samples of a grid of terrain (FROM_TERRAIN), which the model has added; may be NULL. */
+    MUST_USE status (*read_terrain)(struct model *m, enum value_id which, float *out);
+
+    /* Frees what output() has kept for the frame's grids, besides `made`; may be NULL. Harmless without a frame. */
+    void (*release)(struct model *m);
 
     /* Adds the model's sections, and calls sections_add_counts(). The section of the domain is there already. */
     MUST_USE status (*save)(struct model *m, struct checkpoint *out);
@@ -96,6 +104,10 @@ struct model_type {
 /* Whether an array that stage `by` writes and stage `before` reads must be checked now: after `by`, and before `before`, a checkpoint or
  * the frame's field. */
 bool watch_between(const struct watch_list *list, const char *by, const char *before);
+
+/* Lists the field's grids (field_grids()). Their samples, and those of grids that the model adds, are read from the model: by
+ * model_output() or, if it streams, when they are written. */
+MUST_USE status model_grids(struct model *m, unsigned has, struct frame_grids *out);
 
 /* The sum of n shares of voxels or particles that are left. */
 double model_sum(const float *left, size_t n);

@@ -53,6 +53,11 @@ status frame_grids_add(struct frame_grids *grids, enum value_id value, struct fr
     return OK;
 }
 
+status frame_grid_read(const struct frame_grids *grids, struct frame_grid *grid)
+{
+    return grid->value ? OK : grids->source.read(grids->source.user, grid, &grid->value);
+}
+
 const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const char *name)
 {
     for (size_t g = 0; g < grids->n_grids; g++)

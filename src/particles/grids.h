@@ -46,7 +46,15 @@ struct frame_grid {
     int components; /* 0 or 1: a scalar. 3: a vector in the simulator's axes, interleaved */
     float inside;   /* the value of inside samples that are not stored; unused in level sets */
     float *deep;    /* [bricks of the lattice]: the same per brick, or NULL; owned by the frame */
-    float *value;   /* [bricks.count * BRICK_SAMPLES * components]; owned by the frame */
+    /* [bricks.count * BRICK_SAMPLES * components], owned by the frame; NULL: not in memory, see struct grid_source */
+    float *value;
+};
+
+/* Where the samples of grids are that are not in memory. */
+struct grid_source {
+    void *user;
+    /* Makes the array of `value`, to be freed with free(). */
+    status (*read)(void *user, const struct frame_grid *grid, float **out);
 };
 
 struct frame_grids {
@@ -54,6 +62,7 @@ struct frame_grids {
     struct grid_bricks bricks;
     size_t n_grids;
     struct frame_grid grid[VALUES];
+    struct grid_source source;
 };
 /* Active voxels in files: in level sets those with |value| < 3 voxels (the background); in other scalar grids those where `density` is not
  * 0; in vector grids those with a vector that is not zero. */
@@ -69,6 +78,9 @@ void frame_grids_choose(struct frame_grids *grids, uint32_t **numbers, size_t n)
 
 /* Adds a grid for this value, not sampled yet; *out stays valid. E_OUTPUT: it exists already, or there are VALUES grids. */
 MUST_USE status frame_grids_add(struct frame_grids *grids, enum value_id value, struct frame_grid **out);
+
+/* Reads the samples of a grid if they are not in memory. */
+MUST_USE status frame_grid_read(const struct frame_grids *grids, struct frame_grid *grid);
 
 /* The grid of that name, or NULL. */
 const struct frame_grid *frame_grid_named(const struct frame_grids *grids, const char *name);

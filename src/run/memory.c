@@ -27,18 +27,21 @@ uint64_t run_memory_process(const struct gpu *gpu, const struct model_estimate *
     return (gpu ? memory_resident() : BEFORE) + process_growth(e);
 }
 
-struct run_memory run_memory_needed_overlapped(const struct gpu *gpu, const struct model_estimate *e)
+struct run_memory run_memory_needed(const struct gpu *gpu, const struct model_estimate *e,
+                                    enum frame_pace pace)
 {
-    if (gpu_info(gpu)->is_cpu)
-        return (struct run_memory){.host = e->device_bytes + e->host_bytes + process_growth(e)};
-    return (struct run_memory){.device = e->device_bytes, .host = e->host_bytes + process_growth(e)};
+    const uint64_t host = e->host_at[pace] + process_growth(e);
+    return gpu_info(gpu)->is_cpu ? (struct run_memory){.host = host + e->device_bytes}
+                                 : (struct run_memory){.device = e->device_bytes, .host = host};
 }
 
-struct run_memory run_memory_needed(const struct gpu *gpu, const struct model_estimate *e)
+enum frame_pace run_memory_pace(const struct gpu *gpu, const struct model_estimate *e)
 {
-    struct run_memory out = run_memory_needed_overlapped(gpu, e);
-    out.host -= e->overlap_bytes;
-    return out;
+    const struct run_memory available = run_memory_available(gpu);
+    enum frame_pace pace = e->pace;
+    while (pace < PACE_STREAM && !run_memory_fits(available, run_memory_needed(gpu, e, pace)))
+        pace++;
+    return pace;
 }
 
 bool run_memory_fits(struct run_memory available, struct run_memory needed)
@@ -59,7 +62,7 @@ static bool would_fit(const struct gpu *gpu, const struct job *job, double spaci
     struct job coarser = *job;
     struct model_estimate e;
     coarser.domain.spacing_m = spacing;
-    return model_estimate(&coarser, &e) == OK && run_memory_fits(available, run_memory_needed(gpu, &e));
+    return model_estimate(&coarser, &e) == OK && run_memory_fits(available, run_memory_needed(gpu, &e, PACE_STREAM));
 }
 
 /* About the smallest spacing above the job's own at which it fits, found by doubling and bisection; 0 if it does not fit even with two
@@ -96,7 +99,7 @@ status run_memory_check(const struct gpu *gpu, const struct job *job, struct mod
     char device[400] = "", host[32], free_host[32], free_device[32],
          advice[64] = "no domain.spacing_m would fit";
     status st = model_estimate(job, out);
-    struct run_memory available = run_memory_available(gpu), needed = run_memory_needed(gpu, out);
+    struct run_memory available = run_memory_available(gpu), needed = run_memory_needed(gpu, out, PACE_STREAM);
     if (st != OK || run_memory_fits(available, needed))
         return st;
     if (!info->is_cpu)

@@ -18,12 +18,12 @@ struct run_memory run_memory_available(const struct gpu *gpu);
  * opened. */
 uint64_t run_memory_process(const struct gpu *gpu, const struct model_estimate *estimate);
 
-/* The least that the job needs from now on, when each frame is written before the next one is made. Memory that the process already
- * holds is not included. */
-struct run_memory run_memory_needed(const struct gpu *gpu, const struct model_estimate *estimate);
+/* What the job needs from now on at a pace; the least is at PACE_STREAM. Memory that the process already holds is not included. */
+struct run_memory run_memory_needed(const struct gpu *gpu, const struct model_estimate *estimate,
+                                    enum frame_pace pace);
 
-/* The same when each frame is written while the next one is made. */
-struct run_memory run_memory_needed_overlapped(const struct gpu *gpu, const struct model_estimate *estimate);
+/* The fastest pace that the estimate allows and for which there is memory; PACE_STREAM if there is none. */
+enum frame_pace run_memory_pace(const struct gpu *gpu, const struct model_estimate *estimate);
 
 bool run_memory_fits(struct run_memory available, struct run_memory needed);
 

@@ -42,7 +42,7 @@ struct run {
     size_t n_done;
     bool any_frames; /* the folder has frames, requested or not */
     int start_frame; /* the frame at which the model was created or restored */
-    bool blocking;   /* memory does not hold a frame being made and one being written */
+    enum frame_pace pace;
 };
 
 /* ---- what the folder has */
@@ -381,10 +381,11 @@ static status check_memory(struct run *r)
         return st;
     log_info("about %zu particles, %.2f GB on %s (%s)", e.n_particles, (double)e.device_bytes / 1e9,
              info->name, info->driver);
-    r->blocking = e.one_frame ||
-                  !run_memory_fits(run_memory_available(r->gpu), run_memory_needed_overlapped(r->gpu, &e));
-    if (r->blocking)
+    r->pace = run_memory_pace(r->gpu, &e);
+    if (r->pace == PACE_ALTERNATE)
         log_info("memory holds one frame at a time: each is written before the next is made");
+    if (r->pace == PACE_STREAM)
+        log_info("frames are streamed: volumes are read from the device grid by grid while they are written");
     return OK;
 }
 
@@ -420,9 +421,11 @@ static status begin(struct run *r)
                  range_count(r->frames));
     TRY(model_create(r->gpu, r->job, found ? &c : NULL, &r->model));
     r->start_frame = model_frame(r->model);
+    if (r->pace == PACE_STREAM)
+        model_stream(r->model);
     /* Only now, so that a job whose scene is refused does not claim the folder. */
     TRY(provenance_write(&r->provenance, r->gpu, r->job, r->job_hash, r->options->root));
-    TRY(writer_create(r->job, r->job_hash, r->options->root, r->blocking, &r->writer));
+    TRY(writer_create(r->job, r->job_hash, r->options->root, r->pace != PACE_OVERLAP, &r->writer));
 done:
     checkpoint_free(&c);
     return st;

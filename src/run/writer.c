@@ -24,42 +24,40 @@ static uint64_t identity(uint64_t job_hash, int frame, enum folder_file kind)
     return hash_bytes(words, sizeof words);
 }
 
-/* Writes the file, adds it to the manifest and frees its bytes, also on error. If root is "", nothing is written. */
-static status write_file(const char *root, const char *path, struct vdb_bytes *file,
-                         struct manifest *manifest)
+/* Begins a frame's file, whose folder is made when it is first needed. If root is "", the file is only made in memory. */
+static status begin_file(const char *root, const char *name, enum folder_file kind, int frame,
+                         const char *camera, struct draft *file)
+{
+    status st = OK;
+    struct path path, folder;
+    *file = (struct draft){0};
+    if (!*root)
+        return OK;
+    TRY(folder_path(&path, root, name, kind, frame, camera));
+    TRY(path_folder(&folder, path.text));
+    TRY(folder_make(folder.text));
+    TRY(atomic_file_begin(path.text, file));
+done:
+    return st;
+}
+
+/* Adds the file to the manifest and moves it into place. Drops the draft, also on error. */
+static status end_file(const char *root, struct draft *file, struct manifest *manifest)
 {
     status st = OK;
     size_t capacity = manifest->n_files;
-    struct manifest_file *entry;
-    const uint64_t hash = hash_bytes(file->bytes, file->size);
+    uint64_t hash;
+    TRY(draft_hash(file, 0, file->size, &hash));
     if (!*root)
         goto done;
     TRY(memory_grow(&manifest->file, &capacity, manifest->n_files + 1, sizeof *manifest->file,
                     "the manifest"));
-    entry = &manifest->file[manifest->n_files];
-    snprintf(entry->path, sizeof entry->path, "%s", path + strlen(root) + 1);
-    entry->size = file->size;
-    entry->hash = hash;
-    manifest->n_files++;
-    TRY(atomic_file_write(path, file->bytes, file->size));
+    struct manifest_file *entry = &manifest->file[manifest->n_files++];
+    *entry = (struct manifest_file){.size = file->size, .hash = hash};
+    snprintf(entry->path, sizeof entry->path, "%s", file->path.text + strlen(root) + 1);
+    TRY(atomic_file_finish(file));
 done:
-    free(file->bytes);
-    *file = (struct vdb_bytes){0};
-    return st;
-}
-
-/* The same, for a kind of file whose folder is made when it is first needed. */
-static status write_file_in(const char *root, const char *name, enum folder_file kind, int frame,
-                            struct vdb_bytes *file, struct manifest *manifest)
-{
-    status st = OK;
-    struct path path, folder;
-    TRY(folder_path(&path, root, name, kind, frame, NULL));
-    TRY(path_folder(&folder, path.text));
-    if (*root)
-        TRY(folder_make(folder.text));
-    TRY(write_file(root, path.text, file, manifest));
-done:
+    draft_drop(file);
     return st;
 }
 
@@ -67,21 +65,20 @@ static status write_points(const struct job *job, uint64_t job_hash, const char 
                            const struct frame *frame, struct vdb_options *options, struct manifest *manifest)
 {
     status st = OK;
-    struct path path;
-    struct vdb_bytes file = {0};
+    struct draft file = {0};
     if (options->points != VDB_POINTS_NONE) {
         options->identity = identity(job_hash, frame->number, FILE_POINTS);
+        TRY(begin_file(root, job->name, FILE_POINTS, frame->number, NULL, &file));
         TRY(vdb_points_of_frame(&frame->rock, frame->deep.voxels[0] ? &frame->deep : NULL, options, &file));
-        TRY(folder_path(&path, root, job->name, FILE_POINTS, frame->number, NULL));
-        TRY(write_file(root, path.text, &file, manifest));
+        TRY(end_file(root, &file, manifest));
     }
     if (job->output.usd.points != USD_POINTS_NONE) {
+        TRY(begin_file(root, job->name, FILE_USD, frame->number, NULL, &file));
         TRY(usd_points(&frame->rock, options, job->fps, &file));
-        TRY(folder_path(&path, root, job->name, FILE_USD, frame->number, NULL));
-        TRY(write_file(root, path.text, &file, manifest));
+        TRY(end_file(root, &file, manifest));
     }
 done:
-    free(file.bytes);
+    draft_drop(&file);
     return st;
 }
 
@@ -89,8 +86,7 @@ static status write_vdbs(const struct job *job, uint64_t job_hash, const char *r
                          const struct frame *frame, struct manifest *manifest)
 {
     status st = OK;
-    struct path path;
-    struct vdb_bytes file = {0};
+    struct draft file = {0};
     size_t n_layers = palette_size(job);
     float(*color)[3] = NULL;
     struct vdb_options options = {
@@ -113,13 +109,14 @@ static status write_vdbs(const struct job *job, uint64_t job_hash, const char *r
     if (!job_writes(job, JOB_VOLUMES, frame->number))
         goto done;
     options.identity = identity(job_hash, frame->number, FILE_VOLUMES);
+    TRY(begin_file(root, job->name, FILE_VOLUMES, frame->number, NULL, &file));
     TRY(vdb_volumes(&frame->grids, &options, &file));
-    TRY(folder_path(&path, root, job->name, FILE_VOLUMES, frame->number, NULL));
-    TRY(write_file(root, path.text, &file, manifest));
+    TRY(end_file(root, &file, manifest));
     if (frame->air.n_grids && job->output.vdb.wind) {
         options.identity = identity(job_hash, frame->number, FILE_WIND);
+        TRY(begin_file(root, job->name, FILE_WIND, frame->number, NULL, &file));
         TRY(vdb_volumes(&frame->air, &options, &file));
-        TRY(write_file_in(root, job->name, FILE_WIND, frame->number, &file, manifest));
+        TRY(end_file(root, &file, manifest));
     }
     if (frame->rocks.wanted) {
         options.identity = identity(job_hash, frame->number, FILE_ROCKS);
@@ -127,13 +124,15 @@ static status write_vdbs(const struct job *job, uint64_t job_hash, const char *r
         options.points = VDB_POINTS_ALL;
         options.precision = VDB_PRECISION_EXACT;
         options.spacing = job_piles(job)->rock_m;
+        TRY(begin_file(root, job->name, FILE_ROCKS, frame->number, NULL, &file));
         TRY(vdb_points(&frame->rocks.at, &options, &file));
-        TRY(write_file_in(root, job->name, FILE_ROCKS, frame->number, &file, manifest));
+        TRY(end_file(root, &file, manifest));
+        TRY(begin_file(root, job->name, FILE_ROCKS_USD, frame->number, NULL, &file));
         TRY(usd_rocks(&frame->rocks, &options, job->fps, &file));
-        TRY(write_file_in(root, job->name, FILE_ROCKS_USD, frame->number, &file, manifest));
+        TRY(end_file(root, &file, manifest));
     }
 done:
-    free(file.bytes);
+    draft_drop(&file);
     free(color);
     return st;
 }
@@ -142,8 +141,9 @@ static status write_images(const struct job *job, uint64_t job_hash, const char 
                            const struct frame *frame, struct manifest *manifest)
 {
     status st = OK;
-    struct path path;
-    struct vdb_bytes file = {0};
+    struct draft file = {0};
+    void *bytes = NULL;
+    size_t size;
     struct exr_options options = {.layout = job->output.aov.layout,
                                   .fps = job->fps,
                                   .frame = frame->number,
@@ -153,19 +153,24 @@ static status write_images(const struct job *job, uint64_t job_hash, const char 
                                   .comments = job->output.comments,
                                   .wedge = job->wedge.label};
     for (size_t i = 0; i < frame->n_images; i++) {
-        TRY(exr_encode(&frame->image[i], &options, &file.bytes, &file.size));
-        TRY(folder_path(&path, root, job->name, FILE_AOV, frame->number,
-                        frame->n_images > 1 ? frame->image[i].camera : NULL));
-        TRY(write_file(root, path.text, &file, manifest));
+        TRY(exr_encode(&frame->image[i], &options, &bytes, &size));
+        TRY(begin_file(root, job->name, FILE_AOV, frame->number,
+                       frame->n_images > 1 ? frame->image[i].camera : NULL, &file));
+        TRY(draft_append(&file, bytes, size));
+        free(bytes);
+        bytes = NULL;
+        TRY(end_file(root, &file, manifest));
     }
 done:
-    free(file.bytes);
+    draft_drop(&file);
+    free(bytes);
     return st;
 }
 
 status frame_write(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame)
 {
     status st = OK;
+    struct draft file = {0};
     struct manifest manifest = {
         .frame = frame->number,
         .job_hash = job_hash,
@@ -186,14 +191,14 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
     TRY(write_vdbs(job, job_hash, root, frame, &manifest));
     TRY(write_images(job, job_hash, root, frame, &manifest));
     if (frame->stacks.bytes) {
-        struct vdb_bytes copy = {.size = frame->stacks.size};
-        TRY(memory_alloc(copy.size, 1, "terrain", &copy.bytes));
-        memcpy(copy.bytes, frame->stacks.bytes, copy.size);
-        TRY(write_file_in(root, job->name, FILE_STACKS, frame->number, &copy, &manifest));
+        TRY(begin_file(root, job->name, FILE_STACKS, frame->number, NULL, &file));
+        TRY(draft_append(&file, frame->stacks.bytes, frame->stacks.size));
+        TRY(end_file(root, &file, &manifest));
     }
     if (*root)
         TRY(manifest_write(root, job->name, &manifest));
 done:
+    draft_drop(&file);
     manifest_free(&manifest);
     return st;
 }

@@ -1,8 +1,10 @@
 #include "usd/crate.h"
 
 #include <assert.h>
+#include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "job/job.h"
 
@@ -21,7 +23,8 @@ enum {
 
 struct crate {
     const struct usd_prim *prim;
-    struct text bytes;
+    struct draft *out;
+    status st; /* the first error */
     const char *token[MAX_TOKENS];
     uint32_t n_tokens, n_fields, n_set, n_specs;
     uint32_t field_token[MAX_FIELDS];
@@ -31,15 +34,21 @@ struct crate {
 };
 static const uint32_t END_OF_SET = UINT32_MAX;
 
+static void add(struct crate *c, const void *bytes, size_t n)
+{
+    if (c->st == OK)
+        c->st = draft_append(c->out, bytes, n);
+}
+
 static void add_u64(struct crate *c, uint64_t value)
 {
-    text_add_bytes(&c->bytes, &value, sizeof value);
+    add(c, &value, sizeof value);
 }
 
 static void align(struct crate *c)
 {
     static const char zero[8] = {0};
-    text_add_bytes(&c->bytes, zero, (8 - c->bytes.size % 8) % 8);
+    add(c, zero, (8 - c->out->size % 8) % 8);
 }
 
 static uint32_t token(struct crate *c, const char *text)
@@ -66,33 +75,50 @@ static uint64_t token_value(struct crate *c, const char *text)
 static uint64_t double_value(struct crate *c, double number)
 {
     align(c);
-    const uint64_t at = c->bytes.size;
-    text_add_bytes(&c->bytes, &number, sizeof number);
+    const uint64_t at = c->out->size;
+    add(c, &number, sizeof number);
     return value((enum value_type)USD_DOUBLE, at);
 }
 
 static uint64_t tokens_value(struct crate *c, const char *const *text, size_t n)
 {
     align(c);
-    const uint64_t at = c->bytes.size;
+    const uint64_t at = c->out->size;
     add_u64(c, n);
     for (size_t i = 0; i < n; i++) {
         const uint32_t t = token(c, text[i]);
-        text_add_bytes(&c->bytes, &t, sizeof t);
+        add(c, &t, sizeof t);
     }
     return value(TOKEN_VECTOR, at);
 }
 
-/* Adds an array: the number of items, then the items, aligned to 8 bytes, so that USD can map them. */
-static uint64_t array_value(struct crate *c, enum usd_type type, const void *items, size_t n,
-                            size_t item_size)
+/* Adds items that are made a few at a time. */
+static void add_made(struct crate *c, const struct usd_items *items, size_t size)
 {
-    if (n == 0)
+    enum { TOGETHER = 1 << 16 };
+    char *some = NULL;
+    if (c->st == OK)
+        c->st = memory_alloc(items->n < TOGETHER ? items->n : TOGETHER, size, "a file's values", &some);
+    for (size_t first = 0; first < items->n && c->st == OK; first += TOGETHER) {
+        const size_t n = items->n - first < TOGETHER ? items->n - first : TOGETHER;
+        items->make(items->user, first, n, some);
+        add(c, some, n * size);
+    }
+    free(some);
+}
+
+/* Adds an array: the number of items, then the items, aligned to 8 bytes, so that USD can map them. */
+static uint64_t array_value(struct crate *c, enum usd_type type, const struct usd_items *items, size_t size)
+{
+    if (items->n == 0)
         return ARRAY | value((enum value_type)type, 0);
     align(c);
-    const uint64_t at = c->bytes.size;
-    add_u64(c, n);
-    text_add_bytes(&c->bytes, items, n * item_size);
+    const uint64_t at = c->out->size;
+    add_u64(c, items->n);
+    if (items->make)
+        add_made(c, items, size);
+    else
+        add(c, items->at, items->n * size);
     return ARRAY | value((enum value_type)type, at);
 }
 
@@ -100,10 +126,10 @@ static uint64_t array_value(struct crate *c, enum usd_type type, const void *ite
 static uint64_t sample_value(struct crate *c, double time, uint64_t sample)
 {
     align(c);
-    const uint64_t times = c->bytes.size;
+    const uint64_t times = c->out->size;
     add_u64(c, 1);
-    text_add_bytes(&c->bytes, &time, sizeof time);
-    const uint64_t at = c->bytes.size;
+    add(c, &time, sizeof time);
+    const uint64_t at = c->out->size;
     add_u64(c, 8);
     add_u64(c, value(DOUBLE_VECTOR, times));
     add_u64(c, 8);
@@ -141,14 +167,14 @@ static void add_packed(struct crate *c, const void *bytes, size_t n)
     const unsigned char head[2] = {0, (unsigned char)((n < 15 ? n : 15) << 4)};
     const size_t lengths = n < 15 ? 0 : (n - 15) / 255 + 1;
     add_u64(c, sizeof head + lengths + n);
-    text_add_bytes(&c->bytes, head, sizeof head);
+    add(c, head, sizeof head);
     for (size_t i = 0; i + 1 < lengths; i++)
-        text_add_bytes(&c->bytes, &more, 1);
+        add(c, &more, 1);
     if (lengths) {
         const unsigned char rest = (unsigned char)((n - 15) % 255);
-        text_add_bytes(&c->bytes, &rest, 1);
+        add(c, &rest, 1);
     }
-    text_add_bytes(&c->bytes, bytes, n);
+    add(c, bytes, n);
 }
 
 /* Adds every stride-th of the words in USD's integer coding, as differences of 32 bits each: the most common difference (not used here),
@@ -178,7 +204,8 @@ static void add_tokens(struct crate *c)
     add_u64(c, c->n_tokens);
     add_u64(c, names.size);
     add_packed(c, names.data, names.size);
-    c->bytes.failed |= names.failed;
+    if (c->st == OK)
+        c->st = text_status(&names);
     text_free(&names);
 }
 
@@ -241,16 +268,16 @@ static void add_sections(struct crate *c)
     for (size_t i = 0; i < N; i++) {
         align(c);
         memcpy(table[i].name, sections[i].name, strlen(sections[i].name));
-        table[i].start = c->bytes.size;
+        table[i].start = c->out->size;
         sections[i].add(c);
-        table[i].size = c->bytes.size - table[i].start;
+        table[i].size = c->out->size - table[i].start;
     }
     align(c);
-    const uint64_t at = c->bytes.size;
+    const uint64_t at = c->out->size;
     add_u64(c, N);
-    text_add_bytes(&c->bytes, table, sizeof table);
-    if (!c->bytes.failed)
-        memcpy(c->bytes.data + 16, &at, sizeof at);
+    add(c, table, sizeof table);
+    if (c->st == OK)
+        c->st = draft_replace(c->out, 16, &at, sizeof at);
 }
 
 /* ---- the prim */
@@ -258,7 +285,7 @@ static void add_sections(struct crate *c)
 static void add_attribute(struct crate *c, uint32_t which, const struct usd_items *items, int frame)
 {
     const struct usd_attribute *a = &c->prim->attribute[which];
-    const uint64_t array = array_value(c, a->value, items->at, items->n, a->size);
+    const uint64_t array = array_value(c, a->value, items, a->size);
     spec(c, which + 2, SPEC_ATTRIBUTE);
     field(c, "typeName", token_value(c, a->type));
     if (*a->interpolation)
@@ -317,23 +344,16 @@ struct usd_attribute usd_primvar(enum value_id value)
 }
 
 status usd_crate(const struct usd_prim *prim, const struct usd_items *items, int up, int frame, double fps,
-                 struct vdb_bytes *out)
+                 struct draft *out)
 {
     static const unsigned char head[BOOTSTRAP] = {'P', 'X', 'R', '-', 'U', 'S', 'D', 'C', 0, 8, 0};
-    status st = OK;
-    struct crate c = {.prim = prim};
-    *out = (struct vdb_bytes){0};
-    text_add_bytes(&c.bytes, head, sizeof head);
+    struct crate c = {.prim = prim, .out = out};
+    add(&c, head, sizeof head);
     token(&c, "defaultPrim"); /* token 0 has no negative, so it must not be the name of a property */
     add_prims(&c, up, frame, fps);
     for (uint32_t a = 0; a < prim->n; a++)
         add_attribute(&c, a, &items[a], frame);
     /* All tokens are known now, so the sections can be written. */
     add_sections(&c);
-    TRY(text_status(&c.bytes));
-    *out = (struct vdb_bytes){.bytes = c.bytes.data, .size = c.bytes.size};
-    c.bytes = (struct text){0};
-done:
-    text_free(&c.bytes);
-    return st;
+    return c.st;
 }

@@ -46,14 +46,18 @@ struct usd_attribute usd_primvar(enum value_id value);
 const struct usd_prim *usd_points_prim(bool moves); /* points.c */
 extern const struct usd_prim usd_rocks_prim;        /* rocks.c */
 
-/* The array of an attribute. */
+/* The array of an attribute: in memory at `at`, or made a few items at a time. */
 struct usd_items {
     const void *at;
     size_t n;
+    /* Writes n items, from item `first` on, to `out`; NULL: they are in memory. */
+    void (*make)(const void *user, size_t first, size_t n, void *out);
+    const void *user;
 };
 
-/* Encodes the file; items[prim->n] are in the order of the attributes. Equal input gives equal bytes. out->bytes is freed with free(). */
+/* Encodes the file into an empty draft; items[prim->n] are in the order of the attributes. Equal input gives equal bytes. On an error the
+ * caller drops the draft. */
 MUST_USE status usd_crate(const struct usd_prim *prim, const struct usd_items *items, int up, int frame,
-                          double fps, struct vdb_bytes *out);
+                          double fps, struct draft *out);
 
 #endif

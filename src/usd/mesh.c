@@ -77,7 +77,7 @@ done:
     return st;
 }
 
-status usd_mesh(const struct mesh_file *f, int frame, double fps, struct vdb_bytes *out)
+status usd_mesh(const struct mesh_file *f, int frame, double fps, struct draft *out)
 {
     status st = OK;
     struct arrays a = {0};
@@ -85,18 +85,18 @@ status usd_mesh(const struct mesh_file *f, int frame, double fps, struct vdb_byt
     int which[USD_ATTRIBUTES_MAX];
     struct usd_items items[USD_ATTRIBUTES_MAX];
     const size_t n = f->n_vertices;
-    *out = (struct vdb_bytes){0};
     make_prim(f->value_name, f->n_values, f->velocity != NULL, &prim, which);
     TRY(arrays_of(f, &a));
     const struct usd_items mine[OWN] = {
-        [EXTENT] = {a.extent, n ? 2 : 0}, [COUNTS] = {a.counts, f->n_triangles},
-        [NORMALS] = {a.normals, n},       [INDICES] = {f->triangle, 3 * f->n_triangles},
-        [POINTS] = {a.points, n},         [COLOR] = {f->color, n},
-        [LAYER] = {f->layer, n},          [VELOCITIES] = {a.velocities, n},
+        [EXTENT] = {.at = a.extent, .n = n ? 2 : 0}, [COUNTS] = {.at = a.counts, .n = f->n_triangles},
+        [NORMALS] = {.at = a.normals, .n = n},       [INDICES] = {.at = f->triangle, .n = 3 * f->n_triangles},
+        [POINTS] = {.at = a.points, .n = n},         [COLOR] = {.at = f->color, .n = n},
+        [LAYER] = {.at = f->layer, .n = n},          [VELOCITIES] = {.at = a.velocities, .n = n},
     };
     for (size_t i = 0; i < prim.n; i++)
-        items[i] =
-            which[i] < OWN ? mine[which[i]] : (struct usd_items){f->value + (size_t)(which[i] - OWN) * n, n};
+        items[i] = which[i] < OWN
+                       ? mine[which[i]]
+                       : (struct usd_items){.at = f->value + (size_t)(which[i] - OWN) * n, .n = n};
     TRY(usd_crate(&prim, items, f->up, frame, fps, out));
 done:
     arrays_free(&a);

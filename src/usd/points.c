@@ -43,25 +43,20 @@ const struct usd_prim *usd_points_prim(bool moves)
     return &prim[moves];
 }
 
-/* The arrays of the surface particles in the file's axes. */
+/* The surface particles, and how they are written. */
 struct skin {
+    const struct rock *rock;
+    const struct vdb_options *options;
     size_t n;
-    float *points, *normals, *color, *velocities; /* [n][3] */
-    int64_t *ids;
-    uint32_t *value[VALUES]; /* [n] words, of those that are IN_USD */
+    uint32_t *at; /* [n]: their numbers in the rock */
     float extent[2][3], width;
 };
 
-static void skin_free(struct skin *s)
-{
-    free(s->points);
-    free(s->normals);
-    free(s->color);
-    free(s->velocities);
-    free(s->ids);
-    for (int v = 0; v < VALUES; v++)
-        free(s->value[v]);
-}
+/* An attribute to make of the skin: an index in `own`, or OWN plus a value. */
+struct making {
+    const struct skin *skin;
+    int which;
+};
 
 static bool on_surface(const struct rock *rock, size_t i)
 {
@@ -69,74 +64,102 @@ static bool on_surface(const struct rock *rock, size_t i)
     return n[0] != 0 || n[1] != 0 || n[2] != 0;
 }
 
-static void take(const struct rock *rock, const struct vdb_options *o, size_t i, struct skin *s, size_t k)
+static void extend(struct skin *s, const float P[4], bool first)
 {
-    static const float grey[3] = {0.5F, 0.5F, 0.5F};
-    const bool colored = rock->layer && o->color && rock->layer[i] < o->n_colors;
-    axes_turn(rock->P + 4 * i, o->up, s->points + 3 * k);
-    axes_turn(rock->N + 4 * i, o->up, s->normals + 3 * k);
-    if (s->velocities && rock->v)
-        axes_turn(rock->v + 4 * i, o->up, s->velocities + 3 * k);
-    memcpy(s->color + 3 * k, colored ? o->color[rock->layer[i]] : grey, 3 * sizeof(float));
-    for (int v = 1; v < VALUES; v++)
-        if (s->value[v] && rock->field[value_field[v]])
-            s->value[v][k] = ((const uint32_t *)rock->field[value_field[v]])[i];
-    s->ids[k] = rock->id ? (int64_t)rock->id[i] : (int64_t)i;
+    float x[3];
+    axes_turn(P, s->options->up, x);
     for (int a = 0; a < 3; a++) {
-        const float x = s->points[3 * k + (size_t)a], r = s->width / 2;
-        s->extent[0][a] = k == 0 || x - r < s->extent[0][a] ? x - r : s->extent[0][a];
-        s->extent[1][a] = k == 0 || x + r > s->extent[1][a] ? x + r : s->extent[1][a];
+        const float low = x[a] - s->width / 2, high = x[a] + s->width / 2;
+        s->extent[0][a] = first || low < s->extent[0][a] ? low : s->extent[0][a];
+        s->extent[1][a] = first || high > s->extent[1][a] ? high : s->extent[1][a];
     }
 }
 
 static status skin_of(const struct rock *rock, const struct vdb_options *o, struct skin *s)
 {
-    static const char what[] = "the surface's points";
     status st = OK;
-    size_t n = 0, k = 0;
+    size_t n = 0;
     for (size_t i = 0; rock->N && i < rock->n; i++)
         n += on_surface(rock, i);
     if (n > UINT32_MAX / 2)
         return fail(E_OUTPUT,
                     "points of frame %d: %zu points are too many for a USD file; set output.usd.points: none",
                     o->frame, n);
-    s->n = n;
-    s->width = (float)o->spacing;
-    TRY(memory_alloc(n, 3 * sizeof(float), what, &s->points));
-    TRY(memory_alloc(n, 3 * sizeof(float), what, &s->normals));
-    TRY(memory_alloc(n, 3 * sizeof(float), what, &s->color));
-    if (o->moves)
-        TRY(memory_alloc(n, 3 * sizeof(float), what, &s->velocities));
-    for (int v = 1; v < VALUES; v++)
-        if (value_table[v].where & IN_USD)
-            TRY(memory_alloc(n, sizeof(uint32_t), what, &s->value[v]));
-    TRY(memory_alloc(n, sizeof *s->ids, what, &s->ids));
-    for (size_t i = 0; n && i < rock->n; i++)
-        if (on_surface(rock, i))
-            take(rock, o, i, s, k++);
+    *s = (struct skin){.rock = rock, .options = o, .width = (float)o->spacing};
+    TRY(memory_alloc(n, sizeof *s->at, "the surface's points", &s->at));
+    for (size_t i = 0; s->n < n; i++)
+        if (on_surface(rock, i)) {
+            extend(s, rock->P + 4 * i, s->n == 0);
+            s->at[s->n++] = (uint32_t)i;
+        }
 done:
     return st;
 }
 
-status usd_points(const struct rock *rock, const struct vdb_options *options, double fps,
-                  struct vdb_bytes *out)
+static void color_of(const struct skin *s, size_t i, float out[3])
+{
+    static const float grey[3] = {0.5F, 0.5F, 0.5F};
+    const struct vdb_options *o = s->options;
+    const bool colored = s->rock->layer && o->color && s->rock->layer[i] < o->n_colors;
+    memcpy(out, colored ? o->color[s->rock->layer[i]] : grey, 3 * sizeof *out);
+}
+
+/* Vectors of the rock in the file's axes; 0 if the rock does not have the field. */
+static void make_vectors(const struct skin *s, const float *from, const uint32_t *at, size_t n, float *out)
+{
+    memset(out, 0, 3 * n * sizeof *out);
+    for (size_t k = 0; from && k < n; k++)
+        axes_turn(from + 4 * (size_t)at[k], s->options->up, out + 3 * k);
+}
+
+static void make(const void *user, size_t first, size_t n, void *out)
+{
+    const struct making *m = user;
+    const struct skin *s = m->skin;
+    const struct rock *rock = s->rock;
+    const uint32_t *at = s->at + first;
+    switch (m->which) {
+    case IDS:
+        for (size_t k = 0; k < n; k++)
+            ((int64_t *)out)[k] = rock->id ? (int64_t)rock->id[at[k]] : (int64_t)at[k];
+        break;
+    case NORMALS:
+        make_vectors(s, rock->N, at, n, out);
+        break;
+    case POINTS:
+        make_vectors(s, rock->P, at, n, out);
+        break;
+    case VELOCITIES:
+        make_vectors(s, rock->v, at, n, out);
+        break;
+    case COLOR:
+        for (size_t k = 0; k < n; k++)
+            color_of(s, at[k], (float *)out + 3 * k);
+        break;
+    default: { /* values are words */
+        const uint32_t *from = rock->field[value_field[m->which - OWN]];
+        for (size_t k = 0; k < n; k++)
+            ((uint32_t *)out)[k] = from ? from[at[k]] : 0;
+    }
+    }
+}
+
+status usd_points(const struct rock *rock, const struct vdb_options *options, double fps, struct draft *out)
 {
     status st = OK;
     struct skin s = {0};
     struct usd_items items[USD_ATTRIBUTES_MAX];
-    *out = (struct vdb_bytes){0};
+    struct making making[USD_ATTRIBUTES_MAX];
     TRY(skin_of(rock, options, &s));
-    const struct usd_items mine[OWN] = {
-        [EXTENT] = {s.extent, s.n ? 2 : 0}, [IDS] = {s.ids, s.n},     [NORMALS] = {s.normals, s.n},
-        [POINTS] = {s.points, s.n},         [COLOR] = {s.color, s.n}, [VELOCITIES] = {s.velocities, s.n},
-        [WIDTHS] = {&s.width, 1},
-    };
     const struct usd_prim *const points = usd_points_prim(options->moves);
-    const int *const is = which[options->moves];
-    for (size_t i = 0; i < points->n; i++)
-        items[i] = is[i] < OWN ? mine[is[i]] : (struct usd_items){s.value[is[i] - OWN], s.n};
+    for (size_t i = 0; i < points->n; i++) {
+        making[i] = (struct making){&s, which[options->moves][i]};
+        items[i] = making[i].which == EXTENT   ? (struct usd_items){.at = s.extent, .n = s.n ? 2 : 0}
+                   : making[i].which == WIDTHS ? (struct usd_items){.at = &s.width, .n = 1}
+                                               : (struct usd_items){.n = s.n, .make = make, .user = &making[i]};
+    }
     TRY(usd_crate(points, items, options->up, options->frame, fps, out));
 done:
-    skin_free(&s);
+    free(s.at);
     return st;
 }

@@ -54,13 +54,12 @@ static void take(const struct frame_rocks *rocks, const struct vdb_options *o, s
 }
 
 status usd_rocks(const struct frame_rocks *rocks, const struct vdb_options *options, double fps,
-                 struct vdb_bytes *out)
+                 struct draft *out)
 {
     static const char what[] = "rocks";
     status st = OK;
     struct piles p = {0};
     const size_t n = rocks->at.n;
-    *out = (struct vdb_bytes){0};
     TRY(memory_alloc(n, 3 * sizeof(float), what, &p.position));
     TRY(memory_alloc(n, sizeof *p.orient, what, &p.orient));
     TRY(memory_alloc(n, sizeof *p.shape, what, &p.shape));
@@ -68,8 +67,9 @@ status usd_rocks(const struct frame_rocks *rocks, const struct vdb_options *opti
     for (size_t i = 0; i < n; i++)
         take(rocks, options, i, &p);
     const struct usd_items items[ATTRIBUTES] = {
-        [EXTENT] = {p.extent, n ? 2 : 0}, [IDS] = {p.id, n},       [ORIENTATIONS] = {p.orient, n},
-        [POSITIONS] = {p.position, n},    [PROTOS] = {p.shape, n},
+        [EXTENT] = {.at = p.extent, .n = n ? 2 : 0}, [IDS] = {.at = p.id, .n = n},
+        [ORIENTATIONS] = {.at = p.orient, .n = n},   [POSITIONS] = {.at = p.position, .n = n},
+        [PROTOS] = {.at = p.shape, .n = n},
     };
     TRY(usd_crate(&usd_rocks_prim, items, options->up, options->frame, fps, out));
 done:

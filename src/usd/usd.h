@@ -80,20 +80,19 @@ void usd_lights(const struct usd_sequence *s, struct text *out);
 void usd_clips(const struct usd_sequence *s, const struct usd_prim *prim, struct text *out);
 
 /* The surface particles (those with a normal): positions, normals, widths, ids, the layer's colour, and as primvars the fields that are
- * IN_USD in values.def. out->bytes is freed with free(). E_OUTPUT: too many particles for a file. */
+ * IN_USD in values.def. On an error the caller drops the draft. E_OUTPUT: too many particles for a file. */
 MUST_USE status usd_points(const struct rock *rock, const struct vdb_options *options, double fps,
-                           struct vdb_bytes *out);
+                           struct draft *out);
 
 /* The prim of mesh files with these values, given by name; `moves`: with velocities. */
 void usd_mesh_prim(const char *const *value, size_t n, bool moves, struct usd_prim *out);
 
-/* A mesh: points, triangles, normals, the layer's colour, velocities if rock moves, and the values as primvars. out->bytes is freed with
- * free(). */
-MUST_USE status usd_mesh(const struct mesh_file *mesh, int frame, double fps, struct vdb_bytes *out);
+/* A mesh: points, triangles, normals, the layer's colour, velocities if rock moves, and the values as primvars. */
+MUST_USE status usd_mesh(const struct mesh_file *mesh, int frame, double fps, struct draft *out);
 
-/* The rocks: positions, shapes, ids that stay the same through all frames, and identity orientations. out->bytes is freed with free(). */
+/* The rocks: positions, shapes, ids that stay the same through all frames, and identity orientations. */
 MUST_USE status usd_rocks(const struct frame_rocks *rocks, const struct vdb_options *options, double fps,
-                          struct vdb_bytes *out);
+                          struct draft *out);
 
 /* The shapes of rocks: closed meshes around their positions, in the simulator's axes, m. */
 struct usd_shape {

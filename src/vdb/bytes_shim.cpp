@@ -1,5 +1,5 @@
-/* OpenVDB archives in memory. File::write() does not notice a full disk and puts random bytes into each archive. Here the archive goes to
- * a growing buffer, and its UUID is made from the file's identity and a hash of its content. */
+/* OpenVDB archives as drafts. File::write() does not notice a full disk and puts random bytes into each archive. Here the archive goes to
+ * a draft, and its UUID is made from the file's identity and a hash of its content. */
 #include "vdb/shim.hpp"
 
 #include <openvdb/io/Archive.h>
@@ -8,7 +8,6 @@
 #include <openvdb/util/logging.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <ostream>
@@ -20,69 +19,49 @@ extern "C" {
 
 namespace
 {
-/* A stream into memory that can seek back, as the archive does to fill in grid offsets. */
-class memory_sink : public std::streambuf
+/* A version 8 UUID (RFC 9562: vendor-specific): 58 bits of the identity, then the hash of all other bytes of the file. */
+constexpr size_t UUID_AT = 21, UUID_SIZE = 36, HASH_AT = UUID_AT + 19;
+
+/* A stream into a draft that can seek back, as the archive does to fill in grid offsets. */
+class draft_sink : public std::streambuf
 {
   public:
-    memory_sink() = default;
-    memory_sink(const memory_sink &) = delete;
-    memory_sink &operator=(const memory_sink &) = delete;
-    ~memory_sink() override
+    explicit draft_sink(draft &to) : to_(to)
     {
-        std::free(data_);
     }
-    char *data()
+    /* The first failure; the stream only knows that there was one. */
+    status failure() const
     {
-        return data_;
-    }
-    size_t size() const
-    {
-        return size_;
-    }
-    void *release()
-    {
-        void *shrunk = std::realloc(data_, size_ ? size_ : 1);
-        void *p = shrunk ? shrunk : data_;
-        data_ = nullptr;
-        return p;
+        return failure_;
     }
 
   protected:
     std::streamsize xsputn(const char *bytes, std::streamsize n) override
     {
-        const size_t end = at_ + static_cast<size_t>(n);
-        if (end > capacity_) {
-            size_t grown = capacity_ ? capacity_ : size_t(1) << 20;
-            while (grown < end)
-                grown *= 2;
-            void *p = std::realloc(data_, grown);
-            if (!p)
-                throw std::bad_alloc();
-            data_ = static_cast<char *>(p);
-            capacity_ = grown;
-        }
-        if (at_ > size_)
-            std::memset(data_ + size_, 0, at_ - size_);
-        std::memcpy(data_ + at_, bytes, static_cast<size_t>(n));
+        const uint64_t end = at_ + static_cast<uint64_t>(n), old = at_ < to_.size ? to_.size - at_ : 0;
+        const size_t inside = static_cast<size_t>(end > to_.size ? old : static_cast<uint64_t>(n));
+        if (failure_ == OK && at_ > to_.size)
+            failure_ = fail(E_OUTPUT, "OpenVDB skipped bytes of a file");
+        if (failure_ == OK && inside)
+            failure_ = draft_replace(&to_, at_, bytes, inside);
+        if (failure_ == OK)
+            failure_ = draft_append(&to_, bytes + inside, static_cast<size_t>(n) - inside);
         at_ = end;
-        if (end > size_)
-            size_ = end;
-        return n;
+        return failure_ == OK ? n : 0;
     }
     int_type overflow(int_type c) override
     {
         const char byte = traits_type::to_char_type(c);
-        xsputn(&byte, 1);
-        return c;
+        return xsputn(&byte, 1) == 1 ? c : traits_type::eof();
     }
     pos_type seekoff(off_type off, std::ios_base::seekdir way, std::ios_base::openmode) override
     {
         const off_type base = way == std::ios_base::beg   ? 0
                               : way == std::ios_base::cur ? static_cast<off_type>(at_)
-                                                          : static_cast<off_type>(size_);
+                                                          : static_cast<off_type>(to_.size);
         if (base + off < 0)
             return pos_type(off_type(-1));
-        at_ = static_cast<size_t>(base + off);
+        at_ = static_cast<uint64_t>(base + off);
         return pos_type(base + off);
     }
     pos_type seekpos(pos_type pos, std::ios_base::openmode which) override
@@ -91,13 +70,14 @@ class memory_sink : public std::streambuf
     }
 
   private:
-    char *data_ = nullptr;
-    size_t at_ = 0, size_ = 0, capacity_ = 0;
+    draft &to_;
+    uint64_t at_ = 0;
+    status failure_ = OK;
 };
 
 /* Writes the same bytes as Archive::write() for grids with different names and trees, but makes one grid at a time: the tree of a grid
  * takes several times the memory of the file, and all grids together more than the frame. */
-struct memory_archive : openvdb::io::Archive {
+struct grid_archive : openvdb::io::Archive {
     void to(std::ostream &os, size_t n_grids, const vdb::grid_maker &make,
             const openvdb::MetaMap &metadata) const
     {
@@ -107,6 +87,8 @@ struct memory_archive : openvdb::io::Archive {
         io::setDataCompression(os, compression());
         io::setWriteGridStatsMetadata(os, isGridStatsMetadataEnabled());
         writeHeader(os, /*seekable=*/true);
+        if (os.tellp() != std::streamoff(UUID_AT + UUID_SIZE))
+            throw std::runtime_error("OpenVDB's file header has an unknown layout");
         metadata.writeMeta(os);
         const int32_t count = int32_t(n_grids);
         os.write(reinterpret_cast<const char *>(&count), sizeof count);
@@ -119,28 +101,29 @@ struct memory_archive : openvdb::io::Archive {
     }
 };
 
-/* A version 8 UUID (RFC 9562: vendor-specific): 58 bits of the identity, then the hash of all other bytes of the file. */
-constexpr size_t UUID_AT = 21, UUID_SIZE = 36, HASH_AT = UUID_AT + 19;
-
-void put_identity(char *bytes, uint64_t identity)
+std::string identity_digits(uint64_t identity)
 {
     char text[HASH_AT - UUID_AT + 1];
     std::snprintf(text, sizeof text, "%08x-%04x-8%03x-", static_cast<unsigned>(identity >> 32),
                   static_cast<unsigned>(identity >> 16 & 0xffff),
                   static_cast<unsigned>(identity >> 4 & 0xfff));
-    std::memcpy(bytes + UUID_AT, text, sizeof text - 1);
+    return text;
 }
 
-/* The last digits of the UUID for this content. */
-std::string hash_digits(const char *bytes, size_t size)
+/* The last digits of the UUID, given the hashes of what comes before and after them. */
+std::string hash_digits(const uint64_t part[2])
 {
-    const size_t rest = UUID_AT + UUID_SIZE;
-    const uint64_t part[2] = {hash_bytes(bytes, HASH_AT), hash_bytes(bytes + rest, size - rest)};
-    const uint64_t hash = hash_bytes(part, sizeof part);
-    char text[rest - HASH_AT + 1];
+    const uint64_t hash = hash_bytes(part, 2 * sizeof *part);
+    char text[UUID_AT + UUID_SIZE - HASH_AT + 1];
     std::snprintf(text, sizeof text, "%04x-%04x%08x", static_cast<unsigned>(0x8000 | (hash >> 48 & 0x3fff)),
                   static_cast<unsigned>(hash >> 32 & 0xffff), static_cast<unsigned>(hash & 0xffffffff));
     return text;
+}
+
+void check(status st)
+{
+    if (st != OK)
+        throw vdb::refused{st};
 }
 } // namespace
 
@@ -181,26 +164,32 @@ bool is_y_up(const openvdb::MetaMap &metadata)
 }
 
 void encode(size_t n_grids, const grid_maker &make, const vdb_options &options,
-            const openvdb::MetaMap &metadata, vdb_bytes *out)
+            const openvdb::MetaMap &metadata, draft *out)
 {
     uint32_t flags = openvdb::io::COMPRESS_ACTIVE_MASK;
     if (options.codec == VDB_CODEC_BLOSC)
         flags |= openvdb::io::COMPRESS_BLOSC;
     else if (options.codec == VDB_CODEC_ZIP)
         flags |= openvdb::io::COMPRESS_ZIP;
-    memory_archive archive;
+    grid_archive archive;
     archive.setCompression(flags);
-    memory_sink sink;
+    draft_sink sink(*out);
     std::ostream os(&sink);
     os.exceptions(std::ios::badbit | std::ios::failbit);
-    archive.to(os, n_grids, make, metadata);
-    if (sink.size() < UUID_AT + UUID_SIZE || sink.data()[UUID_AT + 8] != '-')
-        throw std::runtime_error("OpenVDB's file header has an unknown layout");
-    put_identity(sink.data(), options.identity);
-    const std::string hash = hash_digits(sink.data(), sink.size());
-    std::memcpy(sink.data() + HASH_AT, hash.data(), hash.size());
-    out->size = sink.size();
-    out->bytes = sink.release();
+    try {
+        archive.to(os, n_grids, make, metadata);
+    } catch (const std::ios_base::failure &) {
+        check(sink.failure());
+        throw;
+    }
+    check(sink.failure()); /* OpenVDB may have ignored it */
+    const std::string identity = identity_digits(options.identity);
+    check(draft_replace(out, UUID_AT, identity.data(), identity.size()));
+    uint64_t part[2];
+    check(draft_hash(out, 0, HASH_AT, &part[0]));
+    check(draft_hash(out, UUID_AT + UUID_SIZE, out->size, &part[1]));
+    const std::string hash = hash_digits(part);
+    check(draft_replace(out, HASH_AT, hash.data(), hash.size()));
 }
 
 bool is_intact(const void *bytes, size_t size)
@@ -211,7 +200,9 @@ bool is_intact(const void *bytes, size_t size)
         return false;
     if (!memmem(text, size < 4096 ? size : 4096, "hoodoo", 6))
         return true;
-    const std::string hash = hash_digits(text, size);
+    const size_t rest = UUID_AT + UUID_SIZE;
+    const uint64_t part[2] = {hash_bytes(text, HASH_AT), hash_bytes(text + rest, size - rest)};
+    const std::string hash = hash_digits(part);
     return std::memcmp(text + HASH_AT, hash.data(), hash.size()) == 0;
 }
 } // namespace vdb

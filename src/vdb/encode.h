@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 typedef status vdb_encode_volumes_function(const struct frame_grids *grids, const struct vdb_options *options,
-                                           struct vdb_bytes *out);
+                                           struct draft *out);
 /* A frame's rock, piece by piece (particles/pieces.h). If get() fails, no file is made; get() has set the error message. */
 struct vdb_pieces {
     const struct rock *rock;
@@ -19,7 +19,7 @@ struct vdb_pieces {
     void (*drop)(void *user, struct rock *piece);
 };
 typedef status vdb_encode_points_function(const struct vdb_pieces *pieces, const struct vdb_options *options,
-                                          struct vdb_bytes *out);
+                                          struct draft *out);
 
 vdb_encode_volumes_function vdb_encode_volumes;
 vdb_encode_points_function vdb_encode_points;

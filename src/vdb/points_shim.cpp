@@ -317,9 +317,6 @@ class leaf_maker
     descriptor::Ptr position_, all_;
 };
 /* A piece of a frame's rock while its grid is made; throws refused if it cannot be made. */
-struct refused {
-    status st;
-};
 class piece
 {
   public:
@@ -327,7 +324,7 @@ class piece
     {
         const status st = all.get(all.user, i, &rock_);
         if (st != OK)
-            throw refused{st};
+            throw vdb::refused{st};
     }
     piece(const piece &) = delete;
     piece &operator=(const piece &) = delete;
@@ -353,7 +350,7 @@ PointDataGrid::Ptr make_grid(const rock &r, const vdb_options &options)
     leaf_lists lists;
     size_t bad = 0;
     if (!sort_into_leaves(r, options, at, lists, bad))
-        throw refused{fail(E_NUMERIC, "points of frame %d: particle %zu is at (%g, %g, %g) m", options.frame,
+        throw vdb::refused{fail(E_NUMERIC, "points of frame %d: particle %zu is at (%g, %g, %g) m", options.frame,
                            bad, double(r.P[4 * bad]), double(r.P[4 * bad + 1]), double(r.P[4 * bad + 2]))};
     const leaf_maker maker(r, options, at);
     std::vector<std::unique_ptr<leaf_node>> leaves(lists.origin.size());
@@ -372,10 +369,9 @@ PointDataGrid::Ptr make_grid(const rock &r, const vdb_options &options)
 } // namespace
 
 extern "C" status vdb_encode_points(const struct vdb_pieces *pieces, const struct vdb_options *options,
-                                    struct vdb_bytes *out)
+                                    struct draft *out)
 try {
     vdb::start();
-    *out = vdb_bytes{nullptr, 0};
     const rock &whole = *pieces->rock;
     if (!(options->spacing > 0) || !std::isfinite(options->spacing))
         return fail(E_OUTPUT, "points of frame %d: the spacing must not be %g m", options->frame,
@@ -393,7 +389,7 @@ try {
     };
     vdb::encode(pieces->n, make, *options, metadata, out);
     return OK;
-} catch (const refused &r) {
+} catch (const vdb::refused &r) {
     return r.st;
 }
 SHIM_CATCH(E_OUTPUT, "points")

@@ -1,4 +1,4 @@
-/* Declarations shared by the OpenVDB shims: conversion between the simulator's axes and the file's, and files in memory. */
+/* Declarations shared by the OpenVDB shims: conversion between the simulator's axes and the file's, and encoding files. */
 #ifndef HOODOO_VDB_SHIM_HPP
 #define HOODOO_VDB_SHIM_HPP
 
@@ -116,9 +116,15 @@ status load(const char *path, file *out);
 /* Makes grid i, which is released after it was written. */
 using grid_maker = std::function<openvdb::GridBase::ConstPtr(size_t i)>;
 
-/* Encodes n_grids grids with different names and trees as a file in memory. Its archive UUID is made from `identity` and the content. */
+/* Thrown where a C function of this library failed and has set the message. */
+struct refused {
+    status st;
+};
+
+/* Encodes n_grids grids with different names and trees into an empty draft. The archive's UUID is made from `identity` and the content.
+ * Throws refused. */
 void encode(size_t n_grids, const grid_maker &make, const vdb_options &options,
-            const openvdb::MetaMap &metadata, vdb_bytes *out);
+            const openvdb::MetaMap &metadata, draft *out);
 
 /* For files that claim to be written by hoodoo: whether the UUID matches the content. */
 bool is_intact(const void *bytes, size_t size);

@@ -3,8 +3,8 @@
  *
  * Axes      In memory everything is in the simulator's axes (z up). Files have the axes of the job's output.up: for y, index and world
  *           space (x, y, z) become (x, z, -y). Reading converts back, by the file's up_axis metadata.
- * Bytes     Files are encoded in memory without dates, and their random archive UUID is replaced by one derived from `identity`, so
- *           equal input gives equal bytes. The caller writes them (atomic_file.h), and so notices a full disk.
+ * Bytes     Files are encoded into a draft (base/draft.h) without dates, and their random archive UUID is replaced by one derived from
+ *           `identity`, so equal input gives equal bytes. On an error the caller drops the draft.
  */
 #ifndef HOODOO_VDB_H
 #define HOODOO_VDB_H
@@ -12,6 +12,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "base/draft.h"
 #include "base/status.h"
 #include "particles/frame.h"
 
@@ -30,19 +31,14 @@ struct vdb_options {
     size_t n_colors;
 };
 
-/* A file in memory; `bytes` is freed with free(). */
-struct vdb_bytes {
-    void *bytes;
-    size_t size;
-};
-
+/* Volumes are made grid by grid. Samples that are not in memory are read from the grids' source one grid at a time (grids.h). */
 MUST_USE status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options,
-                            struct vdb_bytes *out);
+                            struct draft *out);
 /* Points: one grid per piece, named `points`, `points_2` and so on. vdb_points_of_frame() includes the frame's deep rock; `deep` may be
  * NULL. */
-MUST_USE status vdb_points(const struct rock *rock, const struct vdb_options *options, struct vdb_bytes *out);
+MUST_USE status vdb_points(const struct rock *rock, const struct vdb_options *options, struct draft *out);
 MUST_USE status vdb_points_of_frame(const struct rock *rock, const struct frame_deep *deep,
-                                    const struct vdb_options *options, struct vdb_bytes *out);
+                                    const struct vdb_options *options, struct draft *out);
 
 /* Adds a description of a file to `out`, as members of a JSON object: its metadata and grids (name, type, class, number of active voxels or
  * points, bounds in m in the file's axes, attributes). E_INPUT if the file is missing or damaged. Hostile files are safe, since another

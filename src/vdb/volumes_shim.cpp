@@ -49,13 +49,14 @@ struct level_set {
 };
 struct scalar {
     using grid = openvdb::FloatGrid;
-    const float *value, *density;
-    float background;
+    const float *value;
+    const std::vector<uint8_t> &dense; /* a bit for each sample: whether it is active */
     const frame_grids *grids;
     const frame_grid *self;
+    static constexpr float background = 0;
     bool get(ptrdiff_t at, const Coord &, float &v) const
     {
-        const bool active = density[at] != 0;
+        const bool active = dense[size_t(at) / 8] >> (at % 8) & 1;
         v = active ? value[at] : 0;
         return active;
     }
@@ -201,11 +202,45 @@ typename field::grid::Ptr sparse_grid(const lattice &l, const place &p, const fi
     return grid;
 }
 
+/* The samples that are not 0, a bit for each. */
+std::vector<uint8_t> nonzero(const frame_grids &grids, const frame_grid &g)
+{
+    std::vector<uint8_t> bits(grids.bricks.count * BRICK_SAMPLES / 8);
+    for (size_t i = 0; i < bits.size(); i++)
+        for (size_t b = 0; b < 8; b++)
+            bits[i] = uint8_t(bits[i] | (g.value[8 * i + b] != 0) << b);
+    return bits;
+}
+
+/* A grid with its samples in memory: the frame's, or read from the grids' source for the lifetime of this object. */
+class sampled
+{
+  public:
+    sampled(const frame_grids &grids, const frame_grid &g) : grid(g)
+    {
+        const status st = g.value ? OK : grids.source.read(grids.source.user, &g, &own_);
+        if (st != OK)
+            throw vdb::refused{st};
+        if (own_)
+            grid.value = own_;
+    }
+    sampled(const sampled &) = delete;
+    sampled &operator=(const sampled &) = delete;
+    ~sampled()
+    {
+        std::free(own_);
+    }
+    frame_grid grid;
+
+  private:
+    float *own_ = nullptr;
+};
+
 /* Samples of air that a closed level set gets on every side. */
 constexpr int PAD = 4;
 
 openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, const lattice &l,
-                                 const float *density)
+                                 const std::vector<uint8_t> &dense)
 {
     const of_bricks p{&grids};
     if (g.components == 3) {
@@ -213,7 +248,7 @@ openvdb::GridBase::Ptr make_grid(const frame_grids &grids, const frame_grid &g, 
         grid->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
         return grid;
     }
-    auto grid = sparse_grid(l, p, scalar{g.value, density ? density : g.value, 0, &grids, &g});
+    auto grid = sparse_grid(l, p, scalar{g.value, dense.empty() ? nonzero(grids, g) : dense, &grids, &g});
     grid->setGridClass(g.kind == GRID_FOG ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_UNKNOWN);
     return grid;
 }
@@ -259,10 +294,9 @@ openvdb::math::Transform::Ptr transform_of(const grid_lattice &l, bool y_up)
 } // namespace
 
 extern "C" status vdb_encode_volumes(const struct frame_grids *grids, const struct vdb_options *options,
-                                     struct vdb_bytes *out)
+                                     struct draft *out)
 try {
     vdb::start();
-    *out = vdb_bytes{nullptr, 0};
     const grid_lattice &frame_lattice = grids->lattice;
     const status st = check_lattice(frame_lattice, options->frame);
     if (st != OK)
@@ -270,18 +304,19 @@ try {
 
     const bool y_up = options->up == OUTPUT_UP_Y;
     const lattice common(frame_lattice.n, y_up);
-    const float *density = nullptr;
+    std::vector<uint8_t> dense;
     for (size_t i = 0; i < grids->n_grids; i++)
         if (std::strcmp(grids->grid[i].name, "density") == 0)
-            density = grids->grid[i].value;
+            dense = nonzero(*grids, sampled(*grids, grids->grid[i]).grid);
 
     openvdb::MetaMap metadata = vdb::file_metadata(*options, frame_lattice.voxel);
     metadata.insertMeta(vdb::LATTICE, openvdb::Vec3IMetadata(openvdb::Vec3i(frame_lattice.n)));
     const auto transform = transform_of(frame_lattice, y_up);
     const auto make = [&](size_t i) {
-        const frame_grid &g = grids->grid[i];
+        const sampled in_memory(*grids, grids->grid[i]);
+        const frame_grid &g = in_memory.grid;
         auto grid = g.kind == GRID_LEVEL_SET ? make_level_set(*grids, g, y_up)
-                                             : make_grid(*grids, g, common, density);
+                                             : make_grid(*grids, g, common, dense);
         grid->setName(g.name);
         grid->setCreator(metadata.metaValue<std::string>("creator"));
         grid->setTransform(transform);
@@ -292,5 +327,7 @@ try {
     };
     vdb::encode(grids->n_grids, make, *options, metadata, out);
     return OK;
+} catch (const vdb::refused &r) {
+    return r.st;
 }
 SHIM_CATCH(E_OUTPUT, "volumes")

@@ -3,11 +3,31 @@
 #include "vdb/encode.h"
 #include "vdb/vdb.h"
 
-status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options, struct vdb_bytes *out)
+/* Reading samples on behalf of the library, whose message is not this program's. */
+struct reading {
+    const struct grid_source *source;
+    status st;
+};
+
+static status read_samples(void *user, const struct frame_grid *grid, float **out)
 {
+    struct reading *r = user;
+    return r->st = r->source->read(r->source->user, grid, out);
+}
+
+status vdb_volumes(const struct frame_grids *grids, const struct vdb_options *options, struct draft *out)
+{
+    status st = OK;
     vdb_encode_volumes_function *encode = NULL;
-    status st = library_find("vdb_encode_volumes", &encode);
-    return st == OK ? library_status(encode(grids, options, out)) : st;
+    struct reading r = {&grids->source, OK};
+    struct frame_grids own = *grids;
+    own.source = (struct grid_source){&r, read_samples};
+    TRY(library_find("vdb_encode_volumes", &encode));
+    st = encode(&own, options, out);
+    if (r.st == OK) /* otherwise the message is set already */
+        st = library_status(st);
+done:
+    return st;
 }
 
 /* The pieces, and the status of getting them. */
@@ -29,7 +49,7 @@ static void drop_piece(void *user, struct rock *piece)
 }
 
 status vdb_points_of_frame(const struct rock *rock, const struct frame_deep *deep,
-                           const struct vdb_options *options, struct vdb_bytes *out)
+                           const struct vdb_options *options, struct draft *out)
 {
     status st = OK;
     struct getting g = {{0}, OK};
@@ -45,7 +65,7 @@ done:
     return st;
 }
 
-status vdb_points(const struct rock *rock, const struct vdb_options *options, struct vdb_bytes *out)
+status vdb_points(const struct rock *rock, const struct vdb_options *options, struct draft *out)
 {
     return vdb_points_of_frame(rock, NULL, options, out);
 }

@@ -24,7 +24,7 @@ static int write_volumes_and_points(void **state)
             .up = up, .frame = 1001, .spacing = 0.5, .identity = 7, .color = COLORS, .n_colors = 2};
         struct frame_grids grids;
         struct rock rock;
-        struct vdb_bytes file;
+        struct draft file = {0};
         char path[64];
         assert_int_equal(sample_grids(0.25, &grids), OK);
         assert_int_equal(vdb_volumes(&grids, &options, &file), OK);

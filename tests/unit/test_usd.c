@@ -129,7 +129,7 @@ static void a_crate_holds_the_surface(void **state)
     (void)state;
     static const float color[2][3] = {{1, 0, 0}, {0, 0, 1}};
     struct rock rock;
-    struct vdb_bytes file, again;
+    struct draft file = {0}, again = {0};
     size_t n = 0;
     for (int up = 0; up < 2; up++) {
         const struct vdb_options options = {
@@ -175,7 +175,7 @@ static void a_rock_without_a_surface_is_no_error(void **state)
     (void)state;
     const struct vdb_options options = {.frame = 1, .spacing = 1};
     struct rock rock = {0};
-    struct vdb_bytes file;
+    struct draft file = {0};
     assert_int_equal(usd_points(&rock, &options, 24, &file), OK);
     assert_true(file.size > 88);
     free(file.bytes);

@@ -86,7 +86,7 @@ static void every_grid_comes_back(void **state)
     struct frame_grids in, out;
     uint32_t *number = NULL;
     const struct vdb_options options = {.up = OUTPUT_UP_Y, .spacing = 0.5, .frame = 1};
-    struct vdb_bytes bytes;
+    struct draft bytes = {0};
     assert_ok(frame_grids_begin(&(struct grid_lattice){{SIDE, SIDE, SIDE}, 0.5, {0}}, &in));
     assert_ok(memory_alloc(1, sizeof *number, "bricks", &number));
     frame_grids_choose(&in, &number, 1);

@@ -34,7 +34,7 @@ static struct vdb_options options_of(int up)
 static void write_volumes(const char *path, double voxel, const struct vdb_options *options)
 {
     struct frame_grids grids;
-    struct vdb_bytes file;
+    struct draft file = {0};
     assert_int_equal(sample_grids(voxel, &grids), OK);
     assert_int_equal(vdb_volumes(&grids, options, &file), OK);
     assert_int_equal(atomic_file_write(path, file.bytes, file.size), OK);
@@ -136,7 +136,7 @@ static void mesh_of_a_ball_is_closed_and_true(void **state)
 static void write_points(const char *path, double h, const struct vdb_options *options)
 {
     struct rock rock;
-    struct vdb_bytes file;
+    struct draft file = {0};
     assert_int_equal(sample_rock(h, &rock), OK);
     assert_int_equal(vdb_points(&rock, options, &file), OK);
     assert_int_equal(atomic_file_write(path, file.bytes, file.size), OK);
@@ -205,7 +205,7 @@ static void the_wind_comes_back(void **state)
         const struct grid_lattice lattice = {{9, 4, 3}, 6.5, {-8, -7, 3.25}};
         struct frame_grids in, out;
         struct frame_grid *wind;
-        struct vdb_bytes file;
+        struct draft file = {0};
         uint32_t *number;
         assert_int_equal(frame_grids_begin(&lattice, &in), OK);
         assert_int_equal(memory_alloc(BRICKS, sizeof *number, "bricks", &number), OK);
@@ -243,7 +243,7 @@ static struct errors errors_of(const struct vdb_options *options)
 {
     struct errors e = {0};
     struct rock in, out;
-    struct vdb_bytes file;
+    struct draft file = {0};
     size_t *of_id;
     assert_int_equal(sample_rock(0.5, &in), OK);
     in.viability[0] = 0;
@@ -391,7 +391,7 @@ static void no_points_make_a_file(void **state)
     (void)state;
     const struct vdb_options options = options_of(OUTPUT_UP_Y);
     struct rock none, out;
-    struct vdb_bytes file;
+    struct draft file = {0};
     assert_int_equal(rock_alloc(&none, 0, DERIVED), OK);
     assert_int_equal(vdb_points(&none, &options, &file), OK);
     assert_int_equal(atomic_file_write("none.vdb", file.bytes, file.size), OK);
@@ -410,7 +410,7 @@ static void a_particle_nowhere_is_a_blow_up(void **state)
     const float bad[] = {NAN, INFINITY, 1e30F};
     for (int k = 0; k < 3; k++) {
         struct rock rock;
-        struct vdb_bytes file;
+        struct draft file = {0};
         assert_int_equal(sample_rock(1, &rock), OK);
         rock.P[4 * 7 + 1] = bad[k];
         assert_int_equal(vdb_points(&rock, &options, &file), E_NUMERIC);
@@ -434,7 +434,7 @@ static void hash_on_one_core(uint64_t *volumes, uint64_t *points)
         const struct vdb_options options = options_of(OUTPUT_UP_Y);
         struct frame_grids grids;
         struct rock rock;
-        struct vdb_bytes file;
+        struct draft file = {0};
         if (sample_grids(0.25, &grids) != OK || vdb_volumes(&grids, &options, &file) != OK)
             _exit(1);
         hash[0] = hash_bytes(file.bytes, file.size);
@@ -458,7 +458,7 @@ static void equal_input_gives_equal_bytes_on_any_number_of_cores(void **state)
     (void)state;
     struct frame_grids grids;
     struct rock rock;
-    struct vdb_bytes file;
+    struct draft file = {0};
     const struct vdb_options options = options_of(OUTPUT_UP_Y);
     uint64_t volumes, points;
     hash_on_one_core(&volumes, &points);
@@ -480,7 +480,7 @@ static void another_identity_is_another_archive(void **state)
 {
     (void)state;
     struct frame_grids grids;
-    struct vdb_bytes a, b;
+    struct draft a = {0}, b = {0};
     struct vdb_options options = options_of(OUTPUT_UP_Y);
     assert_int_equal(sample_grids(0.5, &grids), OK);
     assert_int_equal(vdb_volumes(&grids, &options, &a), OK);
@@ -666,7 +666,7 @@ static void inside_is_not_kept(void **state)
             value[2][i] = value[1][i] > 0 && value[1][i] < 1 ? 0.25f : ceilf(value[1][i]);
             value[3][i] = ceilf(value[1][i]) - value[2][i];
         }
-        struct vdb_bytes file[2][2];
+        struct draft file[2][2] = {0};
         for (int sparse = 0; sparse < 2; sparse++) {
             struct frame_grids grids;
             uint32_t *number = NULL;
@@ -747,7 +747,7 @@ static void rock_on_the_floor_is_closed(void **state)
     put_lattice(&grids, value, 1.5f, surface);
     for (int up = 0; up < 2; up++) {
         const struct vdb_options options = options_of(up);
-        struct vdb_bytes file;
+        struct draft file = {0};
         struct vdb_mesh mesh;
         double low_z = 1e9, high_x = -1e9, high_y = -1e9;
         assert_int_equal(vdb_volumes(&grids, &options, &file), OK);

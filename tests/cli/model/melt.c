@@ -86,16 +86,16 @@ static status step(struct model *m)
 static status output(struct model *m, struct frame *out)
 {
     status st = OK;
-    struct particles p = {0};
-    TRY(particles_create(m->gpu, m->work, &of(m)->rock, STATE, m->voxels, m->h, &p));
-    TRY(particles_surface(m->gpu, m->work, &p));
-    TRY(field_build(m->gpu, m->work, &m->field, &p, 0));
-    TRY(particles_download(m->gpu, &p, DERIVED, &out->rock));
-    TRY(field_download(m->gpu, &m->field, &p, HAS_ALWAYS, &out->grids));
-    TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, &p, NULL, out));
+    struct particles *p = &m->made;
+    TRY(particles_create(m->gpu, m->work, &of(m)->rock, STATE, m->voxels, m->h, p));
+    m->shown = p;
+    TRY(particles_surface(m->gpu, m->work, p));
+    TRY(field_build(m->gpu, m->work, &m->field, p, 0));
+    TRY(particles_download(m->gpu, p, DERIVED, &out->rock));
+    TRY(model_grids(m, HAS_ALWAYS, &out->grids));
+    TRY(aov_render_all(m->gpu, &m->aov, m->job, &m->field, p, NULL, out));
     out->volume_m3 = volume_of(m, &out->rock);
 done:
-    particles_destroy(m->gpu, &p);
     return st;
 }
 
