@@ -40,7 +40,8 @@ done:
 
 static bool fits(const struct gpu *gpu, const struct farm *f)
 {
-    return run_memory_fits(run_memory_available(gpu), run_memory_needed(gpu, &f->wedge[0].estimate, PACE_STREAM));
+    return run_memory_fits(run_memory_available(gpu),
+                           run_memory_needed(gpu, &f->wedge[0].estimate, PACE_STREAM));
 }
 
 static status rehearse_wedge(struct gpu *gpu, const struct farm *f, double patience, struct rehearsal *out)

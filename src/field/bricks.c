@@ -41,7 +41,8 @@ done:
 }
 
 /* Once the distances have been computed, `other` is free for values that are not in a buffer of their own. */
-status field_read(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which, float *out)
+status field_read(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which,
+                  float *out)
 {
     status st = OK;
     const size_t n = f->n_bricks * BRICK_SAMPLES;

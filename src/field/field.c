@@ -237,7 +237,8 @@ void field_skin(struct gpu *gpu, struct field *f, const struct particles *p, enu
                 p->field[value_field[which]], f->list, f->share, f->other);
 }
 
-void field_around(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which, int component)
+void field_around(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which,
+                  int component)
 {
     struct field_params k = params_of(f, p);
     k.component = (uint)component;

@@ -67,7 +67,8 @@ MUST_USE status field_keep(struct gpu *gpu, struct field *f, size_t n);
 void field_skin(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which);
 
 /* Writes to `other` the average of a component of a particle vector over all nearby particles. Records only. */
-void field_around(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which, int component);
+void field_around(struct gpu *gpu, struct field *f, const struct particles *p, enum value_id which,
+                  int component);
 
 /* The component of `means` that holds a value; -1: none. */
 int field_mean(enum value_id value);

@@ -65,15 +65,15 @@ static uint64_t one(const struct job *job, const struct scene_size *size, const 
     const uint64_t n = size->n_kept, deep = shown(job, size) - n;
     const bool moves = job->clock.seconds_per_frame > 0 || job->collapse.blocks == COLLAPSE_FALL;
     return host_rock_bytes(n) + (moves ? 16 * n : 0) + deep * DEEP_VALUES * sizeof(float) +
-           grids * f->samples * sizeof(float) + f->own +
-           aov_picture_bytes(job) * job->output.aov.n_cameras;
+           grids * f->samples * sizeof(float) + f->own + aov_picture_bytes(job) * job->output.aov.n_cameras;
 }
 
-uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size,
-                           const struct host_frame *f, enum frame_pace pace)
+uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, const struct host_frame *f,
+                           enum frame_pace pace)
 {
     const uint64_t all = one(job, size, f, f->grids);
     if (pace == PACE_STREAM) /* the largest grids are vectors */
-        return one(job, size, f, f->kept) + most(making(job), writing(job, size) + 3 * f->samples * sizeof(float));
+        return one(job, size, f, f->kept) +
+               most(making(job), writing(job, size) + 3 * f->samples * sizeof(float));
     return (pace == PACE_OVERLAP ? 2 : 1) * all + making(job) + writing(job, size);
 }

@@ -15,7 +15,7 @@ uint64_t host_grid_samples(const int voxels[3], uint64_t rock, uint64_t bare);
 enum frame_pace {
     PACE_OVERLAP,   /* a frame is written while the next one is made, so two are in memory */
     PACE_ALTERNATE, /* each is written before the next one is made */
-    PACE_STREAM,    /* likewise, and the samples of volumes are read from the device grid by grid while they are written */
+    PACE_STREAM, /* likewise, and the samples of volumes are read from the device grid by grid while they are written */
     PACES
 };
 

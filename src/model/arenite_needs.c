@@ -72,8 +72,8 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     const uint64_t ages = job_keeps_exposed(job) ? n : 0;
     needs->frame.grids = value_grids(has) - value_grids(HAS_ALWAYS);
     needs->frame.kept = arenite_uses_stress_grid(job) ? 2 : 0; /* see inside_values() */
-    needs->frame.own = ages * rock_field_size(ROCK_exposed_kyr) +
-                       (job_seeps(job) ? n * rock_field_size(ROCK_seepage) : 0);
+    needs->frame.own =
+        ages * rock_field_size(ROCK_exposed_kyr) + (job_seeps(job) ? n * rock_field_size(ROCK_seepage) : 0);
     needs->disk = (struct disk_particle){
         .inside = 15.5, .bare = 45, .volumes_inside = 2.2, .volumes_bare = 88, .channel = 1.9, .has = has};
     needs->checkpoint_bytes = 15 * (uint64_t)n + ages + held_words(needs->voxels) / 4 +

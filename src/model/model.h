@@ -23,7 +23,7 @@ struct model_estimate {
     enum frame_pace pace;    /* the fastest that output.memory_GB allows */
     uint64_t host_bytes;     /* besides the device's, at that pace */
     uint64_t host_at[PACES]; /* the same at each pace */
-    struct disk_frame disk; /* of one frame */
+    struct disk_frame disk;  /* of one frame */
     uint64_t checkpoint_bytes;
     double steps; /* of erosion or equilibrium, over all frames */
     int kernels;  /* about how many different kernels run */

@@ -37,9 +37,9 @@ struct terrain_view {
     float *share;     /* [bricks * 512]: share of ground, 1/2 on the surface; 0 beyond the lattice */
     struct rock rock; /* one particle for every voxel at the surface; fields that are 0 everywhere are NULL */
     /* Of what shows at each sample: */
-    uint8_t *found;                    /* [bricks * 512]: the material with the largest share, and flags */
-    size_t *first;                     /* [bricks + 1]: each brick's first particle, in the order of samples */
-    float (*ratio)[TERRAIN_RATIOS];    /* [particles]: shares of the materials from MATERIAL_BEDROCK on */
+    uint8_t *found;                 /* [bricks * 512]: the material with the largest share, and flags */
+    size_t *first;                  /* [bricks + 1]: each brick's first particle, in the order of samples */
+    float (*ratio)[TERRAIN_RATIOS]; /* [particles]: shares of the materials from MATERIAL_BEDROCK on */
 };
 
 /* Fills bricks, share, rock, found, first and ratio. Free with terrain_view_free(); the caller may free `share` and `rock` before. */

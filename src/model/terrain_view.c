@@ -249,8 +249,9 @@ void terrain_ratio(const struct terrain_view *v, int material, float *out)
     for (size_t b = 0; b < v->bricks.count; b++) {
         size_t from = v->first[b];
         for (size_t i = b * BRICK_SAMPLES; i < (b + 1) * BRICK_SAMPLES; i++)
-            out[i] = v->found[i] & IS_PARTICLE ? v->ratio[from++][material - MATERIAL_BEDROCK]
-                                               : (v->found[i] & IS_GROUND) && (v->found[i] & MATERIAL_OF) == material;
+            out[i] = v->found[i] & IS_PARTICLE
+                         ? v->ratio[from++][material - MATERIAL_BEDROCK]
+                         : (v->found[i] & IS_GROUND) && (v->found[i] & MATERIAL_OF) == material;
     }
 }
 

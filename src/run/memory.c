@@ -62,7 +62,8 @@ static bool would_fit(const struct gpu *gpu, const struct job *job, double spaci
     struct job coarser = *job;
     struct model_estimate e;
     coarser.domain.spacing_m = spacing;
-    return model_estimate(&coarser, &e) == OK && run_memory_fits(available, run_memory_needed(gpu, &e, PACE_STREAM));
+    return model_estimate(&coarser, &e) == OK &&
+           run_memory_fits(available, run_memory_needed(gpu, &e, PACE_STREAM));
 }
 
 /* About the smallest spacing above the job's own at which it fits, found by doubling and bisection; 0 if it does not fit even with two
@@ -99,7 +100,8 @@ status run_memory_check(const struct gpu *gpu, const struct job *job, struct mod
     char device[400] = "", host[32], free_host[32], free_device[32],
          advice[64] = "no domain.spacing_m would fit";
     status st = model_estimate(job, out);
-    struct run_memory available = run_memory_available(gpu), needed = run_memory_needed(gpu, out, PACE_STREAM);
+    struct run_memory available = run_memory_available(gpu),
+                      needed = run_memory_needed(gpu, out, PACE_STREAM);
     if (st != OK || run_memory_fits(available, needed))
         return st;
     if (!info->is_cpu)

@@ -254,7 +254,8 @@ static void *writer_main(void *argument)
     struct writer *w = argument;
     /* On Linux this sets the priority of this thread only. Where the device is the CPU, the simulation has precedence; it waits for the
      * writer in enqueue(). */
-    setpriority(PRIO_PROCESS, 0, WRITER_NICE);
+    if (!w->blocking)
+        setpriority(PRIO_PROCESS, 0, WRITER_NICE);
     pthread_mutex_lock(&w->lock);
     while (w->n > 0 || !w->ending) {
         if (w->n == 0) {

@@ -94,9 +94,8 @@ status usd_mesh(const struct mesh_file *f, int frame, double fps, struct draft *
         [LAYER] = {.at = f->layer, .n = n},          [VELOCITIES] = {.at = a.velocities, .n = n},
     };
     for (size_t i = 0; i < prim.n; i++)
-        items[i] = which[i] < OWN
-                       ? mine[which[i]]
-                       : (struct usd_items){.at = f->value + (size_t)(which[i] - OWN) * n, .n = n};
+        items[i] = which[i] < OWN ? mine[which[i]]
+                                  : (struct usd_items){.at = f->value + (size_t)(which[i] - OWN) * n, .n = n};
     TRY(usd_crate(&prim, items, f->up, frame, fps, out));
 done:
     arrays_free(&a);

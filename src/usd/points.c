@@ -154,9 +154,10 @@ status usd_points(const struct rock *rock, const struct vdb_options *options, do
     const struct usd_prim *const points = usd_points_prim(options->moves);
     for (size_t i = 0; i < points->n; i++) {
         making[i] = (struct making){&s, which[options->moves][i]};
-        items[i] = making[i].which == EXTENT   ? (struct usd_items){.at = s.extent, .n = s.n ? 2 : 0}
-                   : making[i].which == WIDTHS ? (struct usd_items){.at = &s.width, .n = 1}
-                                               : (struct usd_items){.n = s.n, .make = make, .user = &making[i]};
+        items[i] = making[i].which == EXTENT ? (struct usd_items){.at = s.extent, .n = s.n ? 2 : 0}
+                   : making[i].which == WIDTHS
+                       ? (struct usd_items){.at = &s.width, .n = 1}
+                       : (struct usd_items){.n = s.n, .make = make, .user = &making[i]};
     }
     TRY(usd_crate(points, items, options->up, options->frame, fps, out));
 done:

@@ -350,8 +350,9 @@ PointDataGrid::Ptr make_grid(const rock &r, const vdb_options &options)
     leaf_lists lists;
     size_t bad = 0;
     if (!sort_into_leaves(r, options, at, lists, bad))
-        throw vdb::refused{fail(E_NUMERIC, "points of frame %d: particle %zu is at (%g, %g, %g) m", options.frame,
-                           bad, double(r.P[4 * bad]), double(r.P[4 * bad + 1]), double(r.P[4 * bad + 2]))};
+        throw vdb::refused{fail(E_NUMERIC, "points of frame %d: particle %zu is at (%g, %g, %g) m",
+                                options.frame, bad, double(r.P[4 * bad]), double(r.P[4 * bad + 1]),
+                                double(r.P[4 * bad + 2]))};
     const leaf_maker maker(r, options, at);
     std::vector<std::unique_ptr<leaf_node>> leaves(lists.origin.size());
     tbb::parallel_for(

@@ -315,8 +315,8 @@ try {
     const auto make = [&](size_t i) {
         const sampled in_memory(*grids, grids->grid[i]);
         const frame_grid &g = in_memory.grid;
-        auto grid = g.kind == GRID_LEVEL_SET ? make_level_set(*grids, g, y_up)
-                                             : make_grid(*grids, g, common, dense);
+        auto grid =
+            g.kind == GRID_LEVEL_SET ? make_level_set(*grids, g, y_up) : make_grid(*grids, g, common, dense);
         grid->setName(g.name);
         grid->setCreator(metadata.metaValue<std::string>("creator"));
         grid->setTransform(transform);

@@ -30,12 +30,12 @@ static int write_volumes_and_points(void **state)
         assert_int_equal(vdb_volumes(&grids, &options, &file), OK);
         snprintf(path, sizeof path, "volumes.%s.1001.vdb", NAMES[up]);
         assert_int_equal(atomic_file_write(path, file.bytes, file.size), OK);
-        free(file.bytes);
+        draft_drop(&file);
         assert_int_equal(sample_rock(0.5, &rock), OK);
         assert_int_equal(vdb_points(&rock, &options, &file), OK);
         snprintf(path, sizeof path, "points.%s.1001.vdb", NAMES[up]);
         assert_int_equal(atomic_file_write(path, file.bytes, file.size), OK);
-        free(file.bytes);
+        draft_drop(&file);
         rock_free(&rock);
         frame_grids_free(&grids);
     }

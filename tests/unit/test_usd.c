@@ -163,8 +163,8 @@ static void a_crate_holds_the_surface(void **state)
         memcpy(wanted, &count, 8);
         memcpy(wanted + 8, turned, sizeof turned);
         assert_true(n > 0 && memmem(file.bytes, file.size, wanted, sizeof wanted) != NULL);
-        free(file.bytes);
-        free(again.bytes);
+        draft_drop(&file);
+        draft_drop(&again);
         rock_free(&rock);
     }
     print_message("# %zu points\n", n);
@@ -178,7 +178,7 @@ static void a_rock_without_a_surface_is_no_error(void **state)
     struct draft file = {0};
     assert_int_equal(usd_points(&rock, &options, 24, &file), OK);
     assert_true(file.size > 88);
-    free(file.bytes);
+    draft_drop(&file);
 }
 
 int main(void)

@@ -101,7 +101,7 @@ static void every_grid_comes_back(void **state)
     }
     assert_ok(vdb_volumes(&in, &options, &bytes));
     assert_ok(atomic_file_write("all.vdb", bytes.bytes, bytes.size));
-    free(bytes.bytes);
+    draft_drop(&bytes);
     assert_ok(vdb_volumes_read("all.vdb", &out));
     assert_int_equal(out.n_grids, in.n_grids);
     for (size_t g = 0; g < in.n_grids; g++) {

@@ -38,7 +38,7 @@ static void write_volumes(const char *path, double voxel, const struct vdb_optio
     assert_int_equal(sample_grids(voxel, &grids), OK);
     assert_int_equal(vdb_volumes(&grids, options, &file), OK);
     assert_int_equal(atomic_file_write(path, file.bytes, file.size), OK);
-    free(file.bytes);
+    draft_drop(&file);
     frame_grids_free(&grids);
 }
 
@@ -140,7 +140,7 @@ static void write_points(const char *path, double h, const struct vdb_options *o
     assert_int_equal(sample_rock(h, &rock), OK);
     assert_int_equal(vdb_points(&rock, options, &file), OK);
     assert_int_equal(atomic_file_write(path, file.bytes, file.size), OK);
-    free(file.bytes);
+    draft_drop(&file);
     rock_free(&rock);
 }
 
@@ -229,7 +229,7 @@ static void the_wind_comes_back(void **state)
         assert_memory_equal(out.grid[0].value, wind->value, 3 * N * sizeof(float));
         frame_grids_free(&in);
         frame_grids_free(&out);
-        free(file.bytes);
+        draft_drop(&file);
     }
 }
 
@@ -252,7 +252,7 @@ static struct errors errors_of(const struct vdb_options *options)
     assert_int_equal(vdb_points(&in, options, &file), OK);
     assert_int_equal(atomic_file_write("small.vdb", file.bytes, file.size), OK);
     e.bytes = file.size;
-    free(file.bytes);
+    draft_drop(&file);
     assert_int_equal(vdb_points_read("small.vdb", &out), OK);
     of_id = calloc(1 << 20, sizeof *of_id);
     assert_non_null(of_id);
@@ -398,7 +398,7 @@ static void no_points_make_a_file(void **state)
     assert_int_equal(vdb_check("none.vdb"), OK);
     assert_int_equal(vdb_points_read("none.vdb", &out), OK);
     assert_int_equal(out.n, 0);
-    free(file.bytes);
+    draft_drop(&file);
     rock_free(&none);
     rock_free(&out);
 }
@@ -438,6 +438,7 @@ static void hash_on_one_core(uint64_t *volumes, uint64_t *points)
         if (sample_grids(0.25, &grids) != OK || vdb_volumes(&grids, &options, &file) != OK)
             _exit(1);
         hash[0] = hash_bytes(file.bytes, file.size);
+        draft_drop(&file);
         if (sample_rock(0.25, &rock) != OK || vdb_points(&rock, &options, &file) != OK)
             _exit(1);
         hash[1] = hash_bytes(file.bytes, file.size);
@@ -467,10 +468,10 @@ static void equal_input_gives_equal_bytes_on_any_number_of_cores(void **state)
     for (int k = 0; k < 3; k++) {
         assert_int_equal(vdb_volumes(&grids, &options, &file), OK);
         assert_true(hash_bytes(file.bytes, file.size) == volumes);
-        free(file.bytes);
+        draft_drop(&file);
         assert_int_equal(vdb_points(&rock, &options, &file), OK);
         assert_true(hash_bytes(file.bytes, file.size) == points);
-        free(file.bytes);
+        draft_drop(&file);
     }
     frame_grids_free(&grids);
     rock_free(&rock);
@@ -489,8 +490,8 @@ static void another_identity_is_another_archive(void **state)
     assert_int_equal(a.size, b.size);
     assert_memory_not_equal((char *)a.bytes + 21, (char *)b.bytes + 21, 36);
     assert_memory_equal((char *)a.bytes + 57, (char *)b.bytes + 57, a.size - 57);
-    free(a.bytes);
-    free(b.bytes);
+    draft_drop(&a);
+    draft_drop(&b);
     frame_grids_free(&grids);
 }
 
@@ -704,8 +705,8 @@ static void inside_is_not_kept(void **state)
         for (int up = 0; up < 2; up++) {
             assert_int_equal(file[0][up].size, file[1][up].size);
             assert_memory_equal(file[0][up].bytes, file[1][up].bytes, file[0][up].size);
-            free(file[0][up].bytes);
-            free(file[1][up].bytes);
+            draft_drop(&file[0][up]);
+            draft_drop(&file[1][up]);
         }
     }
 }
@@ -752,7 +753,7 @@ static void rock_on_the_floor_is_closed(void **state)
         double low_z = 1e9, high_x = -1e9, high_y = -1e9;
         assert_int_equal(vdb_volumes(&grids, &options, &file), OK);
         damage_put("floor.vdb", file.bytes, file.size);
-        free(file.bytes);
+        draft_drop(&file);
         assert_int_equal(vdb_mesh_read("floor.vdb", 0, NULL, 0, 0, &mesh), OK);
         const struct measure r = measure_mesh(&mesh);
         assert_int_equal(r.open_edges, 0);
