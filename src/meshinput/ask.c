@@ -28,12 +28,11 @@ static bool is_valid(const struct mesh *mesh)
     return true;
 }
 
-status mesh_take(struct reader_answer *answer, bool has_value, struct mesh_part *part, struct mesh *mesh)
+static status take_mesh(struct reader_answer *answer, bool has_value, const struct mesh_part *part,
+                        struct mesh *mesh)
 {
     status st = OK;
     *mesh = (struct mesh){0};
-    TRY(reader_take(answer, part, sizeof *part));
-    part->grid[sizeof part->grid - 1] = '\0';
     if (part->n_vertices > UINT32_MAX || part->n_triangles > UINT32_MAX / 2) {
         st = fail(E_INPUT, "%s: the mesh has more than 2^31 triangles or 2^32 vertices: reduce it",
                   answer->path);
@@ -55,6 +54,66 @@ status mesh_take(struct reader_answer *answer, bool has_value, struct mesh_part 
 done:
     if (st != OK)
         mesh_free(mesh);
+    return st;
+}
+
+static status take_head(struct reader_answer *answer, struct mesh_part *part)
+{
+    const status st = reader_take(answer, part, sizeof *part);
+    part->grid[sizeof part->grid - 1] = '\0';
+    return st;
+}
+
+status mesh_take(struct reader_answer *answer, bool has_value, struct mesh_part *part, struct mesh *mesh)
+{
+    status st = OK;
+    *mesh = (struct mesh){0};
+    TRY(take_head(answer, part));
+    TRY(take_mesh(answer, has_value, part, mesh));
+done:
+    return st;
+}
+
+void mesh_solid_free(struct mesh_solid *solid)
+{
+    free(solid->at);
+    free(solid->value);
+    *solid = (struct mesh_solid){0};
+}
+
+static status take_solid(struct reader_answer *answer, struct mesh_solid *out)
+{
+    enum { FARTHEST = 1 << 24 };
+    status st = OK;
+    struct solid_part *p = &out->part;
+    TRY(reader_take(answer, p, sizeof *p));
+    bool good = p->n < UINT32_MAX && p->voxel > 0 && p->voxel < 1e9 && p->filled >= 0 && p->filled < 1e18;
+    for (int a = 0; a < 3; a++)
+        good &= fabs(p->origin[a]) < 1e9;
+    if (!good)
+        return reader_bad_answer(answer);
+    TRY(reader_take_array(answer, (size_t)p->n, sizeof *out->at, &out->at));
+    TRY(reader_take_array(answer, (size_t)p->n, sizeof *out->value, &out->value));
+    for (size_t i = 0; i < p->n && good; i++)
+        good = fabsf(out->value[i]) <= 8 && abs(out->at[i][0]) < FARTHEST && abs(out->at[i][1]) < FARTHEST &&
+               abs(out->at[i][2]) < FARTHEST;
+    if (!good)
+        st = reader_bad_answer(answer);
+done:
+    return st;
+}
+
+status mesh_take_volume(struct reader_answer *answer, struct mesh_part *part, struct mesh *mesh,
+                        struct mesh_solid *solid)
+{
+    status st = OK;
+    *mesh = (struct mesh){0};
+    *solid = (struct mesh_solid){0};
+    TRY(take_head(answer, part));
+    TRY(part->is_solid ? take_solid(answer, solid) : take_mesh(answer, false, part, mesh));
+done:
+    if (st != OK)
+        mesh_solid_free(solid);
     return st;
 }
 
@@ -119,16 +178,17 @@ done:
 }
 
 status mesh_read_volume(const char *path, const char *const *argument, struct mesh_part *part,
-                        struct mesh *mesh)
+                        struct mesh *mesh, struct mesh_solid *solid)
 {
     status st = OK;
     struct reader_answer answer = {0};
     *mesh = (struct mesh){0};
+    *solid = (struct mesh_solid){0};
     TRY(reader_ask(
         &(struct reader_question){
             .program = "hoodoo-read", .kind = "vdb.shape", .path = path, .argument = argument},
         &answer));
-    TRY(mesh_take(&answer, false, part, mesh));
+    TRY(mesh_take_volume(&answer, part, mesh, solid));
 done:
     reader_end(&answer);
     return st;

@@ -10,21 +10,40 @@ static _Atomic(sdf_at_function *) at;
 static _Atomic(sdf_destroy_function *) destroy;
 static _Atomic(sdf_gap_function *) gap;
 
-status vdb_sdf_create(const struct sdf_request *question, struct vdb_sdf **out)
+static status find_functions(void)
 {
     status st = OK;
-    sdf_make_function *make = NULL;
     sdf_at_function *found_at = NULL;
     sdf_destroy_function *found_destroy = NULL;
     sdf_gap_function *found_gap = NULL;
-    TRY(library_find("sdf_make", &make));
     TRY(library_find("sdf_at", &found_at));
     TRY(library_find("sdf_destroy", &found_destroy));
     TRY(library_find("sdf_gap", &found_gap));
     atomic_store(&at, found_at);
     atomic_store(&destroy, found_destroy);
     atomic_store(&gap, found_gap);
+done:
+    return st;
+}
+
+status vdb_sdf_create(const struct sdf_request *question, struct vdb_sdf **out)
+{
+    status st = OK;
+    sdf_make_function *make = NULL;
+    TRY(find_functions());
+    TRY(library_find("sdf_make", &make));
     TRY(library_status(make(question, out)));
+done:
+    return st;
+}
+
+status vdb_sdf_from_samples(const struct sdf_samples *samples, struct vdb_sdf **out)
+{
+    status st = OK;
+    sdf_from_samples_function *make = NULL;
+    TRY(find_functions());
+    TRY(library_find("sdf_from_samples", &make));
+    TRY(library_status(make(samples, out)));
 done:
     return st;
 }

@@ -39,6 +39,17 @@ struct vdb_sdf;
 
 /* The same input gives the same bits, with any number of threads. E_MEMORY; E_INPUT: OpenVDB cannot make the grid. */
 MUST_USE status vdb_sdf_create(const struct sdf_request *question, struct vdb_sdf **out);
+/* A function given at samples, as struct solid_part describes it (reader/mesh_part.h). */
+struct sdf_samples {
+    size_t n;
+    const int32_t (*at)[3];
+    const float *value;            /* voxels */
+    double voxel;                  /* m: the distance that a value of 1 stands for */
+    double world_from_index[3][4]; /* the position of sample (i, j, k), m */
+};
+/* Their distance, trilinear between the samples; 2.25 voxels beyond them. E_MEMORY; E_INPUT: OpenVDB cannot make the grid. */
+MUST_USE status vdb_sdf_from_samples(const struct sdf_samples *samples, struct vdb_sdf **out);
+
 void vdb_sdf_destroy(struct vdb_sdf **sdf);
 
 /* m, negative inside; +-band where the surface is farther away. Thread-safe. */

@@ -318,6 +318,35 @@ extern "C" status sdf_make(const struct sdf_request *q, struct vdb_sdf **out)
     }
 }
 
+extern "C" status sdf_from_samples(const struct sdf_samples *s, struct vdb_sdf **out)
+{
+    constexpr float BAND = 2.25f; /* voxels */
+    try {
+        auto sdf = std::make_unique<vdb_sdf>();
+        openvdb::math::Mat4d affine = openvdb::math::Mat4d::identity(); /* for row vectors */
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 4; c++)
+                affine[c][r] = s->world_from_index[r][c];
+        sdf->grid = FloatGrid::create(BAND * float(s->voxel));
+        sdf->grid->setTransform(openvdb::math::Transform::createLinearTransform(affine));
+        FloatGrid::Accessor at = sdf->grid->getAccessor();
+        for (size_t i = 0; i < s->n; i++)
+            at.setValueOn(Coord(s->at[i][0], s->at[i][1], s->at[i][2]), s->value[i] * float(s->voxel));
+        in_one_thread([&] {
+            openvdb::tools::signedFloodFillWithValues(sdf->grid->tree(), BAND * float(s->voxel),
+                                                      -BAND * float(s->voxel));
+        });
+        *out = sdf.release();
+        return OK;
+    } catch (const std::bad_alloc &) {
+        return fail(E_MEMORY, "out of memory: a solid of %zu samples", s->n);
+    } catch (const std::exception &e) {
+        return fail(E_INPUT, "a solid of %zu samples cannot be made: %s", s->n, e.what());
+    } catch (...) {
+        return fail(E_INPUT, "a solid of %zu samples cannot be made", s->n);
+    }
+}
+
 extern "C" void sdf_destroy(struct vdb_sdf **sdf)
 {
     delete *sdf;

@@ -300,16 +300,54 @@ done:
     return st;
 }
 
+/* A solid recovered from a frame's volumes. */
+static status make_solid(const char *path, const struct mesh_solid *solid, const struct placement *place,
+                         struct vdb_sdf **out, double min[3], double max[3], double *file_m3)
+{
+    status st = OK;
+    const struct solid_part *p = &solid->part;
+    struct sdf_samples samples = {.n = (size_t)p->n,
+                                  .at = (const int32_t(*)[3])solid->at,
+                                  .value = solid->value,
+                                  .voxel = p->voxel * place->min_scale};
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int r = 0; r < 3; r++) {
+        samples.world_from_index[r][3] = place->world_from_local[r][3];
+        for (int c = 0; c < 3; c++) {
+            samples.world_from_index[r][c] = place->world_from_local[r][c] * p->voxel;
+            samples.world_from_index[r][3] += place->world_from_local[r][c] * p->origin[c];
+        }
+    }
+    for (size_t i = 0; i < p->n; i++)
+        for (int a = 0; a < 3 && solid->value[i] < 0; a++) {
+            low[a] = fmin(low[a], p->origin[a] + (solid->at[i][a] - 1) * p->voxel);
+            high[a] = fmax(high[a], p->origin[a] + (solid->at[i][a] + 1) * p->voxel);
+        }
+    if (!(low[0] < high[0]))
+        return fail(E_INPUT, "%s: the frame has no rock", path);
+    placement_box(place, low, high, min, max);
+    *file_m3 = p->filled * p->voxel * p->voxel * p->voxel * placement_volume_scale(place);
+    TRY(vdb_sdf_from_samples(&samples, out));
+done:
+    return st;
+}
+
 status volume_shape_create(const struct job_volume *job, const struct placement *place, double detail,
                            double reach, struct vdb_sdf **out, double min[3], double max[3], double *file_m3)
 {
     status st = OK;
     struct work w = empty_work;
     struct mesh_part part;
+    struct mesh_solid solid;
     char density[32];
     w.path = job->file;
     snprintf(density, sizeof density, "%.9g", job->density);
-    TRY(mesh_read_volume(job->file, (const char *const[]){job->grid, density, NULL}, &part, &w.mesh));
+    TRY(mesh_read_volume(job->file, (const char *const[]){job->grid, density, NULL}, &part, &w.mesh, &solid));
+    if (part.is_solid) {
+        log_note("%s: the solid of a frame, as its grids 'density' and 'surface' describe it", job->file);
+        TRY(make_solid(job->file, &solid, place, out, min, max, file_m3));
+        goto done;
+    }
     const bool y_up = job->up == VOLUME_UP_Y || (job->up == VOLUME_UP_FILE && part.y_up);
     log_note("%s: grid '%s' is read as %s%s, %c up", job->file, part.grid,
              part.is_fog ? "a fog volume, solid above a density of " : "a level set",
@@ -323,6 +361,7 @@ status volume_shape_create(const struct job_volume *job, const struct placement 
     TRY(make_sdf(&w, 0, detail, reach, out, min, max));
     *file_m3 = w.file_m3;
 done:
+    mesh_solid_free(&solid);
     mesh_free(&w.mesh);
     return st;
 }

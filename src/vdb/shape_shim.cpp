@@ -1,5 +1,5 @@
-/* Makes a mesh of the surface of a level set or fog in any OpenVDB file. Runs in hoodoo-read. */
-#include "vdb/shim.hpp"
+/* Makes a mesh of the surface of a level set or fog in any OpenVDB file, or recovers the solid of a frame of hoodoo's. Runs in hoodoo-read. */
+#include "vdb/solid.hpp"
 
 extern "C" {
 #include "reader/mesh_part.h"
@@ -104,6 +104,24 @@ status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct se
     }
     return st == OK ? serve_add_part(answer, corner.data(), corner.size() * sizeof corner[0]) : st;
 }
+status send_solid(const vdb::solid &solid, struct serve_answer *answer)
+{
+    struct mesh_part part = {};
+    struct solid_part head = {};
+    part.is_solid = 1;
+    head.n = solid.value.size();
+    head.voxel = solid.voxel;
+    head.filled = solid.filled;
+    std::memcpy(head.origin, solid.origin, sizeof head.origin);
+    status st = serve_add_part(answer, &part, sizeof part);
+    if (st == OK)
+        st = serve_add_part(answer, &head, sizeof head);
+    if (st == OK)
+        st = serve_add_part(answer, solid.at.data(), solid.at.size() * sizeof solid.at[0]);
+    if (st == OK)
+        st = serve_add_part(answer, solid.value.data(), solid.value.size() * sizeof solid.value[0]);
+    return st;
+}
 } // namespace
 
 extern "C" status vdb_serve_shape(const struct serve_question *q, struct serve_answer *answer)
@@ -113,6 +131,9 @@ try {
                                     : fail(E_INPUT, "%s: its reader lacks an argument", q->path);
     if (st != OK)
         return st;
+    vdb::solid solid;
+    if (!*q->argument[0] && vdb::find_solid(file, &solid))
+        return send_solid(solid, answer);
     const FloatGrid::Ptr grid = choose(file, q->argument[0]);
     /* A grid without a class counts as a fog if no value is below 0. */
     bool is_fog = grid->getGridClass() == openvdb::GRID_FOG_VOLUME;

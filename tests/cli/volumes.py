@@ -45,6 +45,31 @@ check(isinstance(first, float | int), "a first run", first)
 volume = run("again", "{volume: {file: first/volumes/first.0001.vdb}}")
 check(near(volume, first), "its volumes are its rock again", volume, first)
 
+
+def density(name):
+    """The share of rock at each sample, an array."""
+    grid, out = pyopenvdb.read(f"{name}/volumes/{name}.0001.vdb", "density"), np.zeros((50, 50, 50))
+    grid.copyToArray(out, ijk=(-5, -5, -45))
+    return out
+
+
+# Flat faces, edges, a ball of six spacings and, at a wall, rock that goes on: where the smoothed surface is a few percent too small.
+COARSE = "{union: [{box: {min_m: [%s, 1.1, 0], max_m: [5.4, 9.4, 5.3]}}, {sphere: {center_m: [9.4, 8, 2.9], radius_m: 3.1}}]}"
+for wall in (False, True):
+    job, JOB = JOB, JOB.replace("spacing_m: 0.25", "spacing_m: 0.5" + (", sides: {{x_min: wall}}" if wall else ""))
+    name, again = ("walled", "walled_loop") if wall else ("coarse", "loop")
+    coarse = run(name, COARSE % (-1 if wall else 0.7))
+    volume = run(again, "{volume: {file: %s/volumes/%s.0001.vdb}}" % (name, name))
+    one, two = density(name), density(again)
+    same = np.minimum(one, two).sum() / np.maximum(one, two).sum()
+    check(near(volume, coarse, 0.005 if wall else 0.002) and same > (0.995 if wall else 0.997), f"box and ball at half a metre{' and a wall' if wall else ''} come back", volume, coarse, same)
+    if not wall:
+        volume = run("turned", "{volume: {file: coarse/volumes/coarse.0001.vdb, scale: [0.9, 0.9, 0.9], rotate_deg: [0, 0, 20], translate_m: [3, 0, 0]}}")
+        check(near(volume, coarse * 0.9 ** 3), "scaled and turned", volume, coarse * 0.9 ** 3)
+        volume = run("smooth", "{volume: {file: coarse/volumes/coarse.0001.vdb, grid: surface}}")
+        check(near(volume, coarse, 0.06) and not near(volume, coarse, 0.02), "the grid 'surface' alone is smoother and smaller", volume, coarse)
+    JOB = job
+
 ball = 4 / 3 * math.pi * 27
 level = pyopenvdb.createLevelSetSphere(radius=3, center=(6, 6, 3), voxelSize=0.2)
 level.name = "ball"
