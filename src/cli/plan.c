@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/log.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "cli/answer.h"
@@ -10,6 +11,7 @@
 #include "cli/plan_time.h"
 #include "farm/cost.h"
 #include "farm/describe.h"
+#include "run/advice.h"
 #include "run/memory.h"
 
 /* Memory before anything is rehearsed. */
@@ -33,6 +35,39 @@ static void describe_memory(const struct model_estimate *e, const struct gpu *gp
     json_text(t, "frame_pace", paces[e->pace]);
     json_integer(t, "process_bytes", (int64_t)m->process);
     json_integer(t, "host_free_bytes", (int64_t)m->host_free);
+}
+
+/* The files of the scene, with their volumes by their own measure and as they are sampled. */
+static status describe_inputs(const struct job *job, struct text *t)
+{
+    status st = OK;
+    struct scene_survey survey = {0};
+    char sentence[600];
+    const bool before = log_silence(true); /* the estimate has read the same files */
+    if (!job->scene)
+        goto done;
+    TRY(scene_survey(job, &survey));
+    if (!job_model(job)->terrain)
+        TRY(scene_check(job, job->goblins.floats, &survey));
+    log_silence(before);
+    if (survey.n_inputs)
+        json_array(t, "inputs");
+    for (size_t i = 0; i < survey.n_inputs; i++) {
+        const struct scene_input *in = &survey.input[i];
+        if (advice_input(in, job->domain.spacing_m, sentence))
+            log_warn("%s", sentence);
+        json_object(t, NULL);
+        json_text(t, "file", in->file);
+        json_number(t, "own_m3", in->file_m3);
+        json_number(t, "sampled_m3", in->sampled_m3);
+        json_end_object(t);
+    }
+    if (survey.n_inputs)
+        json_end_array(t);
+done:
+    log_silence(before);
+    scene_survey_free(&survey);
+    return st;
 }
 
 /* Without a device (`gpu` is NULL), what depends on the device is omitted. */
@@ -60,6 +95,7 @@ static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *a
     json_text(t, "frames", range_text(job->frames, frames));
     json_integer(t, "frame_count", (int64_t)n_frames);
     json_number(t, "years", job_years(job, job->frames.first, job->frames.last));
+    TRY(describe_inputs(job, t));
     json_integer(t, "particles", (int64_t)e.n_particles);
     json_object(t, "voxels");
     json_integer(t, "x", e.voxels[0]);

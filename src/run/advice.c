@@ -18,10 +18,10 @@
 struct context {
     const struct job *job;
     struct advice_list *out;
-    struct scene_size size;
-    struct solid *solid;
+    struct scene_survey survey;
     double low[3], high[3]; /* m: bounds of the rock in the domain */
     double kyr;             /* from the first frame to the last; 0 in a shot */
+    bool log_inputs;
 };
 
 static status add_advice(struct context *v, const char *key, const char *format, ...) PRINTF_LIKE(3, 4);
@@ -64,9 +64,9 @@ static status check_domain(struct context *v)
     enum { ACROSS = 32 };
     double low[3], high[3], x[3];
     size_t all = 0, outside = 0;
-    if (!v->solid)
+    if (!v->survey.solid)
         return OK;
-    solid_bounds(v->solid, low, high);
+    solid_bounds(v->survey.solid, low, high);
     for (int a = 0; a < 3; a++) {
         const double size = v->job->domain.size_m[a];
         low[a] = fmax(low[a], -10 * size);
@@ -78,7 +78,7 @@ static status check_domain(struct context *v)
         const size_t at[3] = {i % ACROSS, i / ACROSS % ACROSS, i / ACROSS / ACROSS};
         for (int a = 0; a < 3; a++)
             x[a] = low[a] + ((double)at[a] + 0.5) / ACROSS * (high[a] - low[a]);
-        if (x[2] < 0 || solid_at(v->solid, x).distance > 0)
+        if (x[2] < 0 || solid_at(v->survey.solid, x).distance > 0)
             continue;
         all++;
         outside += cut_off(v->job, x);
@@ -94,33 +94,38 @@ static status check_domain(struct context *v)
 
 /* ---- input files */
 
-/* Logs the volume of each input file, of its own geometry and as it is sampled. If the two differ, the simulated rock is not what the
- * author of the file saw. */
+/* Compares the volume of each input file, of its own geometry, with that of the rock sampled from it. If the two differ, the simulated rock
+ * is not what the author of the file saw. */
 static status check_inputs(struct context *v)
 {
     status st = OK;
-    struct scene_input *in = NULL;
-    size_t n = 0;
-    const double h = v->job->domain.spacing_m;
-    TRY(scene_inputs(v->job, &in, &n));
-    log_silence(false);
-    for (size_t i = 0; i < n; i++) {
-        const double off = in[i].sampled_m3 / in[i].file_m3 - 1;
-        if (!(in[i].file_m3 > 0))
-            log_info("%s: %.4g m3 as it is sampled every %g m", in[i].file, in[i].sampled_m3, h);
-        else if (fabs(off) <= 0.05)
-            log_info("%s: %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m", in[i].file,
-                     in[i].file_m3, in[i].sampled_m3, h);
-        else
-            TRY(add_advice(
-                v, "scene",
-                "%.300s holds %.4g m3 by its own measure, and %.4g m3 as it is sampled every %g m, %.0f %% %s",
-                in[i].file, in[i].file_m3, in[i].sampled_m3, h, 100 * fabs(off), off > 0 ? "more" : "less"));
-    }
+    char text[600];
+    for (size_t i = 0; i < v->survey.n_inputs; i++)
+        if (advice_input(&v->survey.input[i], v->job->domain.spacing_m, text))
+            TRY(add_advice(v, "scene", "%s", text));
+        else if (v->log_inputs)
+            log_info("%s", text);
 done:
-    log_silence(true);
-    free(in);
     return st;
+}
+
+bool advice_input(const struct scene_input *in, double h, char text[600])
+{
+    char bounds[160], more[64] = "";
+    const double off = in->sampled_m3 / in->file_m3 - 1;
+    const bool differs = in->file_m3 > 0 && fabs(off) > 0.05;
+    snprintf(bounds, sizeof bounds, "from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m", in->min[0], in->min[1],
+             in->min[2], in->max[0], in->max[1], in->max[2]);
+    if (differs)
+        snprintf(more, sizeof more, ", %.0f %% %s", 100 * fabs(off), off > 0 ? "more" : "less");
+    if (in->file_m3 > 0)
+        snprintf(text, 600,
+                 "%.300s: %.4g m3 by its own measure, %s %.4g m3 as it is sampled every %g m%s; it is %s",
+                 in->file, in->file_m3, differs ? "but" : "and", in->sampled_m3, h, more, bounds);
+    else
+        snprintf(text, 600, "%.300s: %.4g m3 as it is sampled every %g m; it is %s", in->file, in->sampled_m3,
+                 h, bounds);
+    return differs;
 }
 
 /* ---- features smaller than the spacing */
@@ -339,11 +344,12 @@ static status check_cameras(struct context *v)
         snprintf(key, sizeof key, "cameras.%.64s", job->cameras[i].name);
         for (int k = 0; k < 3; k++) {
             const struct camera c = camera_of(&job->cameras[i], frame[k]);
-            const char *wrong = v->solid && k == 0 && solid_at(v->solid, c.eye).distance < 0
+            const char *wrong = v->survey.solid && k == 0 && solid_at(v->survey.solid, c.eye).distance < 0
                                     ? "stands inside the rock"
-                                : c.eye[2] < 0                            ? "stands below the ground"
-                                : v->size.n_points && !sees(&c, &v->size) ? "does not see the rock"
-                                                                          : NULL;
+                                : c.eye[2] < 0 ? "stands below the ground"
+                                : v->survey.size.n_points && !sees(&c, &v->survey.size)
+                                    ? "does not see the rock"
+                                    : NULL;
             if (!wrong)
                 continue;
             TRY(add_advice(v, key, "in frame %d it %s, from (%.4g, %.4g, %.4g) m", frame[k], wrong, c.eye[0],
@@ -468,9 +474,9 @@ static void bound_rock(struct context *v)
     for (int a = 0; a < 3; a++) {
         v->low[a] = INFINITY;
         v->high[a] = -INFINITY;
-        for (size_t i = 0; i < v->size.n_points; i++) {
-            v->low[a] = fmin(v->low[a], (double)v->size.point[i][a]);
-            v->high[a] = fmax(v->high[a], (double)v->size.point[i][a]);
+        for (size_t i = 0; i < v->survey.size.n_points; i++) {
+            v->low[a] = fmin(v->low[a], (double)v->survey.size.point[i][a]);
+            v->high[a] = fmax(v->high[a], (double)v->survey.size.point[i][a]);
         }
     }
 }
@@ -481,24 +487,21 @@ status advice_collect(const struct job *job, bool log_inputs, struct advice_list
         check_domain, check_inputs, check_sizes,   check_structure, check_interlocking,
         check_time,   check_model,  check_cameras, check_frames,    check_paths};
     status st = OK;
-    struct context v = {.job = job, .out = out};
-    /* The scene's files are read several times here, and would log the same each time. */
+    struct context v = {.job = job, .out = out, .log_inputs = log_inputs};
     const bool before = log_silence(!log_inputs);
     v.kyr = job->clock.seconds_per_frame > 0 ? 0 : 1e-3 * job_years(job, job->frames.first, job->frames.last);
-    if (job->scene)
-        TRY(solid_create(job->scene, 0.5 * job->domain.spacing_m, job->domain.spacing_m, &v.solid));
-    log_silence(true);
-    TRY(scene_estimate(job, &v.size));
+    TRY(scene_survey(job, &v.survey));
     if (!job_model(job)->terrain)
-        TRY(scene_check(job, job->goblins.floats, &v.size));
+        TRY(scene_check(job, job->goblins.floats, &v.survey));
+    if (log_inputs)
+        TRY(scene_paint_check(job));
     bound_rock(&v);
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
-        if (v.size.n_points > 0 || checks[i] == check_domain)
+        if (v.survey.size.n_points > 0 || checks[i] == check_domain)
             TRY(checks[i](&v));
 done:
     log_silence(before);
-    solid_destroy(&v.solid);
-    free(v.size.point);
+    scene_survey_free(&v.survey);
     return st;
 }
 

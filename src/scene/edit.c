@@ -221,26 +221,44 @@ done:
     return st;
 }
 
-status scene_edits_check(const struct job *job, int frame)
+static status check_edit(const struct job *job, const struct job_edit *e, bool added)
 {
     status st = OK;
     struct solid *solid = NULL;
     struct paint_set *set = NULL;
-    double h = job->domain.spacing_m;
-    for (size_t i = 0; i < job->n_edits; i++) {
-        const struct job_edit *e = &job->edits[i];
-        if (e->frame <= frame || e->frame > job->frames.last)
-            continue;
-        if (e->carve)
-            TRY(solid_create(e->carve, h / 2, COVERAGE_REACH * h, &solid));
+    const double h = job->domain.spacing_m;
+    if (e->carve)
+        TRY(solid_create(e->carve, h / 2, COVERAGE_REACH * h, &solid));
+    solid_destroy(&solid);
+    for (size_t k = 0; k < e->n_add && added; k++) {
+        TRY(solid_create(e->add[k].shape, h / 2, COVERAGE_REACH * h, &solid));
         solid_destroy(&solid);
-        for (size_t k = 0; k < e->n_add; k++) {
-            TRY(solid_create(e->add[k].shape, h / 2, COVERAGE_REACH * h, &solid));
-            solid_destroy(&solid);
-        }
-        TRY(paint_create(job, e->paint, e->n_paint, &set));
-        paint_destroy(&set);
     }
+    TRY(paint_create(job, e->paint, e->n_paint, &set));
+    paint_destroy(&set);
+done:
+    return st;
+}
+
+status scene_edits_check(const struct job *job, int frame)
+{
+    status st = OK;
+    for (size_t i = 0; i < job->n_edits; i++)
+        if (job->edits[i].frame > frame && job->edits[i].frame <= job->frames.last)
+            TRY(check_edit(job, &job->edits[i], true));
+done:
+    return st;
+}
+
+status scene_paint_check(const struct job *job)
+{
+    status st = OK;
+    struct paint_set *set = NULL;
+    TRY(paint_create(job, job->paint, job->n_paint, &set));
+    paint_destroy(&set);
+    for (size_t i = 0; i < job->n_edits; i++)
+        if (job->edits[i].frame <= job->frames.last)
+            TRY(check_edit(job, &job->edits[i], false));
 done:
     return st;
 }

@@ -6,7 +6,7 @@
 #include "base/memory.h"
 #include "base/random.h"
 #include "scene/coverage.h"
-#include "scene/scene.h"
+#include "scene/sampler.h"
 
 /* The approximate number of voxels to sample, one per block. */
 enum { SAMPLES = 1 << 15 };
@@ -42,22 +42,8 @@ static double sampled_volume(const struct solid *solid, double h)
     return (double)sum / COVERAGE_FULL * pow(side * h, 3);
 }
 
-/* Both volumes are in world space, so that the scale of the placement is included. */
-static status measure(const struct job *job, const struct job_node *node, const char *file,
-                      struct scene_input **out, size_t *n, size_t *capacity)
-{
-    status st = OK;
-    struct solid *solid = NULL;
-    const double h = job->domain.spacing_m;
-    TRY(solid_create(node, 0.5 * h, COVERAGE_REACH * h, &solid));
-    TRY(memory_grow(out, capacity, *n + 1, sizeof **out, "the scene's files"));
-    (*out)[(*n)++] = (struct scene_input){file, solid_file_m3(solid), sampled_volume(solid, h)};
-done:
-    solid_destroy(&solid);
-    return st;
-}
-
-static status walk(const struct job *job, const struct job_node *node, struct scene_input **out, size_t *n,
+/* `solid` was made of `node`, in the same form. */
+static status walk(const struct job_node *node, const struct solid *solid, double h, struct scene_survey *out,
                    size_t *capacity)
 {
     status st = OK;
@@ -66,24 +52,20 @@ static status walk(const struct job *job, const struct job_node *node, struct sc
                        : node->shape == SHAPE_VOLUME      ? node->u.volume.file
                        : node->shape == SHAPE_HEIGHTFIELD ? node->u.heightfield.file
                                                           : NULL;
-    if (file)
-        TRY(measure(job, node, file, out, n, capacity));
+    if (file) {
+        TRY(memory_grow(&out->input, capacity, out->n_inputs + 1, sizeof *out->input, "the scene's files"));
+        struct scene_input *in = &out->input[out->n_inputs++];
+        *in = (struct scene_input){file, solid_file_m3(solid), sampled_volume(solid, h), {0}, {0}};
+        solid_bounds(solid, in->min, in->max);
+    }
     for (size_t i = 0; i < node->n_child; i++)
-        TRY(walk(job, node->child[i], out, n, capacity));
+        TRY(walk(node->child[i], solid_child(solid, i), h, out, capacity));
 done:
     return st;
 }
 
-status scene_inputs(const struct job *job, struct scene_input **out, size_t *n)
+status inputs_measure(const struct job *job, const struct solid *scene, struct scene_survey *out)
 {
     size_t capacity = 0;
-    *out = NULL;
-    *n = 0;
-    const status st = job->scene ? walk(job, job->scene, out, n, &capacity) : OK;
-    if (st != OK) {
-        free(*out);
-        *out = NULL;
-        *n = 0;
-    }
-    return st;
+    return walk(job->scene, scene, job->domain.spacing_m, out, &capacity);
 }

@@ -311,14 +311,15 @@ done:
 }
 
 /* Examines all voxels, from the ground up to the lowest rock of the estimate. */
-status scene_check(const struct job *job, bool floats, const struct scene_size *size)
+status scene_check(const struct job *job, bool floats, const struct scene_survey *survey)
 {
     status st = OK;
-    struct sampler s;
+    const struct scene_size *size = &survey->size;
+    struct sampler s = {.job = job, .h = job->domain.spacing_m, .solid = survey->solid};
     double seen = INFINITY;
     bool found = false;
     int k = 0;
-    TRY(sampler_init(&s, job, NULL, 1));
+    TRY(scene_voxels(job, s.n));
     for (size_t i = 0; i < size->n_points; i++)
         seen = fmin(seen, (double)size->point[i][2]);
     for (; !found && k < s.n[2] && k * s.h < seen && (k == 0 || size->n_points); k++)
@@ -329,7 +330,29 @@ status scene_check(const struct job *job, bool floats, const struct scene_size *
     else if (!floats && !(found && k == 1))
         st = scene_fail_floating(found ? (k - 1) * s.h : seen - 0.5 * s.h);
 done:
-    sampler_deinit(&s);
+    return st;
+}
+
+/* The scene's own voxels are those of s, the edits' are read here. */
+static status estimate_all(const struct sampler *s, struct scene_size *out)
+{
+    status st = OK;
+    const struct job *job = s->job;
+    struct sampler added = {0};
+    *out = (struct scene_size){0};
+    TRY(estimate(s, out));
+    for (size_t i = 0; i < job->n_edits; i++)
+        for (size_t k = 0; k < job->edits[i].n_add && job->edits[i].frame <= job->frames.last; k++) {
+            sampler_deinit(&added);
+            TRY(sampler_init(&added, job, job->edits[i].add[k].shape, 1));
+            TRY(estimate(&added, out));
+        }
+done:
+    sampler_deinit(&added);
+    if (st != OK) {
+        free(out->point);
+        *out = (struct scene_size){0};
+    }
     return st;
 }
 
@@ -339,18 +362,37 @@ status scene_estimate(const struct job *job, struct scene_size *out)
     struct sampler s;
     *out = (struct scene_size){0};
     TRY(sampler_init(&s, job, NULL, 1));
-    TRY(estimate(&s, out));
-    for (size_t i = 0; i < job->n_edits; i++)
-        for (size_t k = 0; k < job->edits[i].n_add && job->edits[i].frame <= job->frames.last; k++) {
-            sampler_deinit(&s);
-            TRY(sampler_init(&s, job, job->edits[i].add[k].shape, 1));
-            TRY(estimate(&s, out));
-        }
+    TRY(estimate_all(&s, out));
 done:
     sampler_deinit(&s);
-    if (st != OK) {
-        free(out->point);
-        *out = (struct scene_size){0};
-    }
     return st;
+}
+
+status scene_survey(const struct job *job, struct scene_survey *out)
+{
+    status st = OK;
+    struct sampler s;
+    bool beds = false;
+    *out = (struct scene_survey){0};
+    for (size_t i = 0; i < job->n_sources; i++)
+        beds |= job->sources[i].bed_m > 0;
+    TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
+    TRY(estimate_all(&s, &out->size));
+    if (job->scene)
+        TRY(inputs_measure(job, beds ? solid_child(s.solid, 0) : s.solid, out));
+    out->solid = s.solid;
+    s.solid = NULL;
+done:
+    sampler_deinit(&s);
+    if (st != OK)
+        scene_survey_free(out);
+    return st;
+}
+
+void scene_survey_free(struct scene_survey *survey)
+{
+    solid_destroy(&survey->solid);
+    free(survey->size.point);
+    free(survey->input);
+    *survey = (struct scene_survey){0};
 }

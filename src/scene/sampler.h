@@ -31,6 +31,9 @@ MUST_USE status sampler_init(struct sampler *s, const struct job *job, const str
 MUST_USE status sampler_prepare(struct sampler *s, const struct job_paint *paint, size_t n);
 void sampler_deinit(struct sampler *s);
 
+/* Adds the inputs of the job's scene to *out; `scene`: its solid. E_MEMORY. */
+MUST_USE status inputs_measure(const struct job *job, const struct solid *scene, struct scene_survey *out);
+
 /* E_USAGE: there is no rock in the domain, or, unless it may float, none on the ground. */
 MUST_USE status sampler_check(const struct sampler *s, bool floats);
 

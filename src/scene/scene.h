@@ -29,6 +29,9 @@ void solid_destroy(struct solid **solid);
  * meshes, and unless the solid is a single shape from a file. */
 double solid_file_m3(const struct solid *solid);
 
+/* The solid of child i of the node that `solid` was made of. */
+const struct solid *solid_child(const struct solid *solid, size_t i);
+
 /* Its bounding box, m: infinite where a plane does not bound it, min > max if it is empty. */
 void solid_bounds(const struct solid *solid, double min[3], double max[3]);
 
@@ -103,16 +106,31 @@ struct scene_size {
 /* Errors of files and shapes as in scene_sample(); an empty scene has 0 particles. */
 MUST_USE status scene_estimate(const struct job *job, struct scene_size *out);
 
-/* Fails as scene_sample() does, or scene_grid() with `floats`, without sampling the whole scene. E_USAGE: there is no rock in the
- * domain, or none on the ground. `size`: from scene_estimate(). */
-MUST_USE status scene_check(const struct job *job, bool floats, const struct scene_size *size);
-
-/* The shapes of the scene that come from files, each by itself. The caller frees *out. Errors of scene_sample(). */
+/* A shape of the scene that comes from a file. */
 struct scene_input {
-    const char *file;  /* belongs to the job */
-    double file_m3;    /* solid_file_m3() */
-    double sampled_m3; /* the volume sampled at the job's spacing, within about a percent */
+    const char *file;      /* belongs to the job */
+    double file_m3;        /* solid_file_m3(): as the file itself has it */
+    double sampled_m3;     /* the volume sampled at the job's spacing, within about a percent */
+    double min[3], max[3]; /* m: its bounds in the world */
 };
-MUST_USE status scene_inputs(const struct job *job, struct scene_input **out, size_t *n);
+
+/* What the checks before a run look at, from one reading of the scene's files. */
+struct scene_survey {
+    struct scene_size size;
+    struct solid *solid; /* the scene without its river beds; NULL: the job has no scene */
+    struct scene_input *input;
+    size_t n_inputs;
+};
+
+/* Free *out with scene_survey_free(). Errors as scene_estimate(). */
+MUST_USE status scene_survey(const struct job *job, struct scene_survey *out);
+void scene_survey_free(struct scene_survey *survey);
+
+/* Fails as scene_sample() does, or scene_grid() with `floats`, without sampling the whole scene. E_USAGE: there is no rock in the
+ * domain, or none on the ground. */
+MUST_USE status scene_check(const struct job *job, bool floats, const struct scene_survey *survey);
+
+/* Reads the files that scene_survey() does not: of paint, and of what edits carve and paint. Errors of scene_sample(). */
+MUST_USE status scene_paint_check(const struct job *job);
 
 #endif

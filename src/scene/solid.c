@@ -91,6 +91,11 @@ double solid_file_m3(const struct solid *solid)
     return solid->kind == NODE_SHAPE ? solid->shape.file_m3 : (double)NAN;
 }
 
+const struct solid *solid_child(const struct solid *solid, size_t i)
+{
+    return solid->child[i];
+}
+
 void solid_bounds(const struct solid *solid, double min[3], double max[3])
 {
     for (int a = 0; a < 3; a++) {

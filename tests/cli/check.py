@@ -91,11 +91,19 @@ for name, own in (("solid", VOLUME), ("hollow", VOLUME - 16 * 6 * 16)):
     with open("job.json", "w") as file:
         json.dump({**GOOD, "scene": {"mesh": {"file": name + ".obj"}}}, file)
     code, said = hoodoo("check", "job.json")
-    numbers = [float(word) for line in said.splitlines() if " by its own measure, and " in line for word in line.split(".obj: ")[1].replace(" m3", "").split() if word[0].isdigit()]
+    numbers = [float(word) for line in said.splitlines() if " by its own measure, and " in line for word in line.split(".obj: ")[1].split(";")[0].replace(" m3", "").split() if word[0].isdigit()]
     ok(code == 0 and len(numbers) == 3 and abs(numbers[0] / own - 1) < 0.001 and abs(numbers[1] / own - 1) < 0.02, f"{name}.obj holds {own} m3, and so it is sampled", said)
 for name, words in (("double", "less"), ("plate", "%")):
     code, said = hoodoo("check", "job.json", "--set", f"scene={{mesh: {{file: {os.path.abspath(name)}.obj}}}}", "--set", "cameras={}")
     ok(code == 0 and "by its own measure" in said and "scene" in said and words in said, f"{name}.obj is another rock than it says", said)
+    code, said = hoodoo("plan", "job.json", "--rehearse", "0", "--json", "--set", f"scene={{mesh: {{file: {os.path.abspath(name)}.obj}}}}", "--set", "cameras={}")
+    ok(code == 0 and "by its own measure, but" in said and '"own_m3"' in said, f"plan says so of {name}.obj, too", said)
+code, said = hoodoo("plan", "job.json", "--rehearse", "0", "--json", "--set", f"scene={{mesh: {{file: {os.path.abspath('solid')}.obj, translate_m: [0, 0, 300]}}}}")
+ok(code == 2 and "no rock in the domain" in said, "plan refuses a scene of which nothing is left", code, said)
+with open("rock.ply", "w") as file:
+    file.write("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nelement face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0 1\n9 0 0 1\n0 9 0 1\n3 0 1 2\n")
+code, said = check(edited("paint", [{"mesh_attribute": {"file": "rock.ply", "attribute": "rad"}, "erodibility": 2}]))
+ok(code == 3 and "rad" in str(said) and "'red'" in str(said), "check reads the files of paint, and names the attributes of a mesh", code, said)
 code, found = check(edited("strata", [{"to_m": 10}, {"to_m": 10.1}, {"to_m": 24}]))
 place = found[0]["place"].split(":")
 line = open("job.json").read().splitlines()[int(place[1]) - 1]
