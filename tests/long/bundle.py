@@ -4,13 +4,12 @@ not packed. Debian 11's own lavapipe is too old to compute, so there the loader 
 import hashlib
 import os
 import shutil
-import subprocess
 import sys
 import time
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.environ["HOODOO_TOP"], "tests/peers/lib"))
-from packed import archive, inside, root, unpack
+from packed import archive, inside, pack, root, unpack
 from script import *
 
 MIRROR = "http://deb.debian.org/debian"
@@ -28,11 +27,9 @@ def digest(path):
         return hashlib.sha256(file.read()).hexdigest()
 
 
-first = digest(archive())
-build = os.path.dirname(os.path.abspath(HOODOO))
-os.rename(archive(), "first.tar.zst")
-code, said = ask("make", "-C", TOP, "BUILD=" + build, "bundle")
-ok(code == 0 and digest(archive()) == first, "packing again gives the same bytes", said[-1500:])
+first = digest(pack())
+os.remove(archive())
+ok(digest(pack()) == first, "packing again gives the same bytes")
 
 JOB, FRAMES = os.path.join(TOP, "jobs/demo.yaml"), "1001-1003"
 code, said = ask(HOODOO, "run", JOB, "--frames", FRAMES, "--device", "cpu", "--out", "plain")

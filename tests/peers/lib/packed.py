@@ -8,15 +8,20 @@ import subprocess
 from script import TOP, ask
 
 
+BUILD = os.path.dirname(os.path.abspath(os.environ["HOODOO"]))
+
+
+def pack():
+    """Runs `make bundle`, and returns the path of the archive."""
+    code, said = ask("make", "-C", TOP, "BUILD=" + os.path.relpath(BUILD, TOP), "bundle")
+    assert code == 0, said
+    return archive()
+
+
 def archive():
-    """The archive, which `make bundle` leaves beside the program; packed if there is none."""
-    build = os.path.dirname(os.path.abspath(os.environ["HOODOO"]))
-    found = glob.glob(build + "/hoodoo-*-linux-x86_64.tar.zst")
-    if not found:
-        code, said = ask("make", "-C", TOP, "BUILD=" + build, "bundle")
-        found = glob.glob(build + "/hoodoo-*-linux-x86_64.tar.zst")
-        assert code == 0 and found, said
-    return found[0]
+    """The archive that `make bundle` left beside the program; packed if there is none."""
+    found = glob.glob(BUILD + "/hoodoo-*-linux-x86_64.tar.zst")
+    return found[0] if found else pack()
 
 
 def unpack(folder):
