@@ -29,6 +29,25 @@ status atomic_file_temporary(const char *path, const char *ending, struct path *
                        ending);
 }
 
+static struct {
+    status (*check)(void *user);
+    void *user;
+} guard;
+
+void atomic_file_guard(status (*check)(void *user), void *user)
+{
+    guard.check = check;
+    guard.user = user;
+}
+
+static status move(const char *temporary, const char *path)
+{
+    const status st = guard.check ? guard.check(guard.user) : OK;
+    if (st == OK && rename(temporary, path) != 0)
+        return fail(E_OUTPUT, "%s: cannot rename into place: %s", path, strerror(errno));
+    return st;
+}
+
 static status fsync_folder_of(const char *path)
 {
     struct path folder;
@@ -68,8 +87,8 @@ status atomic_file_finish(struct draft *d)
     d->on_disk = false;
     if (close(d->fd) != 0 && st == OK)
         st = fail(E_OUTPUT, "%s: cannot close: %s", path.text, strerror(errno));
-    if (st == OK && rename(d->temporary.text, path.text) != 0)
-        st = fail(E_OUTPUT, "%s: cannot rename into place: %s", path.text, strerror(errno));
+    if (st == OK)
+        st = move(d->temporary.text, path.text);
     if (st != OK)
         unlink(d->temporary.text);
 done:
@@ -99,8 +118,8 @@ status atomic_file_adopt(const char *temporary, const char *path)
         st = fail(E_OUTPUT, "%s: cannot fsync: %s", path, strerror(errno));
     if (close(fd) != 0 && st == OK)
         st = fail(E_OUTPUT, "%s: cannot close: %s", path, strerror(errno));
-    if (st == OK && rename(temporary, path) != 0)
-        st = fail(E_OUTPUT, "%s: cannot rename into place: %s", path, strerror(errno));
+    if (st == OK)
+        st = move(temporary, path);
     if (st != OK) {
         unlink(temporary);
         return st;
@@ -139,9 +158,27 @@ static bool temporary_of(const char *name, unsigned *whose, long *pid)
     return tail && sscanf(tail + strlen(TEMPORARY), "%8x-%ld-", whose, pid) == 2;
 }
 
+/* The time by the clock of the folder's disk, which dates files: that of this machine may be days ahead. 0: not known. */
+static time_t disk_time(int folder)
+{
+    struct path name;
+    struct stat info;
+    time_t now = 0;
+    if (atomic_file_temporary("now", "", &name) != OK)
+        return 0;
+    const int fd = openat(folder, name.text, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return 0;
+    if (fstat(fd, &info) == 0)
+        now = info.st_mtime;
+    close(fd);
+    unlinkat(folder, name.text, 0);
+    return now;
+}
+
 /* Whether a temporary file was left behind: its process on this machine has ended, or it is a day old. Process numbers of another
- * container or boot have no meaning here, so their files are only removed after a day. */
-static bool abandoned(const char *name, int folder)
+ * container or boot have no meaning here, so their files are only removed after a day. *now: disk_time(), once it is needed. */
+static bool abandoned(const char *name, int folder, time_t *now)
 {
     enum { DAY_S = 24 * 60 * 60 };
     unsigned whose;
@@ -149,26 +186,30 @@ static bool abandoned(const char *name, int folder)
     struct stat info;
     if (!temporary_of(name, &whose, &pid) || fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) != 0)
         return false;
-    if (whose == process_place() && pid > 0 && kill((pid_t)pid, 0) != 0 && errno == ESRCH)
-        return true;
-    return time(NULL) - info.st_mtime > DAY_S;
+    if (whose == process_place() && pid > 0)
+        return kill((pid_t)pid, 0) != 0 && errno == ESRCH;
+    if (!*now)
+        *now = disk_time(folder);
+    return *now && *now - info.st_mtime > DAY_S;
 }
 
-static bool own(const char *name, int folder)
+static bool own(const char *name, int folder, time_t *now)
 {
     unsigned whose;
     long pid;
     (void)folder;
+    (void)now;
     return temporary_of(name, &whose, &pid) && whose == process_place() && pid == (long)getpid();
 }
 
-static void sweep(const char *folder, bool (*goes)(const char *name, int folder))
+static void sweep(const char *folder, bool (*goes)(const char *name, int folder, time_t *now))
 {
     DIR *d = opendir(folder);
+    time_t now = 0;
     if (!d)
         return;
     for (struct dirent *e; (e = readdir(d));)
-        if (goes(e->d_name, dirfd(d)))
+        if (goes(e->d_name, dirfd(d), &now))
             unlinkat(dirfd(d), e->d_name, 0);
     closedir(d);
 }

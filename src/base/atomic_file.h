@@ -22,6 +22,10 @@ MUST_USE status atomic_file_begin(const char *path, struct draft *out);
 /* Syncs the file and moves it into place. Drops the draft, also on an error. */
 MUST_USE status atomic_file_finish(struct draft *draft);
 
+/* From now on `check` is called before each rename of this process; if it fails, the file is not replaced and its status is returned. NULL:
+ * no longer. For a run that must not write after another process took over its folder (lock.h). Not while other threads write files. */
+void atomic_file_guard(status (*check)(void *user), void *user);
+
 /* Creates the folder `path` and its parents. E_OUTPUT if that fails or the path is not a folder. */
 MUST_USE status folder_make(const char *path);
 
@@ -34,7 +38,8 @@ MUST_USE status atomic_file_temporary(const char *path, const char *ending, stru
 MUST_USE status atomic_file_adopt(const char *temporary, const char *path);
 
 /* Removes temporary files that killed processes left in `folder`, but not those of running processes, which may be in other
- * containers or on other machines that share the disk. Never fails: files that cannot be removed stay. */
+ * containers or on other machines that share the disk: their files are removed only when they are a day older than a file that the
+ * disk's own clock dates now. Never fails: files that cannot be removed stay. */
 void atomic_file_sweep(const char *folder);
 
 /* Removes the temporary files of this process, after programs that it ran have failed. */

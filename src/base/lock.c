@@ -31,7 +31,9 @@ struct lock {
     pthread_cond_t wake;
     bool ending;
     atomic_bool lost;
+    pthread_mutex_t beating; /* one thread writes a heartbeat */
     unsigned long long count;
+    _Atomic double beat_s; /* when the last heartbeat was written, by now_s() */
 };
 
 /* ---- the file */
@@ -128,23 +130,32 @@ static enum owner owner_of(const struct lock *lock)
 
 /* ---- the heartbeat */
 
-static void write_heartbeat(struct lock *lock)
+/* Seconds on a clock that nobody sets, and that runs on while the machine sleeps. */
+static double now_s(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_BOOTTIME, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Writes a heartbeat if the lock is ours, and returns whose it is. Without the disk (UNREAD) the next heartbeat tries again. */
+static enum owner write_heartbeat(struct lock *lock)
 {
     char count[32];
+    pthread_mutex_lock(&lock->beating);
+    const double began = now_s();
     const enum owner now = owner_of(lock);
-    if (now == UNREAD)
-        return; /* the disk is temporarily unavailable; the next heartbeat tries again */
-    if (now == ANOTHERS) {
+    int fd = now == MINE ? open(lock->path.text, O_WRONLY | O_CLOEXEC | O_NOFOLLOW) : -1;
+    if (now == ANOTHERS)
         atomic_store(&lock->lost, true);
-        return;
+    if (fd >= 0) {
+        snprintf(count, sizeof count, "%0*llu", COUNT_DIGITS, ++lock->count);
+        if (pwrite(fd, count, COUNT_DIGITS, 0) == COUNT_DIGITS && fsync(fd) == 0)
+            atomic_store(&lock->beat_s, began);
+        close(fd);
     }
-    int fd = open(lock->path.text, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
-    if (fd < 0)
-        return;
-    snprintf(count, sizeof count, "%0*llu", COUNT_DIGITS, ++lock->count);
-    if (pwrite(fd, count, COUNT_DIGITS, 0) == COUNT_DIGITS)
-        fsync(fd);
-    close(fd);
+    pthread_mutex_unlock(&lock->beating);
+    return now;
 }
 
 /* Waits use the monotonic clock: if the wall clock were set back, the next heartbeat would be delayed by as much. */
@@ -214,6 +225,41 @@ static status check_holder(const char *path, const struct seen *first, double wa
     return OK;
 }
 
+/* Whether link() failed since the file system has no hard links. */
+static bool no_links(int why)
+{
+    return why == EPERM || why == EOPNOTSUPP || why == ENOSYS || why == EMLINK || why == EINVAL;
+}
+
+/* Creates `path` with these bytes if it does not exist. False with errno if it does, or if that fails. */
+static bool create_new(const char *path, const void *bytes, size_t n)
+{
+    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (fd < 0)
+        return false;
+    const bool good = write(fd, bytes, n) == (ssize_t)n && fsync(fd) == 0;
+    const int why = good ? 0 : errno ? errno : ENOSPC;
+    close(fd);
+    if (!good) {
+        unlink(path);
+        errno = why;
+    }
+    return good;
+}
+
+/* Gives a file that was renamed its name again, unless the name was taken meanwhile. */
+static bool put_back(const char *aside, const char *path)
+{
+    char *bytes = NULL;
+    size_t n = 0;
+    if (link(aside, path) == 0 || errno == EEXIST)
+        return true;
+    const bool good = no_links(errno) && file_read(aside, LOCK_BYTES, &bytes, &n) == OK &&
+                      (create_new(path, bytes, n) || errno == EEXIST);
+    free(bytes);
+    return good;
+}
+
 /* Renames a stale lock away and removes it. Of several processes that try, one succeeds. If the renamed file turns out not to be the stale
  * lock, because another process has already replaced it, it is put back. */
 static status remove_stale(const char *path, const struct seen *stale)
@@ -228,7 +274,7 @@ static status remove_stale(const char *path, const struct seen *stale)
                    : fail(E_OUTPUT, "%s: cannot rename the stale lock: %s", path, strerror(errno));
     st = read_lock(aside.text, &moved);
     const bool is_stale = st == OK && strcmp(moved.token, stale->token) == 0;
-    if (!is_stale && link(aside.text, path) != 0 && errno != EEXIST)
+    if (!is_stale && !put_back(aside.text, path))
         st = fail(E_OUTPUT, "%s: cannot restore the lock of another process: %s", path, strerror(errno));
     else if (is_stale)
         log_warn("%s was left behind by process %ld on %s (%s, since %s); taking over", path,
@@ -253,8 +299,15 @@ static status put_in_place(struct lock *lock, const char *what, bool *mine)
     int linked = link(own.text, lock->path.text), why = errno;
     *mine = linked == 0 || (stat(own.text, &info) == 0 && info.st_nlink == 2);
     unlink(own.text);
+    if (!*mine && no_links(why)) {
+        errno = 0;
+        *mine = create_new(lock->path.text, t.data, t.size);
+        why = errno;
+    }
     if (!*mine && why != EEXIST)
-        st = fail(E_OUTPUT, "%s: cannot create the lock: %s", lock->path.text, strerror(why));
+        st =
+            fail(E_OUTPUT, "%s: cannot create the lock, which this disk must support by link() or O_EXCL: %s",
+                 lock->path.text, strerror(why));
 done:
     text_free(&t);
     return st;
@@ -287,6 +340,8 @@ status lock_take(const char *path, const char *what, struct lock_patience patien
         goto done;
     }
     pthread_mutex_init(&lock->guard, NULL);
+    pthread_mutex_init(&lock->beating, NULL);
+    atomic_store(&lock->beat_s, now_s());
     init_wake(&lock->wake);
     if (pthread_create(&lock->thread, NULL, heartbeat_thread, lock) != 0) {
         unlink(path);
@@ -300,9 +355,17 @@ done:
     return st;
 }
 
-status lock_check(const struct lock *lock)
+status lock_check(struct lock *lock)
 {
-    if (lock && atomic_load(&lock->lost))
+    if (!lock)
+        return OK;
+    /* The heartbeat's thread may not have run yet after a suspension. */
+    const bool late = now_s() - atomic_load(&lock->beat_s) > 2 * lock->heartbeat_s;
+    if (late && !atomic_load(&lock->lost) && write_heartbeat(lock) == UNREAD)
+        return fail(E_OUTPUT,
+                    "%s cannot be read, so it is not known whether another process took over this folder",
+                    lock->path.text);
+    if (atomic_load(&lock->lost))
         return fail(E_OUTPUT, "%s: another process took over this folder while this one was suspended",
                     lock->path.text);
     return OK;
@@ -330,6 +393,7 @@ void lock_release(struct lock **handle)
     pthread_join(lock->thread, NULL);
     pthread_cond_destroy(&lock->wake);
     pthread_mutex_destroy(&lock->guard);
+    pthread_mutex_destroy(&lock->beating);
     if (owner_of(lock) == MINE)
         unlink(lock->path.text);
     free(lock);

@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cores.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/threads.h"
 #include "base/version.h"
 #include "gpu/choose.h"
 #include "gpu/internal.h"
@@ -244,6 +246,7 @@ done:
 
 status gpu_create(const struct gpu_options *options, struct gpu **out)
 {
+    enum { OWN_THREADS = 4 };
     status st = OK;
     VkPhysicalDevice *physical = NULL;
     struct gpu_info *info = NULL;
@@ -253,6 +256,7 @@ status gpu_create(const struct gpu_options *options, struct gpu **out)
     TRY(memory_alloc(1, sizeof *gpu, "the device", &gpu));
     gpu->options = *options;
     gpu->epoch = 1;
+    TRY(threads_check(2 * cores() + OWN_THREADS)); /* the driver's, OpenMP's and ours */
     TRY(instance_create(&gpu->instance));
     TRY(enumerate(gpu->instance, &physical, &info, &n));
     const char *ids = getenv("SLURM_STEP_GPUS");

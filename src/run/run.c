@@ -302,13 +302,19 @@ done:
     return st;
 }
 
-/* Takes the folder's lock. Another process may have written frames before that, so the folder is surveyed again. */
+static status check_lock(void *lock)
+{
+    return lock_check(lock);
+}
+
+/* Takes the folder's lock, without which nothing is renamed into place from now on. Another process may have written frames before that, so the folder is surveyed again. */
 static status lock_folder(struct run *r)
 {
     status st = OK;
     char what[128], frames[48];
     snprintf(what, sizeof what, "simulates frames %s here", range_text(r->frames, frames));
     TRY(lock_take(r->lock_path.text, what, (struct lock_patience){0}, r->options->stop, &r->lock));
+    atomic_file_guard(check_lock, r->lock);
     if (r->options->resume == RUN_NEVER)
         TRY(discard_frames(r));
     if (r->options->repair)
@@ -569,6 +575,7 @@ done:
     }
     model_destroy(&r.model);
     gpu_destroy(&r.gpu);
+    atomic_file_guard(NULL, NULL);
     lock_release(&r.lock);
     provenance_free(&r.provenance);
     free(r.done);

@@ -1,6 +1,7 @@
 /* The lock: one holder at a time, none for ever. */
 #include "check.h"
 
+#include <errno.h>
 #include <fcntl.h>
 #include <sched.h>
 #include <signal.h>
@@ -20,15 +21,34 @@
 #include "base/lock.h"
 #include "base/process.h"
 
-/* The wall clock is as many seconds ahead, for all of this program. */
-static _Atomic time_t ahead_s;
+/* For all of this program: the wall clock is as many seconds ahead, the machine slept as long, and the disk has no hard links, for this
+ * reason. */
+static _Atomic time_t ahead_s, slept_s;
+static int no_links;
 
 int clock_gettime(clockid_t clock, struct timespec *out)
 {
     const int code = (int)syscall(SYS_clock_gettime, clock, out);
     if (clock == CLOCK_REALTIME && code == 0)
         out->tv_sec += ahead_s;
+    if (clock == CLOCK_BOOTTIME && code == 0)
+        out->tv_sec += slept_s;
     return code;
+}
+
+time_t time(time_t *out)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    if (out)
+        *out = now.tv_sec;
+    return now.tv_sec;
+}
+
+int link(const char *from, const char *to)
+{
+    errno = no_links;
+    return no_links ? -1 : (int)syscall(SYS_link, from, to);
 }
 
 static const struct lock_patience quick = {.heartbeat_s = 0.1, .watch_s = 0.6};
@@ -291,6 +311,65 @@ static void make(const char *path)
     fclose(f);
 }
 
+/* A process that was suspended, with all its threads, writes nothing once another has its folder: not even the first file after it wakes,
+ * before its heartbeat. */
+static status check_lock(void *lock)
+{
+    return lock_check(lock);
+}
+
+static void a_late_holder_renames_nothing(void **state)
+{
+    (void)state;
+    struct lock *lock = NULL;
+    const struct lock_patience slow = {.heartbeat_s = 3};
+    assert_ok(lock_take("j.lock", "x", slow, NULL, &lock));
+    atomic_file_guard(check_lock, lock);
+    assert_ok(atomic_file_write("j.file", "old", 3));
+    /* In time it does not read the file; late it does. */
+    write_lock("j.lock", "elsewhere", 1, "another");
+    assert_ok(atomic_file_write("j.file", "own", 3));
+    slept_s = 60;
+    assert_int_equal(atomic_file_write("j.file", "new", 3), E_OUTPUT);
+    assert_non_null(strstr(status_message(), "another process took over"));
+    slept_s = 0;
+    atomic_file_guard(NULL, NULL);
+    FILE *f = fopen("j.file", "r");
+    char text[4] = "";
+    assert_non_null(f);
+    assert_non_null(fgets(text, sizeof text, f));
+    fclose(f);
+    assert_string_equal(text, "own");
+    lock_release(&lock);
+    unlink("j.lock");
+    /* Late, but still the holder. */
+    assert_ok(lock_take("j.lock", "x", slow, NULL, &lock));
+    slept_s = 60;
+    assert_ok(lock_check(lock));
+    unlink("j.lock");
+    assert_int_equal(mkdir("j.lock", 0700), 0);
+    slept_s = 120;
+    assert_int_equal(lock_check(lock), E_OUTPUT);
+    slept_s = 0;
+    rmdir("j.lock");
+    lock_release(&lock);
+}
+
+/* Disks without hard links, in the whole of what the tests above try. */
+static void without_links(void **state)
+{
+    static void (*const cases[])(void **) = {
+        a_living_holder_keeps_others_out, a_killed_holders_lock_is_taken_over_at_once,
+        a_lock_from_elsewhere_is_watched, files_that_are_no_locks_do_not_hold_for_ever};
+    static const int reasons[] = {EPERM, EOPNOTSUPP};
+    for (size_t r = 0; r < 2; r++)
+        for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+            no_links = reasons[r];
+            cases[i](state);
+        }
+    no_links = 0;
+}
+
 /* Two containers of one machine share a folder; in the one that sweeps, the other's process numbers mean nothing. */
 static void temporaries_of_another_container_are_not_swept(void **state)
 {
@@ -319,6 +398,24 @@ static void temporaries_of_another_container_are_not_swept(void **state)
     assert_int_equal(WEXITSTATUS(how), 0);
 }
 
+/* Files are as old as the disk says: a machine whose clock is days ahead takes those of living processes elsewhere for new. */
+static void a_clock_that_is_ahead_sweeps_nothing(void **state)
+{
+    (void)state;
+    static const char theirs[] = "ahead/a.tmp-00000001-1-1-0";
+    const struct timespec long_ago[2] = {{1000000000, 0}, {1000000000, 0}};
+    assert_int_equal(mkdir("ahead", 0777), 0);
+    make(theirs);
+    ahead_s = 3 * 86400;
+    atomic_file_sweep("ahead");
+    ahead_s = 0;
+    assert_true(there(theirs));
+    assert_int_equal(utimensat(AT_FDCWD, theirs, long_ago, 0), 0);
+    atomic_file_sweep("ahead");
+    assert_false(there(theirs));
+    assert_int_equal(rmdir("ahead"), 0); /* nothing else was left there */
+}
+
 static void temporaries_of_killed_processes_are_swept(void **state)
 {
     (void)state;
@@ -345,10 +442,25 @@ static void temporaries_of_killed_processes_are_swept(void **state)
     munmap(theirs, sizeof *theirs);
 }
 
-/* Many at once on a lock that was left behind, again and again: never two inside. */
+static void race(void);
+
 static void only_one_is_inside(void **state)
 {
     (void)state;
+    race();
+}
+
+static void only_one_is_inside_without_links(void **state)
+{
+    (void)state;
+    no_links = EPERM;
+    race();
+    no_links = 0;
+}
+
+/* Many at once on a lock that was left behind, again and again: never two inside. */
+static void race(void)
+{
     enum { PROCESSES = 6, TURNS = 25 };
     int bad = 0, how;
     end(holder("g.lock"));
@@ -400,6 +512,10 @@ int main(void)
         cmocka_unit_test(temporaries_of_another_container_are_not_swept),
         cmocka_unit_test(temporaries_of_killed_processes_are_swept),
         cmocka_unit_test(only_one_is_inside),
+        cmocka_unit_test(only_one_is_inside_without_links),
+        cmocka_unit_test(a_late_holder_renames_nothing),
+        cmocka_unit_test(without_links),
+        cmocka_unit_test(a_clock_that_is_ahead_sweeps_nothing),
     };
     return cmocka_run_group_tests_name("lock", tests, NULL, NULL);
 }
