@@ -28,7 +28,7 @@ import tempfile
 TOP = pathlib.Path(__file__).resolve().parents[2]
 # In this order: a peer after the bench whose case it repeats.
 BENCHES = ["bench", "stress", "algebraic.py", "mpm", "taichi_mpm.py", "water", "fastscape.py", "wind", "arches", "goblins", "farm",
-           "surface"]
+           "surface", "files"]
 ABSENT = 77  # the exit code of a peer that is not installed
 
 
