@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "image/bilinear.h"
 #include "image/image.h"
 
 /* The depth of the first rock behind the image is stored in cells of a spacing, at most this many a side. */
@@ -99,18 +100,12 @@ void projection_add_occluder(struct projection *p, const double x[3])
         }
 }
 
-/* Bilinear between pixel centres. */
 static double sample(const struct projection *p, double u, double v)
 {
-    double x = fmin(fmax(u * (double)p->image.width - 0.5, 0), (double)(p->image.width - 1));
-    double y = fmin(fmax((1 - v) * (double)p->image.height - 0.5, 0), (double)(p->image.height - 1));
-    size_t i = (size_t)x, j = (size_t)y;
-    size_t right = i + 1 < p->image.width ? 1 : 0, down = j + 1 < p->image.height ? p->image.width : 0;
-    const float *f = p->image.value + j * p->image.width + i;
-    double s = x - (double)i, t = y - (double)j;
-    double top = (double)f[0] + s * ((double)f[right] - (double)f[0]);
-    double bottom = (double)f[down] + s * ((double)f[down + right] - (double)f[down]);
-    return fmin(fmax(top + t * (bottom - top), 0), 1);
+    const struct image *m = &p->image;
+    const double value =
+        image_bilinear(m->value, m->width, m->height, u * (double)m->width, (1 - v) * (double)m->height);
+    return fmin(fmax(value, 0), 1);
 }
 
 double projection_at(const struct projection *p, const double x[3])
