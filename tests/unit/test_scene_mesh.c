@@ -303,6 +303,26 @@ static void stray_faces_are_passed_over(void **state)
         E_INPUT, "the surface is open", "sheets");
 }
 
+/* Sheets with a fold inside of a solid, and two in parallel. Whether the concave side of a fold is rock or air depends on which way it
+ * faces: where it faces like the solid's own faces the solid stays whole, and where it could be a cavity with an open side, the
+ * file is refused with its place. */
+static void bent_sheets_are_whole_or_refused(void **state)
+{
+    (void)state;
+    static const unsigned without[] = {63 - (1 | 8), 63 - (1 | 8 | 32), 63 - (8 | 32), 2};
+    for (size_t i = 0; i < sizeof without / sizeof *without; i++) {
+        struct quads out = {0}, in;
+        add_box(&out, CORNER(2, 2, 2), CORNER(18, 18, 18), false, 0);
+        in = out;
+        add_box(&out, CORNER(7, 7, 7), CORNER(13, 13, 13), false, without[i]);
+        assert_close(volume_of_text(out.text), 4096, 1e-3);
+        add_box(&in, CORNER(7, 7, 7), CORNER(13, 13, 13), true, without[i]);
+        struct job_node node = MESH(.file = write_text("bent.obj", in.text), .up = MESH_UP_Z);
+        assert_failed(solid_create(&node, 0.25, 2, &(struct solid *){NULL}), E_INPUT, "the surface is open",
+                      "widest gap");
+    }
+}
+
 /* A lid that lies a little off, as rounding or a gap that voxels do not see. */
 static void seams_are_closed(void **state)
 {
@@ -548,6 +568,7 @@ int main(void)
         cmocka_unit_test(untidy_meshes_are_solids_too),
         cmocka_unit_test(shells_within_shells),
         cmocka_unit_test(stray_faces_are_passed_over),
+        cmocka_unit_test(bent_sheets_are_whole_or_refused),
         cmocka_unit_test(seams_are_closed),
         cmocka_unit_test(maps_are_put_at_the_origin),
         cmocka_unit_test(winding_numbers_are_sums),
