@@ -160,11 +160,12 @@ static status ask(const struct image_request *w, const struct converted *c, stru
                       answer);
 }
 
-static status read_answer(const struct image_request *w, struct reader_answer *answer, struct image *out)
+status image_take(const struct image_request *w, struct reader_answer *answer, struct image *out)
 {
     status st = OK;
     struct image_answer p;
     struct text lines = {0};
+    *out = (struct image){0};
     TRY(reader_take(answer, &p, sizeof p));
     if (p.width < 1 || p.height < 1 || p.width > IMAGE_MAX_PIXELS / p.height || p.map > IMAGE_MAP_TURNED) {
         st = reader_bad_answer(answer);
@@ -186,6 +187,8 @@ static status read_answer(const struct image_request *w, struct reader_answer *a
     TRY(handle_missing(w, &p, out));
 done:
     text_free(&lines);
+    if (st != OK)
+        image_free(out);
     return st;
 }
 
@@ -197,12 +200,10 @@ status image_read(const struct image_request *w, struct image *out)
     *out = (struct image){0};
     TRY(image_convert(w->file, &c));
     TRY(ask(w, &c, &answer));
-    TRY(read_answer(w, &answer, out));
+    TRY(image_take(w, &answer, out));
 done:
     reader_end(&answer);
     converted_free(&c);
-    if (st != OK)
-        image_free(out);
     return st;
 }
 

@@ -68,6 +68,11 @@ struct image {
 /* Free *out with image_free(). E_INPUT, with the file's name: it is missing, unreadable or too large, it has pixels without a value and
  * the request says IMAGE_REFUSE, or its decoder crashed or exceeded a limit. E_USAGE: the file has no such part, channel or size. */
 MUST_USE status image_read(const struct image_request *request, struct image *out);
+
+/* Takes and checks the answer of hoodoo-read-image to a request (image/protocol.h). Errors as above. */
+struct reader_answer;
+MUST_USE status image_take(const struct image_request *request, struct reader_answer *answer,
+                           struct image *out);
 void image_free(struct image *image);
 
 /* Logs a message about a file, once per process however often the file is read. */

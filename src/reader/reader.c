@@ -147,6 +147,14 @@ static status check(struct reader_answer *a)
     return end == (uint64_t)info.st_size ? OK : reader_bad_answer(a);
 }
 
+status reader_adopt(const char *path, int fd, struct reader_answer *out)
+{
+    *out = (struct reader_answer){.path = path, .fd = fd, .at = sizeof out->head};
+    if (!read_all(fd, &out->head, sizeof out->head, 0) || out->head.magic != READER_MAGIC)
+        return reader_bad_answer(out);
+    return check(out);
+}
+
 static status wait_for(const struct reader_question *q, struct child *child, double seconds,
                        struct reader_answer *out)
 {

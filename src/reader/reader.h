@@ -37,6 +37,10 @@ struct reader_answer {
  * exceeded a limit, or the reader is not installed. E_MEMORY: there is no memory for the child process or its answer. */
 MUST_USE status reader_ask(const struct reader_question *question, struct reader_answer *out);
 
+/* Takes an answer that is in the file fd, and ownership of fd, for tests: as reader_ask() does after the reader has exited. E_INPUT: it is
+ * malformed, or the reader's error. */
+MUST_USE status reader_adopt(const char *path, int fd, struct reader_answer *out);
+
 /* Bytes of the next part; 0 if there is none. */
 size_t reader_size(const struct reader_answer *answer);
 
