@@ -5,8 +5,8 @@ PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa
 	libseccomp-dev libmicrohttpd-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
 	libcgal-dev libeigen3-dev gdal-bin
-LONG_PACKAGES = libcgal-demo debootstrap
-PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv
+LONG_PACKAGES = libcgal-demo debootstrap bindfs slurmctld slurmd slurm-client munge
+PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv bindfs
 BENCH_PACKAGES = python3-petsc4py-real python3-venv
 BENCH_WHEELS = taichi==1.7.4 fastscapelib==0.3.0 pyamg==5.4.1 'numpy<2'
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/visible.h"
 #include "farm/command.h"
 #include "farm/needs.h"
 
@@ -54,7 +55,7 @@ static status put_command(const struct farm *f, const struct farm_task *t, const
     struct farm_command c;
     struct farm_needs needs;
     struct path log;
-    char threads[16];
+    char threads[16], delay[16];
     farm_needs(f, t, device, &needs);
     TRY(farm_command(f, t, device ? device : "auto", needs.cpus, &c));
     json_bool(out, "after_any", t->kind == FARM_END);
@@ -63,7 +64,9 @@ static status put_command(const struct farm *f, const struct farm_task *t, const
         json_text(out, NULL, c.argv[i]);
     json_end_array(out);
     snprintf(threads, sizeof threads, "%d", needs.cpus);
+    snprintf(delay, sizeof delay, "%d", VISIBLE_DELAY_S);
     json_object(out, "environment");
+    json_text(out, "HOODOO_DISK_DELAY", delay);
     json_text(out, "OMP_NUM_THREADS", threads);
     if (!needs.gpu)
         json_text(out, "LP_NUM_THREADS", threads);

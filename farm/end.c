@@ -11,9 +11,11 @@
 
 #include "base/atomic_file.h"
 #include "base/child.h"
+#include "base/clock.h"
 #include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/visible.h"
 
 enum { FILE_MAX = 65536 };
 
@@ -130,23 +132,39 @@ done:
     return st;
 }
 
+/* Counts the tasks besides the end. *first: the first that is not done, or NULL. */
+static status count(const struct farm *f, size_t *n, size_t *n_done, const struct farm_task **first)
+{
+    status st = OK;
+    bool done;
+    *n = *n_done = 0;
+    *first = NULL;
+    for (size_t i = 0; i < f->graph.n; i++) {
+        if (f->graph.task[i].kind == FARM_END)
+            continue;
+        TRY(farm_task_done(f, &f->graph.task[i], &done));
+        ++*n;
+        *n_done += done;
+        if (!done && !*first)
+            *first = &f->graph.task[i];
+    }
+done:
+    return st;
+}
+
 status farm_end(const char *root)
 {
     status st = OK;
     struct farm f = {0};
     size_t n_done = 0, n = 0;
     const struct farm_task *first = NULL;
-    bool done, ours = false;
+    bool ours = false;
+    const double until = clock_seconds() + visible_delay();
     TRY(farm_open(root, &f));
-    for (size_t i = 0; i < f.graph.n; i++) {
-        if (f.graph.task[i].kind == FARM_END)
-            continue;
-        TRY(farm_task_done(&f, &f.graph.task[i], &done));
-        n++;
-        n_done += done;
-        if (!done && !first)
-            first = &f.graph.task[i];
-    }
+    /* A shared disk may not show yet what the last tasks wrote on other machines. */
+    do
+        TRY(count(&f, &n, &n_done, &first));
+    while (first && clock_seconds() < until && usleep(500000) == 0);
     const char *state = first ? "failed" : "done";
     TRY(claim(&f, state, n_done, n, &ours));
     if (ours)

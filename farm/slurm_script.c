@@ -4,6 +4,7 @@
 
 #include "base/memory.h"
 #include "base/version.h"
+#include "base/visible.h"
 #include "farm/command.h"
 #include "farm/needs.h"
 #include "farm/tries.h"
@@ -51,6 +52,10 @@ static const char body[] =
     "node=${SLURMD_NODENAME:-$(hostname)}\n"
     "say() { echo \"$(date +%Y-%m-%dT%H:%M:%S) hoodoo farm: $task on $node: $*\"; }\n"
     "note() { printf '{\"event\": %s}\\n' \"$1\" >>\"$tries\"; }\n"
+    "exclude() {\n"
+    "    note \"\\\"excluded\\\", \\\"node\\\": \\\"$node\\\"\"\n"
+    "    bad=$(awk -F'\"' '/\"submitted\"/ { s = \"\" } /\"excluded\"/ { s = s (s == \"\" ? \"\" : \",\") $8 } END { print s }' \"$tries\")\n"
+    "}\n"
     "id=${SLURM_ARRAY_JOB_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}\n"
     "id=${id:-$SLURM_JOB_ID}\n"
     "pid= got= term= bad=\n"
@@ -80,18 +85,24 @@ static const char body[] =
     "    [ -z \"$term\" ] || { say \"saved and stopped by Slurm\"; exit 85; }\n"
     "    say \"saved and stopped; queued again\"\n"
     "    ;;\n"
-    "2 | 7 | 8)\n"
+    "7)\n"
+    "    tail -n 5 \"$log\" | grep -q -e '--resume other-' && bad=other\n"
+    "    n=$(awk '/\"submitted\"/ { n = 0 } /\"excluded\"/ { n++ } END { print n + 0 }' \"$tries\")\n"
+    "    [ -n \"$bad\" ] && [ \"$n\" -lt \"$retries\" ] || { say \"failed: exit 7; not tried again, as that cannot help\"; exit 7; }\n"
+    "    exclude\n"
+    "    say \"exit 7: another device, driver or build than that of the frames; queued again without $bad\"\n"
+    "    ;;\n"
+    "2 | 8)\n"
     "    say \"failed: exit $rc; not tried again, as that cannot help\"\n"
     "    exit \"$rc\"\n"
     "    ;;\n"
     "126 | 127)\n"
-    "    note \"\\\"excluded\\\", \\\"node\\\": \\\"$node\\\"\"\n"
-    "    bad=$(awk -F'\"' '/\"submitted\"/ { s = \"\" } /\"excluded\"/ { s = s (s == \"\" ? \"\" : \",\") $8 } END { print s }' \"$tries\")\n"
+    "    exclude\n"
     "    say \"exit $rc: this node cannot run $1; queued again without $bad\"\n"
     "    ;;\n"
     "*)\n"
     "    [ -z \"$term\" ] || { say \"stopped by Slurm: exit $rc\"; exit \"$rc\"; }\n"
-    "    n=$(awk '/\"submitted\"/ { n = 0 } /\"exit\": / && !/\"exit\": (0|85|126|127),/ { n++ } END { print n + 0 }' \"$tries\")\n"
+    "    n=$(awk '/\"submitted\"/ { n = 0 } /\"exit\": / && !/\"exit\": (0|7|85|126|127),/ { n++ } END { print n + 0 }' \"$tries\")\n"
     "    [ \"$n\" -le \"$retries\" ] || { say \"failed $n times, the last with exit $rc\"; exit \"$rc\"; }\n"
     "    say \"exit $rc; queued again (try $((n + 1)) of $((retries + 1)))\"\n"
     "    ;;\n"
@@ -114,6 +125,7 @@ status slurm_script(const struct farm *f, const struct farm_task *task, size_t n
         t,
         "#!/bin/bash\n# Written by hoodoo %s submit --to slurm. It can be run again at any time: what is done is not done twice.\nretries=%d\n",
         hoodoo_version, farm_retries(f, task));
+    text_add(t, "export HOODOO_DISK_DELAY=${HOODOO_DISK_DELAY:-%d}\n", VISIBLE_DELAY_S);
     text_add(t, "export OMP_NUM_THREADS=${OMP_NUM_THREADS:-%d}\n", needs.cpus);
     if (!needs.gpu)
         text_add(t, "export LP_NUM_THREADS=${LP_NUM_THREADS:-%d}\n", needs.cpus);

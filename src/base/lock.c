@@ -330,8 +330,10 @@ status lock_take(const char *path, const char *what, struct lock_patience patien
         if (mine)
             break;
         TRY(read_lock(path, &seen));
-        if (!seen.there)
+        if (!seen.there) {
+            usleep(i < 10 ? 0 : WATCH_US); /* removed meanwhile, or a shared disk does not show it yet */
             continue;
+        }
         TRY(check_holder(path, &seen, patience.watch_s > 0 ? patience.watch_s : WATCH_S, stop));
         TRY(remove_stale(path, &seen));
     }

@@ -10,6 +10,7 @@
 #include "base/lock.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/visible.h"
 #include "frame/stage.h"
 #include "model/model.h"
 #include "output/product.h"
@@ -395,13 +396,32 @@ static status check_memory(struct run *r)
     return OK;
 }
 
+/* The same for a block that cannot start without one: a shared disk may not show it yet. */
+static status await_checkpoint(struct run *r, struct checkpoint *c, bool *found)
+{
+    status st = OK;
+    const bool needed = r->frames.first != r->job->frames.first && !r->options->repair;
+    const double until = clock_seconds() + visible_delay();
+    for (bool said = false;; said = true) {
+        TRY(find_checkpoint(r, c, found));
+        if (*found || !needed || clock_seconds() >= until || (r->options->stop && r->options->stop()))
+            break;
+        if (!said)
+            log_info("%s has no checkpoint before frame %d yet; looking again for %.0f s", r->options->root,
+                     r->first_missing, visible_delay());
+        usleep(500000);
+    }
+done:
+    return st;
+}
+
 static status begin(struct run *r)
 {
     status st = OK;
     struct checkpoint c = {0};
     bool found;
     TRY(provenance_begin(r->gpu, r->options->root, r->options->resume, &r->provenance));
-    TRY(find_checkpoint(r, &c, &found));
+    TRY(await_checkpoint(r, &c, &found));
     if (!found && r->any_frames)
         TRY(provenance_restart(&r->provenance, r->job->frames.first, r->options->root));
     if (!found && r->options->resume == RUN_REQUIRE) {

@@ -23,7 +23,7 @@ ok(code == 0 and farm["format"] == 1 and os.path.exists("out/farm/job.yaml") and
 ok(all(set(t["after"]) <= set(tasks) for t in tasks.values()), "each waits for tasks that there are")
 ok(not any(t["gpu"] for t in tasks.values()) and all(t["gpu_memory_bytes"] == 0 for t in tasks.values()), "with --device cpu no task requests a GPU")
 ok(all(t["memory_bytes"] >= 1.19 * t["peak_bytes"] > 4e7 for t in tasks.values()), "memory is the planned peak and a fifth", {k: t["peak_bytes"] for k, t in tasks.items()})
-ok(tasks["sim.1001-1002"]["environment"] == {"OMP_NUM_THREADS": "4", "LP_NUM_THREADS": "4"} and tasks["sim.1001-1002"]["cpus"] == 4, "threads are the cores requested")
+ok(tasks["sim.1001-1002"]["environment"] == {"HOODOO_DISK_DELAY": "60", "OMP_NUM_THREADS": "4", "LP_NUM_THREADS": "4"} and tasks["sim.1001-1002"]["cpus"] == 4, "threads are the cores requested")
 ok([t["name"] for t in tasks.values() if t["after_any"]] == ["end"], "only the end runs after failures too")
 done, order = set(), []
 while len(done) < len(tasks):
