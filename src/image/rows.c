@@ -100,7 +100,9 @@ static void set_orientation(struct image_decoding *m)
 status image_begin(struct image_decoding *m)
 {
     status st = OK;
-    if (m->width < 1 || m->height < 1 || m->width > m->max_pixels / m->height)
+    if (m->width < 1 || m->height < 1)
+        return fail(E_INPUT, "%s: the image has no pixels", m->path);
+    if (m->width > m->max_pixels / m->height)
         return fail(E_INPUT, "%s: %llu x %llu pixels are more than the limit of %llu million", m->path,
                     (unsigned long long)m->width, (unsigned long long)m->height,
                     (unsigned long long)m->max_pixels / 1000000);

@@ -129,6 +129,14 @@ static status check_attribute(const struct mesh_file *f, const struct attribute 
                 *a->there ? "they have " : "they have none", a->there);
 }
 
+static status check_line_ends(const struct mesh_file *f, enum mesh_format format)
+{
+    if (format == MESH_STL || memchr(f->bytes, '\n', f->n) || !memchr(f->bytes, '\r', f->n))
+        return OK;
+    return fail(E_INPUT, "%s: its lines end in carriage returns without line feeds: convert them (mac2unix)",
+                f->path);
+}
+
 status mesh_decode(const struct mesh_file *f, const char *attribute, gltf_function *gltf, struct mesh *mesh)
 {
     static status (*const read[])(struct cursor *, struct mesh *) = {
@@ -138,6 +146,8 @@ status mesh_decode(const struct mesh_file *f, const char *attribute, gltf_functi
     struct cursor r = {f->path, f->bytes, f->bytes, f->bytes + f->n, 1, &a};
     *mesh = (struct mesh){0};
     TRY(check_refused(f));
+    if (f->n >= 3 && memcmp(f->bytes, "\xef\xbb\xbf", 3) == 0)
+        r.at += 3; /* a byte order mark */
     const enum mesh_format format = format_of(f);
     if (format == MESH_GLTF || format == MESH_GLB) {
         TRY(check_extensions(f, format == MESH_GLB));
@@ -145,6 +155,7 @@ status mesh_decode(const struct mesh_file *f, const char *attribute, gltf_functi
                  : fail(E_INPUT, "%s: this reader has no decoder of glTF", f->path));
         mesh->y_up = true;
     } else {
+        TRY(check_line_ends(f, format));
         TRY(read[format](&r, mesh));
     }
     if (mesh->n_triangles == 0)

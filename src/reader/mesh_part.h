@@ -12,11 +12,11 @@
 
 struct mesh_part {
     uint64_t n_vertices, n_triangles;
-    uint32_t y_up;     /* as the format prescribes (glTF) or the metadata say (OpenVDB) */
-    uint32_t is_fog;   /* OpenVDB only */
-    uint32_t is_solid; /* OpenVDB only: struct solid_part follows instead of a mesh */
-    uint32_t reserved;
-    char grid[64]; /* OpenVDB only: name of the grid, truncated if it is longer */
+    uint32_t y_up;      /* as the format prescribes (glTF) or the metadata say (OpenVDB) */
+    uint32_t is_fog;    /* OpenVDB only */
+    uint32_t is_solid;  /* OpenVDB only: struct solid_part follows instead of a mesh */
+    uint32_t n_choices; /* OpenVDB only: grids of that name or, if none was given, grids of floats */
+    char grid[64];      /* OpenVDB only: name of the grid, truncated if it is longer */
 };
 
 /* A solid as the values of a function at samples near its surface, negative inside, trilinear between them: voxels, a lower bound of the

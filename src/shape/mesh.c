@@ -352,6 +352,10 @@ status volume_shape_create(const struct job_volume *job, const struct placement 
     log_note("%s: grid '%s' is read as %s%s, %c up", job->file, part.grid,
              part.is_fog ? "a fog volume, solid above a density of " : "a level set",
              part.is_fog ? density : "", y_up ? 'y' : 'z');
+    if (part.n_choices > 1)
+        log_warn("%s: it has %u grids %s, and the first is used%s%s%s", job->file, part.n_choices,
+                 *job->grid ? "of that name" : "of floats", *job->grid ? "" : ", '",
+                 *job->grid ? "" : part.grid, *job->grid ? "" : "': choose one with volume.grid");
     if (w.mesh.n_triangles == 0) {
         st = fail(E_INPUT, "%s: grid '%s' has no surface%s%s", job->file, part.grid,
                   part.is_fog ? " at a density of " : "", part.is_fog ? density : "");

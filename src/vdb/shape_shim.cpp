@@ -20,10 +20,15 @@ using openvdb::FloatGrid;
 using openvdb::GridBase;
 using openvdb::Vec3d;
 
-/* The grid with that name or, if it is "", the first grid of floats. The error message lists the file's grids. */
-FloatGrid::Ptr choose(const vdb::file &file, const std::string &name)
+/* The grid with that name or, if it is "", the first grid of floats; *choices: how many there are. The error message lists the file's
+ * grids. */
+FloatGrid::Ptr choose(const vdb::file &file, const std::string &name, uint32_t *choices)
 {
     std::string there;
+    *choices = 0;
+    for (const GridBase::Ptr &grid : *file.grids)
+        *choices += name.empty() ? grid->isType<FloatGrid>() || grid->isType<openvdb::DoubleGrid>()
+                                 : grid->getName() == name;
     for (const GridBase::Ptr &grid : *file.grids) {
         const bool floats = grid->isType<FloatGrid>() || grid->isType<openvdb::DoubleGrid>();
         there += (there.empty() ? "'" : ", '") + grid->getName() + "'" + (floats ? "" : " (no floats)");
@@ -71,7 +76,8 @@ void refine_vertex(const FloatGrid &grid, double iso, openvdb::Vec3s &point)
     point = openvdb::Vec3s(grid.indexToWorld(x));
 }
 
-status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct serve_answer *answer)
+status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, uint32_t choices,
+            struct serve_answer *answer)
 {
     std::vector<openvdb::Vec3s> point;
     std::vector<openvdb::Vec3I> triangle;
@@ -84,6 +90,7 @@ status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct se
     part.n_triangles = triangle.size() + 2 * quad.size();
     part.y_up = y_up;
     part.is_fog = is_fog;
+    part.n_choices = choices;
     std::strncpy(part.grid, grid.getName().c_str(), sizeof part.grid - 1);
     status st = serve_add_part(answer, &part, sizeof part);
     std::vector<double> place;
@@ -92,10 +99,8 @@ status send(const FloatGrid &grid, double iso, bool is_fog, bool y_up, struct se
     if (st == OK)
         st = serve_add_part(answer, place.data(), place.size() * sizeof place[0]);
     std::vector<uint32_t> corner;
-    /* The library's faces of a level set are clockwise as seen from outside. In a fog the inside is above iso, so they are reversed. */
-    const auto put = [&](uint32_t a, uint32_t b, uint32_t c) {
-        corner.insert(corner.end(), {a, is_fog ? b : c, is_fog ? c : b});
-    };
+    /* The library's faces are clockwise as seen from outside, if the grid's class is right. */
+    const auto put = [&](uint32_t a, uint32_t b, uint32_t c) { corner.insert(corner.end(), {a, c, b}); };
     for (const openvdb::Vec3I &t : triangle)
         put(t[0], t[1], t[2]);
     for (const openvdb::Vec4I &f : quad) {
@@ -134,11 +139,13 @@ try {
     vdb::solid solid;
     if (!*q->argument[0] && vdb::find_solid(file, &solid))
         return send_solid(solid, answer);
-    const FloatGrid::Ptr grid = choose(file, q->argument[0]);
+    uint32_t choices;
+    const FloatGrid::Ptr grid = choose(file, q->argument[0], &choices);
     /* A grid without a class counts as a fog if no value is below 0. */
     bool is_fog = grid->getGridClass() == openvdb::GRID_FOG_VOLUME;
     if (grid->getGridClass() != openvdb::GRID_FOG_VOLUME && grid->getGridClass() != openvdb::GRID_LEVEL_SET)
         is_fog = !(grid->background() > 0);
-    return send(*grid, is_fog ? std::atof(q->argument[1]) : 0, is_fog, file.y_up, answer);
+    grid->setGridClass(is_fog ? openvdb::GRID_FOG_VOLUME : openvdb::GRID_LEVEL_SET);
+    return send(*grid, is_fog ? std::atof(q->argument[1]) : 0, is_fog, file.y_up, choices, answer);
 }
 SHIM_CATCH(E_INPUT, q->path)

@@ -91,6 +91,20 @@ check(near(volume, 4 / 3 * math.pi * 2.6 ** 3, 0.01), "a fog where it is denser"
 for name, more, word in (("none", ", grid: cloud", "'ball'"), ("flag", ", grid: flags", "floats"), ("empty", ", grid: density, density: 2", "no surface")):
     said = run(name, "{volume: {file: other.vdb%s}}" % more)
     check(isinstance(said, str) and "other.vdb" in said and word in said, f"refused{more}", str(said)[-300:])
+# More than one candidate, and a transform that is neither uniform nor along the axes.
+level.name = "level"
+fog.name = "fog"
+pyopenvdb.write("many.vdb", grids=[level, fog])
+with open("many.yaml", "w") as f:
+    f.write(JOB.format(name="many", scene="{volume: {file: many.vdb}}"))
+said = subprocess.run([HOODOO, "check", "many.yaml"], capture_output=True, text=True).stderr
+check("2 grids of floats" in said and "'level'" in said and "volume.grid" in said and "inside out" not in said, "several grids are a warning", said)
+turned = pyopenvdb.createLevelSetSphere(radius=15, center=(0, 0, 0), voxelSize=1)
+c, s = math.cos(0.5), math.sin(0.5)
+turned.transform = pyopenvdb.createLinearTransform([[0.2 * c, 0.2 * s, 0, 0], [-0.1 * s, 0.1 * c, 0, 0], [0, 0, 0.2, 0], [6, 6, 3, 1]])
+pyopenvdb.write("turned.vdb", grids=[turned])
+volume = run("stretched", "{volume: {file: turned.vdb}}")
+check(near(volume, ball / 2, 0.01), "a grid with a transform of its own", volume, ball / 2)
 with open("other.vdb", "rb") as f:
     whole = f.read()
 with open("cut.vdb", "wb") as f:

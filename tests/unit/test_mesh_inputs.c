@@ -215,9 +215,18 @@ static double volume_of_file(const char *name, size_t n)
     return volume;
 }
 
+static void marked(void)
+{
+    add("\xef\xbb\xbf");
+    add_corners("v\t", "  # a corner");
+    add_faces("f", 1, 1);
+}
+
 static void obj_files(void **state)
 {
     (void)state;
+    marked();
+    assert_close(volume_of_file("marked.obj", 0), 64, 1e-6);
     interleaved();
     assert_close(volume_of_file("interleaved.obj", 0), 64, 1e-6);
     continued();
@@ -372,6 +381,7 @@ static void others_are_named(void **state)
         {"{\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}", "KHR_draco", "without compression", 0},
         {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0", ":4:", "number", 49},
         {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", "", "", 37},
+        {"v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", "carriage returns", "convert", 0},
         {"glTF\2\0\0\0\xff\xff\xff\xff", "GLB", "truncated", 12},
     };
     for (size_t i = 0; i < sizeof file / sizeof *file; i++) {
