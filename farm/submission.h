@@ -10,7 +10,8 @@
 #include "base/status.h"
 
 #define SUBMIT_TO_CHOICE                                                                                     \
-    (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")(TO_DEADLINE, "deadline")(TO_TASKS, "tasks")
+    (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")(TO_DEADLINE, "deadline")(                    \
+        TO_OPENCUE, "opencue")(TO_TASKS, "tasks")
 enum { CHOICE_CONSTANTS(SUBMIT_TO_CHOICE) };
 
 enum { SUBMISSION_EXTRA = 64 };

@@ -24,7 +24,7 @@
     X(aov, "OUT", "render AOVs from the frames' VDBs: other cameras, resolutions or layers")                 \
     X(mesh, "OUT", "a surface mesh per frame (PLY, OBJ, USD)")                                               \
     X(submit, "JOB [ARG...]",                                                                                \
-      "run the job's tasks on this machine or Slurm, or write them for OpenJD or another farm")              \
+      "run the job's tasks on this machine or Slurm, or write them for OpenJD, OpenCue or another farm")     \
     X(cancel, "OUT", "stop a submitted job's tasks; what is done stays")                                     \
     X(retry, "OUT [TASK]", "submit again what is not done, or one task and those that wait for it")          \
     X(preview, "OUT", "POV-Ray stills, turntable, contact sheet and video")                                  \

@@ -1,4 +1,4 @@
-/* hoodoo submit JOB --to local|slurm|openjd|deadline|tasks: the job's tasks, to this machine's devices, to a scheduler, or as data. */
+/* hoodoo submit JOB --to local|slurm|openjd|deadline|opencue|tasks: the job's tasks, to this machine's devices, to a scheduler, or as data. */
 #include <stdio.h>
 
 #include "base/atomic_file.h"
@@ -13,6 +13,7 @@
 #include "farm/deadline.h"
 #include "farm/describe.h"
 #include "farm/local.h"
+#include "farm/opencue.h"
 #include "farm/openjd.h"
 #include "farm/slurm.h"
 #include "run/advice.h"
@@ -205,15 +206,24 @@ done:
 
 /* ---- any other farm: the tasks as data */
 
+static status describe_tasks(const struct submit_request *r, const struct farm *f, bool words, struct text *t)
+{
+    status st = OK;
+    json_object(t, NULL);
+    json_text(t, "name", f->base->name);
+    json_text(t, "folder", f->root.text);
+    TRY(farm_describe(f, words, r->submission.device, t));
+    json_end_object(t);
+    TRY(text_status(t));
+done:
+    return st;
+}
+
 static status print_tasks(const struct submit_request *r, const struct farm *f, bool as_json)
 {
     status st = OK;
     struct text t = {0};
-    json_object(&t, NULL);
-    json_text(&t, "name", f->base->name);
-    json_text(&t, "folder", f->root.text);
-    TRY(farm_describe(f, !as_json, r->submission.device, &t));
-    json_end_object(&t);
+    TRY(describe_tasks(r, f, !as_json, &t));
     TRY(answer_print(&t, as_json));
 done:
     text_free(&t);
@@ -232,6 +242,33 @@ done:
     return st;
 }
 
+/* ---- OpenCue */
+
+static status to_opencue(const struct submit_request *r, struct farm *f)
+{
+    status st = OK;
+    struct text outline = {0}, tasks = {0};
+    struct path path, to;
+    if (!r->dry_run)
+        TRY(farm_freeze(f));
+    TRY(path_join(&path, f->root.text, "farm/tasks.json"));
+    TRY(opencue_outline(f, path.text, &outline));
+    if (r->dry_run) {
+        fputs(outline.data, stdout);
+        goto done;
+    }
+    TRY(describe_tasks(r, f, false, &tasks));
+    TRY(submission_write(f->root.text, &r->submission));
+    TRY(atomic_file_write(path.text, tasks.data, tasks.size));
+    TRY(path_format(&to, "%s/%s.outline", f->root.text, f->base->name));
+    TRY(atomic_file_write(to.text, outline.data, outline.size));
+    log_info("%s: submit it with: pycuerun %s", to.text, to.text);
+done:
+    text_free(&outline);
+    text_free(&tasks);
+    return st;
+}
+
 status submit_tasks(const struct submit_request *r, struct farm *f)
 {
     switch (r->submission.to) {
@@ -243,6 +280,8 @@ status submit_tasks(const struct submit_request *r, struct farm *f)
         return to_openjd(r, f);
     case TO_DEADLINE:
         return to_deadline(r, f);
+    case TO_OPENCUE:
+        return to_opencue(r, f);
     default:
         return to_tasks(r, f);
     }
@@ -310,7 +349,7 @@ status cli_submit(int argc, char **argv)
     if (help)
         goto done;
     if (s->to < 0) {
-        st = fail(E_USAGE, "submit: --to is missing: --to local, slurm, openjd, deadline or tasks");
+        st = fail(E_USAGE, "submit: --to is missing: --to local, slurm, openjd, deadline, opencue or tasks");
         goto done;
     }
     if (asked.patience < 0) {
