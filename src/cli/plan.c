@@ -11,8 +11,8 @@
 #include "cli/plan_time.h"
 #include "farm/cost.h"
 #include "farm/describe.h"
-#include "run/advice.h"
 #include "run/memory.h"
+#include "scene/scene.h"
 
 /* Memory before anything is rehearsed. */
 struct memory {
@@ -54,7 +54,7 @@ static status describe_inputs(const struct job *job, struct text *t)
         json_array(t, "inputs");
     for (size_t i = 0; i < survey.n_inputs; i++) {
         const struct scene_input *in = &survey.input[i];
-        if (advice_input(in, job->domain.spacing_m, sentence))
+        if (scene_input_text(in, job->domain.spacing_m, sentence))
             log_warn("%s", sentence);
         json_object(t, NULL);
         json_text(t, "file", in->file);

@@ -363,7 +363,7 @@ status cli_submit(int argc, char **argv)
     asked.path = operands.item[0];
     TRY(farm_load(asked.path, c.sets.item, c.sets.n, c.from, s->wedge, c.out, &farm));
     for (size_t i = 0; i < farm.n_wedges && i < WARNED; i++)
-        TRY(advice_log(farm.wedge[i].job));
+        TRY(advice_log(farm.wedge[i].job, false));
     TRY(time_frames(&asked, s->to == TO_SLURM ? NULL : s->device, &farm));
     TRY(farm_graph(&farm));
     TRY(submit_tasks(&request, &farm));

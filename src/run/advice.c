@@ -21,7 +21,8 @@ struct context {
     struct scene_survey survey;
     double low[3], high[3]; /* m: bounds of the rock in the domain */
     double kyr;             /* from the first frame to the last; 0 in a shot */
-    bool log_inputs;
+    bool log_inputs;        /* log what reading files reports, and their volumes */
+    bool run_follows;       /* which logs the volumes itself */
 };
 
 static status add_advice(struct context *v, const char *key, const char *format, ...) PRINTF_LIKE(3, 4);
@@ -100,32 +101,13 @@ static status check_inputs(struct context *v)
 {
     status st = OK;
     char text[600];
-    for (size_t i = 0; i < v->survey.n_inputs; i++)
-        if (advice_input(&v->survey.input[i], v->job->domain.spacing_m, text))
+    for (size_t i = 0; i < v->survey.n_inputs && !v->run_follows; i++)
+        if (scene_input_text(&v->survey.input[i], v->job->domain.spacing_m, text))
             TRY(add_advice(v, "scene", "%s", text));
         else if (v->log_inputs)
             log_info("%s", text);
 done:
     return st;
-}
-
-bool advice_input(const struct scene_input *in, double h, char text[600])
-{
-    char bounds[160], more[64] = "";
-    const double off = in->sampled_m3 / in->file_m3 - 1;
-    const bool differs = in->file_m3 > 0 && fabs(off) > 0.05;
-    snprintf(bounds, sizeof bounds, "from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m", in->min[0], in->min[1],
-             in->min[2], in->max[0], in->max[1], in->max[2]);
-    if (differs)
-        snprintf(more, sizeof more, ", %.0f %% %s", 100 * fabs(off), off > 0 ? "more" : "less");
-    if (in->file_m3 > 0)
-        snprintf(text, 600,
-                 "%.300s: %.4g m3 by its own measure, %s %.4g m3 as it is sampled every %g m%s; it is %s",
-                 in->file, in->file_m3, differs ? "but" : "and", in->sampled_m3, h, more, bounds);
-    else
-        snprintf(text, 600, "%.300s: %.4g m3 as it is sampled every %g m; it is %s", in->file, in->sampled_m3,
-                 h, bounds);
-    return differs;
 }
 
 /* ---- features smaller than the spacing */
@@ -481,13 +463,13 @@ static void bound_rock(struct context *v)
     }
 }
 
-status advice_collect(const struct job *job, bool log_inputs, struct advice_list *out)
+static status collect(const struct job *job, bool log_inputs, bool run_follows, struct advice_list *out)
 {
     static status (*const checks[])(struct context * v) = {
         check_domain, check_inputs, check_sizes,   check_structure, check_interlocking,
         check_time,   check_model,  check_cameras, check_frames,    check_paths};
     status st = OK;
-    struct context v = {.job = job, .out = out, .log_inputs = log_inputs};
+    struct context v = {.job = job, .out = out, .log_inputs = log_inputs, .run_follows = run_follows};
     const bool before = log_silence(!log_inputs);
     v.kyr = job->clock.seconds_per_frame > 0 ? 0 : 1e-3 * job_years(job, job->frames.first, job->frames.last);
     TRY(scene_survey(job, &v.survey));
@@ -505,13 +487,18 @@ done:
     return st;
 }
 
+status advice_collect(const struct job *job, bool log_inputs, struct advice_list *out)
+{
+    return collect(job, log_inputs, false, out);
+}
+
 void advice_free(struct advice_list *a)
 {
     free(a->item);
     *a = (struct advice_list){0};
 }
 
-status advice_log(const struct job *job)
+status advice_log(const struct job *job, bool run_follows)
 {
     enum { QUICK = 4 << 20, MOST = 12 };
     status st = OK;
@@ -524,7 +511,7 @@ status advice_log(const struct job *job)
         bytes += input[i].size;
     if (bytes > QUICK)
         goto done;
-    TRY(advice_collect(job, false, &a));
+    TRY(collect(job, false, run_follows, &a));
     for (size_t i = 0; i < a.n && i < MOST; i++)
         log_warn("%s%s%s: %s", job->wedge.index ? job->name : "", job->wedge.index ? ": " : "", a.item[i].key,
                  a.item[i].text);

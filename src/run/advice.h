@@ -6,7 +6,6 @@
 #define HOODOO_ADVICE_H
 
 #include "job/job.h"
-#include "scene/scene.h"
 
 struct advice {
     char key[160];  /* path of the key, such as "strata.2.interlock_MPa" */
@@ -18,10 +17,6 @@ struct advice_list {
     struct advice *item; /* owned; advice_free() */
 };
 
-/* The sentence about an input file's bounds and volume, by its own measure and as it is sampled every h m. True: they differ by more than
- * 5 %. */
-bool advice_input(const struct scene_input *input, double h, char text[600]);
-
 /* Collects the advice for one job (one wedge of a sweep). `log_inputs`: also reads the files of paint and edits, and logs what reading
  * files reports, which the caller has not logged yet. E_USAGE: the job cannot be run at all, because no rock of its scene is held up. Other errors
  * as scene_estimate(). */
@@ -29,7 +24,8 @@ MUST_USE status advice_collect(const struct job *job, bool log_inputs, struct ad
 void advice_free(struct advice_list *a);
 
 /* Logs the advice as warnings before a run. Jobs whose input files take long to read are skipped; `hoodoo check` handles them.
- * Errors in the job are left for the run itself to find and report. E_MEMORY. */
-MUST_USE status advice_log(const struct job *job);
+ * Errors in the job are left for the run itself to find and report. `run_follows`: in this process; it
+ * logs the volumes of input files itself. E_MEMORY. */
+MUST_USE status advice_log(const struct job *job, bool run_follows);
 
 #endif

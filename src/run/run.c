@@ -571,7 +571,7 @@ status run_job(struct job *job, const struct run_options *options)
     else
         lock_sweep(r.lock_path.text);
     if (r.n_done == 0 && r.frames.first == job->frames.first && !*job->from)
-        TRY(advice_log(job));
+        TRY(advice_log(job, true));
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
     if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {

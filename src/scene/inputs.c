@@ -1,10 +1,12 @@
 /* Compares the volume of each file with what sampling makes of it. If sampling is too coarse for the file, or its inside and outside are
  * not what was meant, a run would have the wrong rock and nothing else would show it. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "base/random.h"
+#include "image/image.h"
 #include "scene/coverage.h"
 #include "scene/sampler.h"
 
@@ -68,4 +70,38 @@ status inputs_measure(const struct job *job, const struct solid *scene, struct s
 {
     size_t capacity = 0;
     return walk(job->scene, scene, job->domain.spacing_m, out, &capacity);
+}
+
+bool scene_input_text(const struct scene_input *in, double h, char text[600])
+{
+    char bounds[160], more[64] = "";
+    const double off = in->sampled_m3 / in->file_m3 - 1;
+    const bool differs = in->file_m3 > 0 && fabs(off) > 0.05;
+    snprintf(bounds, sizeof bounds, "from (%.4g, %.4g, %.4g) to (%.4g, %.4g, %.4g) m", in->min[0], in->min[1],
+             in->min[2], in->max[0], in->max[1], in->max[2]);
+    if (differs)
+        snprintf(more, sizeof more, ", %.0f %% %s", 100 * fabs(off), off > 0 ? "more" : "less");
+    if (in->file_m3 > 0)
+        snprintf(text, 600,
+                 "%.300s: %.4g m3 by its own measure, %s %.4g m3 as it is sampled every %g m%s; it is %s",
+                 in->file, in->file_m3, differs ? "but" : "and", in->sampled_m3, h, more, bounds);
+    else
+        snprintf(text, 600, "%.300s: %.4g m3 as it is sampled every %g m; it is %s", in->file, in->sampled_m3,
+                 h, bounds);
+    return differs;
+}
+
+status inputs_log(const struct sampler *s)
+{
+    status st = OK;
+    struct scene_survey survey = {0};
+    char text[600];
+    TRY(inputs_measure(s->job, sampler_scene(s), &survey));
+    for (size_t i = 0; i < survey.n_inputs; i++) {
+        const bool differs = scene_input_text(&survey.input[i], s->h, text);
+        image_log(differs, "scene", text);
+    }
+done:
+    scene_survey_free(&survey);
+    return st;
 }

@@ -138,6 +138,14 @@ done:
     return st;
 }
 
+const struct solid *sampler_scene(const struct sampler *s)
+{
+    for (size_t i = 0; i < s->job->n_sources; i++)
+        if (s->job->sources[i].bed_m > 0)
+            return solid_child(s->solid, 0); /* solid_of_job() */
+    return s->solid;
+}
+
 status sampler_init(struct sampler *s, const struct job *job, const struct job_node *node, double reach)
 {
     status st = OK;
@@ -186,6 +194,7 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
     TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
     TRY(sampler_prepare(&s, job->paint, job->n_paint));
     TRY(sampler_check(&s, floats));
+    TRY(inputs_log(&s));
     for (int k = 0; paint_needs_occluders(s.paint) && k < s.n[2]; k++)
         for (int j = 0; j < s.n[1]; j++)
             for (int i = 0; i < s.n[0]; i++)
@@ -372,14 +381,11 @@ status scene_survey(const struct job *job, struct scene_survey *out)
 {
     status st = OK;
     struct sampler s;
-    bool beds = false;
     *out = (struct scene_survey){0};
-    for (size_t i = 0; i < job->n_sources; i++)
-        beds |= job->sources[i].bed_m > 0;
     TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
     TRY(estimate_all(&s, &out->size));
     if (job->scene)
-        TRY(inputs_measure(job, beds ? solid_child(s.solid, 0) : s.solid, out));
+        TRY(inputs_measure(job, sampler_scene(&s), out));
     out->solid = s.solid;
     s.solid = NULL;
 done:

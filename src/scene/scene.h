@@ -114,6 +114,10 @@ struct scene_input {
     double min[3], max[3]; /* m: its bounds in the world */
 };
 
+/* The sentence about a file's volume, by its own measure and as it is sampled every h m, and its bounds. True: the volumes differ by more than
+ * 5 %. */
+bool scene_input_text(const struct scene_input *input, double h, char text[600]);
+
 /* What the checks before a run look at, from one reading of the scene's files. */
 struct scene_survey {
     struct scene_size size;

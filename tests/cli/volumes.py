@@ -105,6 +105,8 @@ turned.transform = pyopenvdb.createLinearTransform([[0.2 * c, 0.2 * s, 0, 0], [-
 pyopenvdb.write("turned.vdb", grids=[turned])
 volume = run("stretched", "{volume: {file: turned.vdb}}")
 check(near(volume, ball / 2, 0.01), "a grid with a transform of its own", volume, ball / 2)
+said = subprocess.run([HOODOO, "run", "stretched.yaml", "--out", "told", "--progress", "none"], capture_output=True, text=True).stderr
+check(said.count("by its own measure, and") == 1 and "turned.vdb" in said, "a run's log states the volume of each file, once", said)
 with open("other.vdb", "rb") as f:
     whole = f.read()
 with open("cut.vdb", "wb") as f:
