@@ -319,25 +319,46 @@ done:
     return st;
 }
 
-/* Examines all voxels, from the ground up to the lowest rock of the estimate. */
+/* The lowest layer below `end` with a voxel of which at least `share` is rock; `end`: there is none. */
+static int lowest_layer(const struct sampler *s, unsigned share, int end)
+{
+    for (int k = 0; k < end; k++)
+        for (int at = 0; at < s->n[0] * s->n[1]; at++) {
+            const int i = at % s->n[0], j = at / s->n[0];
+            if (coverage_holds_rock(s->solid, s->h, i, j, k) &&
+                (share <= 1 || coverage_of_voxel(s->solid, s->h, i, j, k) >= share))
+                return k;
+        }
+    return end;
+}
+
 status scene_check(const struct job *job, bool floats, const struct scene_survey *survey)
 {
+    enum {
+        FEW = 4
+    }; /* layers above the lowest rock: if none of their voxels is half rock, the run decides */
     status st = OK;
     const struct scene_size *size = &survey->size;
     struct sampler s = {.job = job, .h = job->domain.spacing_m, .solid = survey->solid};
     double seen = INFINITY;
-    bool found = false;
-    int k = 0;
     TRY(scene_voxels(job, s.n));
     for (size_t i = 0; i < size->n_points; i++)
         seen = fmin(seen, (double)size->point[i][2]);
-    for (; !found && k < s.n[2] && k * s.h < seen && (k == 0 || size->n_points); k++)
-        for (int at = 0; at < s.n[0] * s.n[1] && !found; at++)
-            found = coverage_holds_rock(s.solid, s.h, at % s.n[0], at / s.n[0], k);
-    if (!found && !size->n_points)
-        st = no_rock(&s);
-    else if (!floats && !(found && k == 1))
-        st = scene_fail_floating(found ? (k - 1) * s.h : seen - 0.5 * s.h);
+    const int top = size->n_points ? (int)(seen / s.h) + 1 : 1;
+    const int any = lowest_layer(&s, 1, top);
+    if (any == top && !size->n_points)
+        return no_rock(&s);
+    if (floats)
+        return OK;
+    if (any > 0)
+        return scene_fail_floating(any * s.h);
+    /* Rock stands on voxels that are at least half full, unless an edit supports it or it may fall. */
+    if (job->collapse.blocks == COLLAPSE_FALL || (job->n_edits && job->edits[0].frame <= job->frames.first))
+        return OK;
+    const int end = any + FEW < s.n[2] ? any + FEW : s.n[2];
+    const int half = lowest_layer(&s, COVERAGE_FULL / 2, end);
+    if (half > 0 && half < end)
+        st = scene_fail_floating(half * s.h);
 done:
     return st;
 }

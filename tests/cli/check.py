@@ -85,7 +85,7 @@ OUTER, INNER = ((8, 8, 0), (32, 22, 24)), ((12, 12, 4), (28, 18, 20))
 obj("solid.obj", (*OUTER, False))
 obj("hollow.obj", (*OUTER, False), (*INNER, True))
 obj("double.obj", (*OUTER, False), (*INNER, False))
-obj("plate.obj", ((8.05, 8, 0), (8.35, 22, 24), False))
+obj("plate.obj", ((8.05, 8, -1), (8.35, 22, 24), False))
 VOLUME = 24 * 14 * 24
 for name, own in (("solid", VOLUME), ("hollow", VOLUME - 16 * 6 * 16)):
     with open("job.json", "w") as file:
@@ -100,6 +100,12 @@ for name, words in (("double", "less"), ("plate", "%")):
     ok(code == 0 and "by its own measure, but" in said and '"own_m3"' in said, f"plan says so of {name}.obj, too", said)
 code, said = hoodoo("plan", "job.json", "--rehearse", "0", "--json", "--set", f"scene={{mesh: {{file: {os.path.abspath('solid')}.obj, translate_m: [0, 0, 300]}}}}")
 ok(code == 2 and "no rock in the domain" in said, "plan refuses a scene of which nothing is left", code, said)
+CONE = {"cylinder": {"from_m": [20, 15, 24], "to_m": [20, 15, 0], "radius_m": 10, "top_radius_m": 0.05}}
+with open("job.json", "w") as file:
+    json.dump({**GOOD, "scene": CONE, "cameras": {}}, file)
+for command in (("check",), ("plan", "--rehearse", "0"), ("run", "--out", "cone")):
+    code, said = hoodoo(command[0], "job.json", *command[1:])
+    ok(code == 2 and "the lowest rock is at z =" in said, f"{command[0]} refuses a cone on its tip, which no voxel that is half full holds up", code, said)
 with open("rock.ply", "w") as file:
     file.write("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nelement face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0 1\n9 0 0 1\n0 9 0 1\n3 0 1 2\n")
 code, said = check(edited("paint", [{"mesh_attribute": {"file": "rock.ply", "attribute": "rad"}, "erodibility": 2}]))
