@@ -87,14 +87,14 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
                   gpu->info.name, name, gpu->allocations_limit);
         goto done;
     }
-    raw_buffer_create(
-        gpu, b->bytes,
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
-            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-        gpu->info.is_cpu ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT : 0,
-        &b->handle, &b->memory);
+    raw_buffer_create(gpu, b->bytes,
+                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                      VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                      gpu->maps ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
+                                : 0,
+                      &b->handle, &b->memory);
     if (gpu->st == E_MEMORY) {
         /* Not sticky, since the caller may try with less. */
         st = refused(gpu, b);
@@ -102,7 +102,7 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
         goto done;
     }
     TRY(gpu_status(gpu));
-    if (gpu->info.is_cpu) {
+    if (gpu->maps) {
         VK_TRY(gpu, vkMapMemory(gpu->device, b->memory, 0, VK_WHOLE_SIZE, 0, &b->mapped));
     }
     VkBufferDeviceAddressInfo address = {.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO,
@@ -195,13 +195,16 @@ static status transfer(struct gpu *gpu, struct gpu_buffer *b, size_t first, char
     status st = OK;
     assert(first <= b->n && n_items <= b->n - first);
     size_t offset = first * b->item, bytes = n_items * b->item;
-    TRY(gpu_wait(gpu));
+    TRY(gpu_status(gpu));
     if (b->mapped) {
+        TRY(gpu_wait(gpu));
         if (bytes)
             memcpy(upload ? (char *)b->mapped + offset : host, upload ? host : (char *)b->mapped + offset,
                    bytes);
         goto done;
     }
+    /* The copies are recorded behind the kernels that write the buffer, so that host and device wait for each other once. The staging
+     * buffer is free: every transfer waits for its last copy. */
     for (size_t at = 0; at < bytes; at += STAGING_BYTES) {
         size_t piece = bytes - at < STAGING_BYTES ? bytes - at : STAGING_BYTES;
         if (upload)

@@ -230,7 +230,7 @@ static status device_open(struct gpu *gpu)
     VK_TRY(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device));
     vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
     VK_TRY(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->commands));
-    if (!gpu->info.is_cpu) {
+    if (!gpu->maps) {
         raw_buffer_create(gpu, STAGING_BYTES,
                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                           VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
@@ -263,6 +263,7 @@ status gpu_create(const struct gpu_options *options, struct gpu **out)
     const char *given = options->device ? options->device : getenv("HOODOO_DEVICE");
     TRY(gpu_choose(given && *given ? given : NULL, ids ? ids : getenv("SLURM_JOB_GPUS"), info, n, &chosen));
     gpu->info = info[chosen];
+    gpu->maps = gpu->info.is_cpu && !options->staged;
     gpu->physical = physical[chosen];
     TRY(device_open(gpu));
     shader_cache_hold();

@@ -43,8 +43,10 @@ struct gpu_options {
      * "pci:DDDD:BB:DD.F" selects a device. "slurm": the GPU that Slurm assigned to this job, never a CPU device. */
     const char *device;
     /* For tests. variant: forces a kernel variant (enum kernel_variant + 1; 0: the device's preferred one). The limits replace those of
-     * the device: bytes that can be bound, bytes of one allocation, number of allocations (0: the device's own). */
+     * the device: bytes that can be bound, bytes of one allocation, number of allocations (0: the device's own). staged: copies to and from
+     * buffers as for memory that the host cannot map, also on a CPU. */
     int variant;
+    bool staged;
     uint64_t range_limit, allocation_limit;
     uint32_t allocations_limit;
 };

@@ -63,6 +63,7 @@ struct gpu {
     uint32_t group_limit, timestamp_bits, n_allocations, allocations_limit, subgroup;
     double timestamp_ns;
     bool has_budget;
+    bool maps; /* the host maps the buffers; otherwise copies go through `staging` */
     enum kernel_variant variant;
     VkCommandPool commands;
     struct slot slot[SLOTS];

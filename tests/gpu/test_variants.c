@@ -133,8 +133,9 @@ static int end(void **state)
 int main(void)
 {
     static struct gpu_options texel = {.device = "auto", .variant = VARIANT_TEXEL + 1};
-    static struct gpu_options storage = {.device = "auto", .variant = VARIANT_STORAGE + 1};
     static struct gpu_options wide = {.device = "auto", .variant = VARIANT_WIDE + 1};
+    static struct gpu_options staged = {
+        .device = "auto", .variant = VARIANT_STORAGE + 1, .staged = true}; /* as on a GPU */
     static struct gpu_options nothing_fits = {.device = "auto", .range_limit = 1};
     static struct gpu_options some_fit = {.device = "auto", .range_limit = 20000};
 #define WITH(options)                                                                                        \
@@ -142,7 +143,7 @@ int main(void)
         "same_bits (" #options ")", same_bits, NULL, NULL, &options                                          \
     }
     const struct CMUnitTest tests[] = {
-        WITH(texel), WITH(storage), WITH(wide), WITH(nothing_fits), WITH(some_fit),
+        WITH(texel), WITH(staged), WITH(wide), WITH(nothing_fits), WITH(some_fit),
     };
     if (effort() < 1)
         cmocka_set_test_filter("*some_fit*"); /* which has some of the others' */
