@@ -48,14 +48,15 @@ static uint64_t shown(const struct job *job, const struct scene_size *size)
  * and the attributes that are not uniform within a leaf of the file's tree: 32 bytes for all, 32 more at the surface. Volumes are
  * written one grid at a time; a grid may be full, and the leaves at the surface take six times the size of their content. USD lists the
  * particles at the surface. Pictures need their compressed rows and the file assembled from them. */
-static uint64_t writing(const struct job *job, const struct scene_size *size)
+static uint64_t writing(const struct job *job, const struct scene_size *size, const struct disk_frame *files)
 {
-    const uint64_t n = shown(job, size), bare = size->n_surface;
+    const uint64_t n = shown(job, size), bare = size->n_surface, cameras = job->output.aov.n_cameras;
     const uint64_t piece = n < PIECE_MAX ? n : PIECE_MAX, copied = n > piece ? 2 * host_rock_bytes(piece) : 0;
     const uint64_t points = job->output.vdb.points == VDB_POINTS_NONE
                                 ? 0
                                 : piece * (8 + 32) + copied + (bare < piece ? bare : piece) * 32;
-    return most(points, most(n * 4 + bare * 6 * 4, most(4 * bare, 2 * aov_picture_bytes(job))));
+    return most(points,
+                most(n * 4 + bare * 6 * 4, most(4 * bare, cameras ? 2 * files->pictures / cameras : 0)));
 }
 
 /* A frame with so many floats per sample of its lattice. */
@@ -69,11 +70,11 @@ static uint64_t one(const struct job *job, const struct scene_size *size, const 
 }
 
 uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size, const struct host_frame *f,
-                           enum frame_pace pace)
+                           const struct disk_frame *files, enum frame_pace pace)
 {
     const uint64_t all = one(job, size, f, f->grids);
     if (pace == PACE_STREAM) /* the largest grids are vectors */
         return one(job, size, f, f->kept) +
-               most(making(job), writing(job, size) + 3 * f->samples * sizeof(float));
-    return (pace == PACE_OVERLAP ? 2 : 1) * all + making(job) + writing(job, size);
+               most(making(job), writing(job, size, files) + 3 * f->samples * sizeof(float));
+    return (pace == PACE_OVERLAP ? 2 : 1) * all + making(job) + writing(job, size, files);
 }

@@ -29,6 +29,7 @@ struct host_frame {
 
 /* The most that frames take at a pace. Within a tenth of measurements. */
 uint64_t host_frames_bytes(const struct job *job, const struct scene_size *size,
-                           const struct host_frame *frame, enum frame_pace pace);
+                           const struct host_frame *frame, const struct disk_frame *files,
+                           enum frame_pace pace);
 
 #endif

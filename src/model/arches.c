@@ -16,7 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/log.h"
 #include "base/memory.h"
 #include "frame/host.h"
 #include "frame/rocks.h"
@@ -25,11 +24,8 @@
 #include "model/type.h"
 #include "particles/particles.h"
 #include "scene/scene.h"
-#include "shape/noise.h"
 #include "stacks/file.h"
-#include "stacks/loosen.h"
-#include "stacks/operations.h"
-#include "stacks/stabilise.h"
+#include "stacks/spaces.h"
 
 struct arches {
     struct model m; /* shared by all models */
@@ -47,15 +43,6 @@ static struct arches *of(struct model *m)
 
 /* ---- a frame */
 
-/* Noise for tools. Setting it up for every call is cheap compared to evaluating it. */
-static double tool_noise(const void *user, double scale, double flatten, const double x[3])
-{
-    const struct arches *t = user;
-    struct job_noise what = {.scale_m = scale, .octaves = 3, .flatten = flatten};
-    struct noise noise = noise_init(&what, (uint32_t)t->m.job->seed);
-    return noise_at(&noise, x);
-}
-
 /* Updates the ledger by recounting the stacks: material added since the last count adds to `start`, removed material to `left`. */
 static void balance(struct arches *t, uint64_t left)
 {
@@ -69,69 +56,21 @@ static void balance(struct arches *t, uint64_t left)
     t->m.ledger.left += left;
 }
 
-static status slide(struct arches *t, const int lo[2], const int hi[2])
+static void count(void *user, uint64_t left)
 {
-    struct stabilise options = {.table = t->table,
-                                .n_materials = t->n_materials,
-                                .walls = job_walls(t->m.job),
-                                .sweeps = t->m.job->arches.sweeps};
-    struct stabilised done;
-    uint64_t left = 0;
-    if (lo[0] > hi[0])
-        return OK;
-    status st = stabilise(&t->stacks, &options, lo, hi, &done);
-    if (st != OK)
-        return st;
-    for (int k = 0; k < MATERIALS_MAX; k++)
-        left += done.left[k];
-    balance(t, left);
-    if (!done.resting && !options.sweeps)
-        log_warn("frame %d: after %lld sweeps some loose material still slides", t->m.frame,
-                 (long long)done.sweeps);
-    return OK;
-}
-
-static void extend(int lo[2], int hi[2], const int from[2], const int to[2])
-{
-    for (int a = 0; a < 2; a++) {
-        lo[a] = from[a] < lo[a] ? from[a] : lo[a];
-        hi[a] = to[a] > hi[a] ? to[a] : hi[a];
-    }
+    balance(user, left);
 }
 
 /* Applies the frame's tools and lets loose material slide. `all`: material anywhere may slide, not only where tools were used. */
 static status apply_tools(struct arches *t, bool all)
 {
     status st = OK;
-    const struct job_arches *job = &t->m.job->arches;
-    struct tools tools = {.table = t->table,
-                          .n_materials = t->n_materials,
-                          .sigma = job->sigma * t->stacks.cell,
-                          .noise = tool_noise,
-                          .user = t};
-    int lo[2] = {t->stacks.n[0], t->stacks.n[1]}, hi[2] = {-1, -1}, from[2], to[2];
+    const struct terrain_work work = {t->m.job, &t->stacks, t->table, t->n_materials, count, t};
+    struct terrain_area area;
     gpu_stage(t->m.gpu, "tools");
-    for (size_t i = 0; i < job->n_operations; i++) {
-        char path[64];
-        if (!operation_active(&job->operations[i], t->m.frame))
-            continue;
-        snprintf(path, sizeof path, "arches.operations.%zu", i);
-        TRY(operation_apply(&t->stacks, &tools, &job->operations[i], path, t->m.frame, from, to));
-        balance(t, 0);
-        extend(lo, hi, from, to);
-    }
-    /* If slides continue from frame to frame, material anywhere may be sliding. */
-    if (all || job->sweeps)
-        for (int a = 0; a < 2; a++) {
-            lo[a] = 0;
-            hi[a] = t->stacks.n[a] - 1;
-        }
-    if (job->unheld == UNHELD_FALL && lo[0] <= hi[0]) {
-        TRY(loosen(&t->stacks, spaces_kinds(t->table, t->n_materials).solid, from, to));
-        extend(lo, hi, from, to);
-    }
+    TRY(terrain_shape(&work, t->m.frame, all, &area));
     gpu_stage(t->m.gpu, "stabilise");
-    TRY(slide(t, lo, hi));
+    TRY(terrain_slide(&work, t->m.frame, &area));
 done:
     return st;
 }
@@ -334,6 +273,17 @@ static size_t work_items(const struct job *job, const int voxels[3])
     return voxel_count(voxels) + 2;
 }
 
+/* Samples in the bricks near that many faces of voxels. Each face has a brick's depth and the margin around it, 16 samples; bricks near
+ * several faces are counted once, as if faces were anywhere in the domain. Within a fifth of what frames have. */
+static uint64_t samples_of(const int voxels[3], double faces)
+{
+    int lattice[3], bricks[3];
+    for (int a = 0; a < 3; a++)
+        lattice[a] = voxels[a] + 2 * FIELD_MARGIN;
+    const double all = (double)(grid_bricks_of(lattice, bricks) * BRICK_SAMPLES);
+    return (uint64_t)(all * (1 - exp(-16 * faces / all)));
+}
+
 static status estimate(const struct job *job, struct model_needs *needs)
 {
     status st = OK;
@@ -342,15 +292,18 @@ static status estimate(const struct job *job, struct model_needs *needs)
     /* For its errors only, if the scene is wrong. */
     TRY(scene_estimate(job, &ground));
     free(ground.point);
-    double cell = job->arches.cell_m > 0 ? job->arches.cell_m : job->domain.spacing_m;
-    double stacks = job->domain.size_m[0] * job->domain.size_m[1] / (cell * cell) * 28;
-    /* About the number of voxels at the surface: three layers for the ground and as much again for caves and walls; and the sides. */
-    needs->size.n_particles = 6 * (size_t)n[0] * (size_t)n[1] + 2 * (size_t)(n[0] + n[1]) * (size_t)n[2];
+    struct terrain_size size;
+    TRY(terrain_size(job, &size));
+    const double h = job->domain.spacing_m, cell = terrain_cell(job), face = h * h;
+    const double stacks = job->domain.size_m[0] * job->domain.size_m[1] / (cell * cell) * size.layers;
+    /* The filter's width in voxels is how many samples on a line across the surface are neither air nor full. */
+    const double filter = 2 * terrain_sigma(job, cell, h) / h;
+    needs->size.n_particles = (size_t)(filter * size.surface_m2 / face + size.side_m2 / face);
     /* Particles are only at the surface. */
     needs->size.n_surface = needs->size.n_near = needs->size.n_kept = needs->capacity =
         needs->size.n_particles;
     needs->disk = (struct disk_particle){.bare = 9, .volumes_bare = 30, .channel = 1.1};
-    needs->frame.samples = host_grid_samples(n, 0, needs->size.n_surface);
+    needs->frame.samples = samples_of(n, (size.surface_m2 + size.side_m2) / face);
     needs->frame.grids = value_grids(HAS_TERRAIN);
     /* Sorting the rock on the device needs an extra vector and word per particle. */
     needs->device_bytes = 20 * needs->size.n_particles;

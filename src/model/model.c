@@ -64,8 +64,8 @@ status model_estimate(const struct job *job, struct model_estimate *out)
     out->disk.other += needs.disk_other;
     needs.frame.grids += value_grids(HAS_ALWAYS);
     for (int p = 0; p < PACES; p++)
-        out->host_at[p] =
-            needs.host_bytes + host_frames_bytes(job, &needs.size, &needs.frame, (enum frame_pace)p);
+        out->host_at[p] = needs.host_bytes +
+                          host_frames_bytes(job, &needs.size, &needs.frame, &out->disk, (enum frame_pace)p);
     out->checkpoint_bytes = needs.checkpoint_bytes;
     out->steps = needs.steps;
     out->kernels = needs.kernels;

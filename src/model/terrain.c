@@ -9,6 +9,7 @@
 #include "image/bilinear.h"
 #include "image/image.h"
 #include "scene/scene.h"
+#include "shape/noise.h"
 #include "stacks/intervals.h"
 
 status terrain_materials(const struct job *job, struct material table[MATERIALS_MAX], int *n)
@@ -39,15 +40,48 @@ status terrain_materials(const struct job *job, struct material table[MATERIALS_
     return OK;
 }
 
-static double cell_of(const struct job *job)
+double terrain_cell(const struct job *job)
 {
     return job->arches.cell_m > 0 ? job->arches.cell_m : job->domain.spacing_m;
+}
+
+double terrain_sigma(const struct job *job, double cell, double voxel)
+{
+    return fmin(fmax(job->arches.sigma * cell, 0.75 * voxel), SURFACE_WIDEST * cell);
+}
+
+/* Noise for tools. Setting it up for every call is cheap compared to evaluating it. */
+static double tool_noise(const void *user, double scale, double flatten, const double x[3])
+{
+    const struct job *job = user;
+    struct job_noise what = {.scale_m = scale, .octaves = 3, .flatten = flatten};
+    struct noise noise = noise_init(&what, (uint32_t)job->seed);
+    return noise_at(&noise, x);
+}
+
+struct tools terrain_tools(const struct job *job, const struct stacks *s, const struct material *table,
+                           int n_materials)
+{
+    return (struct tools){.table = table,
+                          .n_materials = n_materials,
+                          .sigma = job->arches.sigma * s->cell,
+                          .noise = tool_noise,
+                          .user = job};
+}
+
+uint32_t terrain_ground(const struct job *job, int n_materials)
+{
+    uint32_t set = 0;
+    for (int m = MATERIAL_BEDROCK; m < n_materials; m++)
+        if (m != MATERIAL_WATER && !(m == MATERIAL_ROCK && job_piles(job)))
+            set |= 1u << m;
+    return set;
 }
 
 status terrain_create(const struct job *job, struct stacks *out)
 {
     int n[2];
-    double cell = cell_of(job);
+    double cell = terrain_cell(job);
     for (int a = 0; a < 2; a++)
         n[a] = (int)fmin(fmax(round(job->domain.size_m[a] / cell), 1), STACKS_MAX);
     return stacks_create(n, cell, job->domain.size_m[2], out);

@@ -4,10 +4,24 @@
 
 #include "job/job.h"
 #include "particles/frame.h"
+#include "stacks/operations.h"
 #include "stacks/surface.h"
 
 /* The job's materials, indexed by the material numbers of layers. E_USAGE: too many. */
 MUST_USE status terrain_materials(const struct job *job, struct material table[MATERIALS_MAX], int *n);
+
+/* The side of a stack, m. */
+double terrain_cell(const struct job *job);
+
+/* Half the width of the filter through which frames see the surface, m: not narrower than voxels can resolve. */
+double terrain_sigma(const struct job *job, double cell, double voxel);
+
+/* What the job's operations need; valid as long as job and table are. */
+struct tools terrain_tools(const struct job *job, const struct stacks *s, const struct material *table,
+                           int n_materials);
+
+/* The set of materials that the surface encloses: all but air and water, and not rock layers if they are shown as instanced rocks. */
+uint32_t terrain_ground(const struct job *job, int n_materials);
 
 /* Creates the job's stacks without any layers. */
 MUST_USE status terrain_create(const struct job *job, struct stacks *out);
@@ -19,6 +33,38 @@ MUST_USE status terrain_begin(const struct job *job, const struct material *tabl
 /* The total volumes of solid and of loose material, in quanta. */
 void terrain_ledger(const struct stacks *s, const struct material *table, int n_materials, uint64_t *solid,
                     uint64_t *loose);
+
+/* Terrain that changes. count() is called after each change, with the quanta of loose material that have left across the sides. */
+struct terrain_work {
+    const struct job *job;
+    struct stacks *stacks;
+    const struct material *table;
+    int n_materials;
+    void (*count)(void *user, uint64_t left);
+    void *user;
+};
+
+/* The stacks lo..hi; none if hi < lo. */
+struct terrain_area {
+    int lo[2], hi[2];
+};
+
+/* Applies the frame's tools in the job's order, and loosens rock that nothing holds, if the job wants that. *area: where material may
+ * slide; everywhere if `all`. E_USAGE, E_MEMORY. */
+MUST_USE status terrain_shape(const struct terrain_work *w, int frame, bool all, struct terrain_area *area);
+
+/* Lets loose material slide until it rests. E_MEMORY. */
+MUST_USE status terrain_slide(const struct terrain_work *w, int frame, const struct terrain_area *area);
+
+/* About the largest surface that the terrain has in its frames, m2, as a staircase: faces along the axes. */
+struct terrain_size {
+    double surface_m2; /* of the ground: floors, ceilings and walls */
+    double side_m2;    /* of the ground where the domain ends, its floor included */
+    double layers;     /* per stack */
+};
+
+/* Finds it by running the job on coarse stacks: surfaces smaller than these are missed. E_USAGE: an operation is wrong. E_MEMORY. */
+MUST_USE status terrain_size(const struct job *job, struct terrain_size *out);
 
 enum { TERRAIN_RATIOS = MATERIALS_OWN - MATERIAL_BEDROCK };
 

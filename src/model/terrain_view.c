@@ -9,17 +9,10 @@
 #include "model/terrain.h"
 #include "stacks/surface.h"
 
-/* The materials that the surface encloses: all but air and water, and not rock layers if they are shown as instanced rocks. */
 struct surface terrain_surface(const struct terrain_view *v)
 {
-    uint32_t set = 0;
-    bool piles = job_piles(v->job);
-    for (int m = MATERIAL_BEDROCK; m < v->n_materials; m++)
-        if (m != MATERIAL_WATER && !(m == MATERIAL_ROCK && piles))
-            set |= 1u << m;
-    /* Not narrower than the lattice can resolve. */
-    double sigma = fmax(v->job->arches.sigma * v->stacks->cell, 0.75 * v->voxel);
-    return (struct surface){v->stacks, set, fmin(sigma, SURFACE_WIDEST * v->stacks->cell)};
+    return (struct surface){v->stacks, terrain_ground(v->job, v->n_materials),
+                            terrain_sigma(v->job, v->stacks->cell, v->voxel)};
 }
 
 /* ---- samples */

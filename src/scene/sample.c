@@ -7,22 +7,24 @@
 #include "geology/attitude.h"
 #include "scene/sampler.h"
 
-#define MAX_VOXELS 2147483648.0
+#define MAX_VOXELS                                                                                           \
+    4294967295.0     /* a voxel is numbered by 32 times its word of bits (particles/held.h) plus its bit */
 #define JITTER 0.25f /* in h, to either side of the voxel's centre */
 
 status scene_voxels(const struct job *job, int n[3])
 {
-    double h = job->domain.spacing_m, total = 1, count[3];
+    double h = job->domain.spacing_m, count[3];
     for (int a = 0; a < 3; a++) {
         /* Pairs of voxels. A size within a millionth of an integer number of pairs is rounded to it. */
         double pairs = job->domain.size_m[a] / (2 * h), whole = fmax(1, round(pairs));
         count[a] = 2 * (fabs(pairs - whole) <= 1e-6 * whole ? whole : fmax(1, ceil(pairs)));
-        total *= count[a];
     }
+    /* Rows are padded to whole words. */
+    const double total = 32 * ceil(count[0] / 32) * count[1] * count[2];
     if (!(total <= MAX_VOXELS))
         return fail(
             E_USAGE,
-            "domain: %.0f x %.0f x %.0f voxels are more than 2^31: raise domain.spacing_m above %.3g m, or reduce domain.size_m",
+            "domain: %.0f x %.0f x %.0f voxels are more than 2^32: raise domain.spacing_m above %.3g m, or reduce domain.size_m",
             count[0], count[1], count[2], h * cbrt(total / MAX_VOXELS));
     for (int a = 0; a < 3; a++)
         n[a] = (int)count[a];

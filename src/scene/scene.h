@@ -15,7 +15,7 @@
 #include "job/job.h"
 #include "particles/rock.h"
 
-/* The number of voxels of the domain on each axis: even, at least 2. E_USAGE: more than 2^31 in all. */
+/* The number of voxels of the domain on each axis: even, at least 2. E_USAGE: more than 2^32 in all, with rows padded to multiples of 32. */
 MUST_USE status scene_voxels(const struct job *job, int n[3]);
 
 /* A solid: a CSG tree of the job, with its files read. Meshes are voxelised at `detail` metres (half a particle spacing is right).

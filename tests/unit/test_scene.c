@@ -2,6 +2,7 @@
  * come out in order, in their voxels, the same for every number of threads. */
 #include <omp.h>
 
+#include "particles/held.h"
 #include "scene_help.h"
 
 /* ---- volumes */
@@ -213,8 +214,16 @@ static void voxels_are_even_and_cover_the_domain(void **state)
     job.domain = (struct job_domain){.size_m = {0.6, 1.8, 5.4}, .spacing_m = 0.3};
     assert_int_equal(scene_voxels(&job, n), OK);
     assert_true(n[0] == 2 && n[1] == 6 && n[2] == 18);
+    /* A voxel's number fits into 32 bits, also where rows end within a word of bits. */
+    job.domain = (struct job_domain){.size_m = {1600, 1600, 1676}, .spacing_m = 1};
+    assert_int_equal(scene_voxels(&job, n), OK);
+    assert_true(32 * held_words(n) <= UINT32_MAX && voxel_count(n) > UINT32_MAX - 5120000);
+    job.domain.size_m[2] = 1678;
+    assert_failed(scene_voxels(&job, n), E_USAGE, "2^32", "spacing_m");
+    job.domain = (struct job_domain){.size_m = {1602, 1600, 1666}, .spacing_m = 1};
+    assert_failed(scene_voxels(&job, n), E_USAGE, "2^32", "spacing_m");
     job.domain = (struct job_domain){.size_m = {1e6, 1e6, 1e6}, .spacing_m = 1e-4};
-    assert_failed(scene_voxels(&job, n), E_USAGE, "2^31", "spacing_m");
+    assert_failed(scene_voxels(&job, n), E_USAGE, "2^32", "spacing_m");
 }
 
 static void particles_come_in_order_inside_their_voxels(void **state)

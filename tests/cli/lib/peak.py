@@ -7,7 +7,8 @@ import subprocess
 import time
 
 HOODOO = os.environ["HOODOO"]
-NEAR = 0.15  # tolerance
+# Tolerances. In small runs most of the memory is the driver's own, which depends on whether its caches are warm.
+SMALL, NEAR_SMALL, NEAR = 400e6, 0.15, 0.10
 failed = False
 
 
@@ -65,14 +66,14 @@ def run(words, group=None):
     return os.waitstatus_to_exitcode(code), said, use.ru_maxrss * 1024
 
 
-def compare(name, job, first, sets):
-    """Runs four frames: memory is largest while one frame is written and the next is made."""
+def compare(name, job, frames, sets):
+    """Runs these frames, several of them: memory is largest while one frame is written and the next is made."""
     words = [w for s in sets for w in ("--set", s)]
     plan = json.loads(subprocess.run([HOODOO, "plan", job, "--rehearse", "0", "--json", *words], stdout=subprocess.PIPE, check=True).stdout)
     parts = [plan[part + "_bytes"] for part in ("device", "host", "process")]
-    code, said, peak = run(["run", job, "--out", "run", "--progress", "none", "--frames", f"{first}-{first + 3}", *words])
+    code, said, peak = run(["run", job, "--out", "run", "--progress", "none", "--frames", frames, *words])
     shutil.rmtree("run", ignore_errors=True)
     ratio = sum(parts) / peak
-    check(code == 0 and abs(ratio - 1) <= NEAR,
+    check(code == 0 and abs(ratio - 1) <= (NEAR_SMALL if sum(parts) < SMALL else NEAR),
           "{}: {:.0f} MB planned (device {:.0f}, host {:.0f}, process {:.0f}), {:.0f} MB at most: {:.3f}".format(
               name, sum(parts) / 1e6, *(p / 1e6 for p in parts), peak / 1e6, ratio) + (f": {said.strip()}" if code else ""))
