@@ -28,7 +28,7 @@ static status estimate(const struct job *job, struct model_needs *needs)
     status st = OK;
     TRY(scene_estimate(job, &needs->size));
     needs->disk = (struct disk_particle){.inside = 10, .bare = 30, .volumes_bare = 50, .channel = 1.5};
-    needs->samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
+    needs->frame.samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     needs->checkpoint_bytes = 4 * (uint64_t)needs->size.n_particles;
     needs->steps = job->frames.last - job->frames.first;
 done:
