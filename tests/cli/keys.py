@@ -42,7 +42,7 @@ bad = []
 for i, name in enumerate(examples):
     made, said = hoodoo("new", f"mine_{i}", "--like", name)
     text = open(f"mine_{i}.yaml").read() if made == 0 else ""
-    planned = hoodoo("plan", f"mine_{i}.yaml", "--device", "none", "--json", "--set", "domain.spacing_m=2")
+    planned = hoodoo("plan", f"mine_{i}.yaml", "--device", "none", "--json", "--set", f"domain.spacing_m={float(re.search(r'size_m: *[[]([0-9.]+)', text)[1]) / 40}")
     if made or f"\nname: mine_{i}\n" not in text or "schema" in text or f"jobs/{name}" in text or planned[0] or json.loads(planned[1])["name"] != f"mine_{i}":
         bad.append((name, said, planned))
 ok(not bad, f"each of {len(examples)} makes a job under a new name that can be planned", *bad)
