@@ -12,7 +12,7 @@ READ_U(2, passing)
 WRITE_U(3, next)
 WRITE_U(4, waits)  // by span: donors that have not passed on yet
 WRITE_U(5, sum)
-WRITE_U(6, length) // of the lists, by round modulo 3: this one's, the next one's, and one to be cleared for the round after that
+WRITE_U(6, length) // of the lists, by round modulo 3: this one's, the next one's, and one to be cleared for the round after that; and of all
 PARAMS(water_params)
 
 void pass_on(uint i)
@@ -40,9 +40,11 @@ void main()
 {
     if (THREAD >= k.n)
         return;
-    if (THREAD == 0u)
-        AT(length, (k.round + 2u) % 3u) = 0u;
     uint n = AT(length, k.round % 3u);
+    if (THREAD == 0u) {
+        AT(length, (k.round + 2u) % 3u) = 0u;
+        AT(length, 3) += n;
+    }
     for (uint i = THREAD; i < n; i += k.n)
         pass_on(LOAD_U(passing, i));
 }
