@@ -1,7 +1,7 @@
 # hoodoo: build, demo, test. `make help` lists the targets.
 
 PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa-vulkan-drivers \
-	libopenvdb-dev libboost-dev libassimp-dev libmuparser-dev libopenexr-dev libopenimageio-dev openimageio-tools libtiff-dev libfyaml-dev libzstd-dev \
+	libopenvdb-dev libboost-dev libassimp-dev libmuparser-dev libopenexr-dev libopenimageio-dev openimageio-tools libtiff-dev libjpeg-dev libfyaml-dev libzstd-dev zstd \
 	libseccomp-dev libmicrohttpd-dev libpng-dev libxxhash-dev povray povray-includes ffmpeg fonts-dejavu-core
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
 	libcgal-dev libeigen3-dev gdal-bin

@@ -1,9 +1,10 @@
-"""A job on a Slurm of two nodes, one of which cannot run hoodoo: what it requests, one mail, the bad node excluded, cancel, retry, and the end hook
+"""A job on a Slurm of three nodes, two of which cannot run hoodoo: what it requests, one mail, the bad nodes excluded, cancel, retry, and the end hook
 called once."""
 
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -15,6 +16,7 @@ from one_node import OneNode
 from script import HOODOO, TOP, finish, hoodoo, ok
 
 os.environ["LP_NUM_THREADS"] = "1"
+os.environ["HOODOO_DISK_DELAY"] = "2"
 FEW = "farm: {block_frames: 4, chunk_frames: 4, meshes: true, still_every: 0, turntable: 0, retries: 1, sim: {cpus: 1, hours: 1}, derive: {cpus: 1, hours: 0.5}"
 
 
@@ -48,11 +50,16 @@ write("hook.sh", "#!/bin/sh\necho \"$HOODOO_STATE $HOODOO_TASKS_DONE/$HOODOO_TAS
 write("mail.sh", "#!/bin/sh\necho \"$@\" >>'" + os.path.abspath("mail.log") + "'\ncat >/dev/null\n")
 for script in ("hook.sh", "mail.sh"):
     os.chmod(script, 0o755)
-write("job.yaml", job + FEW + ", on_done: [" + os.path.abspath("hook.sh") + ", 'with: a space']}\n")
+write("job.yaml", job + FEW + ", binary: " + os.path.abspath("apps/hoodoo") + ", on_done: [" + os.path.abspath("hook.sh") + ", 'with: a space']}\n")
 out = os.path.abspath("out")
-# On node a, /dev/null is in the place of hoodoo. A node's own view of the disk is a mount namespace.
-broken = ("unshare", "--mount", "sh", "-c", 'mount --bind /dev/null "$0" && exec "$@"', HOODOO)
-with OneNode(requeue_exit=False, nodes=("a", "b"), wrapped={"a": broken}, mail=os.path.abspath("mail.sh")) as slurm:
+# hoodoo is in apps (farm.binary). On node a, /dev/null is in its place (exit 126), and node b has nothing in apps (127). A node's own view
+# of the disk is a mount namespace.
+apps = os.path.abspath("apps")
+os.mkdir(apps)
+shutil.copy(HOODOO, apps)
+broken = ("unshare", "--mount", "sh", "-c", 'mount --bind /dev/null "$0" && exec "$@"', apps + "/hoodoo")
+bare = ("unshare", "--mount", "sh", "-c", 'mount -t tmpfs none "$0" && exec "$@"', apps)
+with OneNode(requeue_exit=False, nodes=("a", "b", "c"), wrapped={"a": broken, "b": bare}, mail=os.path.abspath("mail.sh")) as slurm:
     stranger = slurm.ask("sbatch", "--parsable", "--job-name=stranger", "--hold", "--wrap", "true").strip()
     code, said = hoodoo("submit", "job.yaml", "--to", "slurm", "--device", "cpu", "--out", out, "--", "--mail-type=END", "--mail-user=me")
     if not ok(code == 0, "a job is submitted", said):
@@ -71,9 +78,11 @@ with OneNode(requeue_exit=False, nodes=("a", "b"), wrapped={"a": broken}, mail=o
     if '"node": "a"' in tries:
         ok('"exit": 126' in tries and '"excluded", "node": "a"' in tries and "on a: exit 126: this node cannot run" in log and "without a" in log,
            "a node that cannot run hoodoo is excluded, and the log says so", log, tries)
-        ok("ExcNodeList=a" in slurm.ask("scontrol", "show", "job", ids["sim.1001-1004"]), "and Slurm knows it")
+        ok('"exit": 127' in tries and '"excluded", "node": "b"' in tries and "on b: exit 127: this node cannot run" in log and "without a,b" in log,
+           "and one that does not have it", log, tries)
+        ok("ExcNodeList=a,b" in slurm.ask("scontrol", "show", "job", ids["sim.1001-1004"]), "and Slurm knows it")
         t = task(out, "sim.1001-1004")
-        ok(t["state"] == "running" and t["tries"] == 2 and t["exit"] == "126" and "cannot execute" in t["meaning"] and t["node"] == "b" and t["excluded_nodes"] == "a" and
+        ok(t["state"] == "running" and t["tries"] == 3 and t["exit"] == "127" and "has no such program" in t["meaning"] and t["node"] == "c" and t["excluded_nodes"] == "a,b" and
            t["log"] == "log/farm/sim.1001-1004.log", "status has tries, exit code, its meaning and the node", t)
     else:
         ok(False, "the first task begins on node a", tries)
@@ -99,7 +108,7 @@ with OneNode(requeue_exit=False, nodes=("a", "b"), wrapped={"a": broken}, mail=o
     ok(code == 2 and "waits or runs" in said, "and not twice", said)
     slurm.wait_for(lambda: not queued(slurm), "an empty queue", 600)
     t = task(out, "mesh.1001-1004")
-    ok(frames(out) == 12 and t["tries"] == 2 + (t["excluded_nodes"] == "a") and t["exit"] == "4" and t["meaning"] == "output cannot be written" and t["node"], "tasks that fail are tried twice", t)
+    ok(frames(out) == 12 and t["tries"] == 2 + len([n for n in t["excluded_nodes"].split(",") if n]) and t["exit"] == "4" and t["meaning"] == "output cannot be written" and t["node"], "tasks that fail are tried twice", t)
     ok(read("hook.log") == "failed 3/6 with: a space\n", "the hook is told of the failure, once", read("hook.log"))
     os.remove(out + "/mesh")
     code, said = hoodoo("retry", out)
