@@ -36,8 +36,8 @@ VDB_LIBS = -lopenvdb -ltbb -lImath-3_1 -lxxhash -lstdc++
 EXR_FLAGS = -isystem /usr/include/OpenEXR -isystem /usr/include/Imath
 
 Q = $(if $(V),,@)
-SRC = $(shell find src farm render -name '*.c')
-SHIM = $(shell find src farm render -name '*_shim.cpp')
+SRC = $(shell find src farm render -name '*.c' -not -path 'farm/bundle/*')
+SHIM = $(shell find src farm render -name '*_shim.cpp' -not -path 'farm/bundle/*')
 SHADER = $(shell find shaders -name '*.comp.glsl')
 KERNELS = $(sort $(patsubst shaders/%/,%,$(dir $(SHADER)))) kernels
 SHIM_OBJ = $(SHIM:%.cpp=$(SHARE)/%.o)
@@ -290,24 +290,24 @@ install: $(BUILD)/hoodoo
 
 STAGE = $(BUILD)/bundle/$(BUNDLE)
 LAUNCHED = hoodoo hoodoo-read hoodoo-read-image hoodoo-read-mesh
-$(BUILD)/bundle/launch: bundle/launch.c | $(BUILD)/.deps
+$(BUILD)/bundle/launch: farm/bundle/launch.c | $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && $(CC) -std=c11 -D_GNU_SOURCE $(WARN) -Os -static -s -o $@ $<
-$(BUILD)/bundle/host-libc: bundle/host_libc.c | $(BUILD)/.deps
+$(BUILD)/bundle/host-libc: farm/bundle/host_libc.c | $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && $(CC) -std=c11 $(WARN) -O1 -s -o $@ $<
-$(BUILD)/bundle/host-libstdc++: bundle/host_libstdcxx_shim.cpp | $(BUILD)/.deps
+$(BUILD)/bundle/host-libstdc++: farm/bundle/host_libstdcxx_shim.cpp | $(BUILD)/.deps
 	$(Q)mkdir -p $(@D) && $(CXX) -std=c++17 -O0 -s -o $@ $<
 
 ## bundle: pack hoodoo and its libraries into build/hoodoo-VERSION-linux-x86_64.tar.zst, which runs on any x86-64 Linux
 bundle: $(BUILD)/$(BUNDLE).tar.zst
-$(BUILD)/$(BUNDLE).tar.zst: $(BUILD)/hoodoo $(addprefix $(BUILD)/bundle/,hoodoo-read-image launch host-libc host-libstdc++) bundle/collect.py bundle/README.md
+$(BUILD)/$(BUNDLE).tar.zst: $(BUILD)/hoodoo $(addprefix $(BUILD)/bundle/,hoodoo-read-image launch host-libc host-libstdc++) farm/bundle/collect.py farm/bundle/README.md
 	$(Q)rm -rf $(STAGE) && $(MAKE) --no-print-directory install DESTDIR=$(STAGE) PREFIX= >/dev/null
-	$(Q)mkdir -p $(STAGE)/lib/programs && cp bundle/README.md $(STAGE)
+	$(Q)mkdir -p $(STAGE)/lib/programs && cp farm/bundle/README.md $(STAGE)
 	$(Q)cp $(BUILD)/bundle/hoodoo-read-image $(STAGE)/libexec/hoodoo/
 	$(Q)mv $(STAGE)/bin/hoodoo $(STAGE)/libexec/hoodoo/hoodoo-read* $(STAGE)/lib/programs/ && cp $(addprefix $(BUILD)/bundle/,host-libc host-libstdc++) $(STAGE)/lib/programs/
 	$(Q)cp $(BUILD)/bundle/launch $(STAGE)/bin/hoodoo
 	$(Q)for p in $(filter-out hoodoo,$(LAUNCHED)); do cp $(BUILD)/bundle/launch $(STAGE)/libexec/hoodoo/$$p; done
 	$(Q)strip $(addprefix $(STAGE)/lib/programs/,$(LAUNCHED)) $(STAGE)/libexec/hoodoo/hoodoo-vdb.so
-	$(Q)/usr/bin/python3 bundle/collect.py $(STAGE) $@
+	$(Q)/usr/bin/python3 farm/bundle/collect.py $(STAGE) $@
 
 ## clean: remove all build folders (out/ stays)
 clean:

@@ -13,7 +13,7 @@ static bool find_in(char out[BESIDE_PATH], const char *folder, const char *below
 }
 
 /* A program of a bundle is executed by a loader, which /proc/self/exe then names; its launcher passes its own path as argv[0]
- * (bundle/launch.c). */
+ * (farm/bundle/launch.c). */
 bool beside_self(char out[BESIDE_PATH])
 {
     const char *name = program_invocation_name;
