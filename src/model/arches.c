@@ -240,7 +240,7 @@ static status begin(struct model *m)
 {
     status st = OK;
     struct arches *t = of(m);
-    TRY(terrain_begin(m->job, t->table, t->n_materials, &t->stacks));
+    TRY(terrain_begin(m->job, t->table, t->n_materials, true, &t->stacks));
     balance(t, 0);
     TRY(apply_tools(t, true));
 done:

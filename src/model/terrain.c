@@ -160,13 +160,16 @@ done:
     return st;
 }
 
-status terrain_begin(const struct job *job, const struct material *table, int n_materials, struct stacks *s)
+status terrain_begin(const struct job *job, const struct material *table, int n_materials, bool log,
+                     struct stacks *s)
 {
     status st = OK;
     struct solid *solid = NULL;
     struct start start = {.s = s, .height = job->domain.size_m[2]};
     TRY(solid_create(job->scene, s->cell / 2, 4 * s->cell, &solid));
     start.solid = solid;
+    if (log)
+        TRY(scene_log_inputs(job, solid));
     TRY(stacks_edit(s, (const int[]){0, 0}, s->n, fill_column, &start));
     for (size_t i = 0; i < job->arches.n_covers; i++)
         TRY(cover(&job->arches.covers[i], table, n_materials, s));

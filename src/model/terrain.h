@@ -26,8 +26,8 @@ uint32_t terrain_ground(const struct job *job, int n_materials);
 /* Creates the job's stacks without any layers. */
 MUST_USE status terrain_create(const struct job *job, struct stacks *out);
 
-/* Fills the stacks with the scene as bedrock and the job's covers on it. */
-MUST_USE status terrain_begin(const struct job *job, const struct material *table, int n_materials,
+/* Fills the stacks with the scene as bedrock and the job's covers on it. `log`: says what the scene's files hold. */
+MUST_USE status terrain_begin(const struct job *job, const struct material *table, int n_materials, bool log,
                               struct stacks *s);
 
 /* The total volumes of solid and of loose material, in quanta. */

@@ -124,7 +124,7 @@ status terrain_size(const struct job *job, struct terrain_size *out)
     coarse.arches.cell_m = fmax(terrain_cell(job), sqrt(area / COARSE_STACKS));
     TRY(terrain_materials(&coarse, table, &n_materials));
     TRY(terrain_create(&coarse, &stacks));
-    TRY(terrain_begin(&coarse, table, n_materials, &stacks));
+    TRY(terrain_begin(&coarse, table, n_materials, false, &stacks));
     const struct terrain_work work = {&coarse, &stacks, table, n_materials, count_nothing, NULL};
     const uint32_t set = terrain_ground(job, n_materials);
     for (int frame = job->frames.first; frame <= job->frames.last; frame++) {

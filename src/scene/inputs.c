@@ -91,14 +91,14 @@ bool scene_input_text(const struct scene_input *in, double h, char text[600])
     return differs;
 }
 
-status inputs_log(const struct sampler *s)
+status scene_log_inputs(const struct job *job, const struct solid *scene)
 {
     status st = OK;
     struct scene_survey survey = {0};
     char text[600];
-    TRY(inputs_measure(s->job, sampler_scene(s), &survey));
+    TRY(inputs_measure(job, scene, &survey));
     for (size_t i = 0; i < survey.n_inputs; i++) {
-        const bool differs = scene_input_text(&survey.input[i], s->h, text);
+        const bool differs = scene_input_text(&survey.input[i], job->domain.spacing_m, text);
         image_log(differs, "scene", text);
     }
 done:

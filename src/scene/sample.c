@@ -196,7 +196,7 @@ status scene_grid(const struct job *job, bool floats, float *share, float *facto
     TRY(sampler_init(&s, job, NULL, COVERAGE_REACH));
     TRY(sampler_prepare(&s, job->paint, job->n_paint));
     TRY(sampler_check(&s, floats));
-    TRY(inputs_log(&s));
+    TRY(scene_log_inputs(job, sampler_scene(&s)));
     for (int k = 0; paint_needs_occluders(s.paint) && k < s.n[2]; k++)
         for (int j = 0; j < s.n[1]; j++)
             for (int i = 0; i < s.n[0]; i++)

@@ -37,9 +37,6 @@ MUST_USE status inputs_measure(const struct job *job, const struct solid *scene,
 /* Of a sampler of the job's scene: its solid without the river beds. */
 const struct solid *sampler_scene(const struct sampler *s);
 
-/* Logs the sentence about each file of the scene, once per process: scene_input_text(). E_MEMORY. */
-MUST_USE status inputs_log(const struct sampler *s);
-
 /* E_USAGE: there is no rock in the domain, or, unless it may float, none on the ground. */
 MUST_USE status sampler_check(const struct sampler *s, bool floats);
 

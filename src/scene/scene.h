@@ -118,6 +118,10 @@ struct scene_input {
  * 5 %. */
 bool scene_input_text(const struct scene_input *input, double h, char text[600]);
 
+/* Logs the sentence about each file of the job's scene, whose solid is `scene`, once per process. E_MEMORY. */
+struct solid;
+MUST_USE status scene_log_inputs(const struct job *job, const struct solid *scene);
+
 /* What the checks before a run look at, from one reading of the scene's files. */
 struct scene_survey {
     struct scene_size size;

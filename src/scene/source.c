@@ -83,7 +83,7 @@ status scene_source_create(const struct job *job, struct scene_source **out)
     TRY(sampler_init(&src->s, job, NULL, COVERAGE_REACH));
     TRY(sampler_prepare(&src->s, job->paint, job->n_paint));
     TRY(sampler_check(&src->s, false));
-    TRY(inputs_log(&src->s));
+    TRY(scene_log_inputs(job, sampler_scene(&src->s)));
     TRY(find_voxels(src));
     add_occluders(src);
     *out = src;
