@@ -34,7 +34,8 @@ MUST_USE status terrain_begin(const struct job *job, const struct material *tabl
 void terrain_ledger(const struct stacks *s, const struct material *table, int n_materials, uint64_t *solid,
                     uint64_t *loose);
 
-/* Terrain that changes. count() is called after each change, with the quanta of loose material that have left across the sides. */
+/* Terrain that changes. count() is called after each change, with the quanta of loose material that have left across the sides; NULL: nobody
+ * counts, and nothing is logged. */
 struct terrain_work {
     const struct job *job;
     struct stacks *stacks;
@@ -63,7 +64,7 @@ struct terrain_size {
     double layers;     /* per stack */
 };
 
-/* Finds it by running the job on coarse stacks: surfaces smaller than these are missed. E_USAGE: an operation is wrong. E_MEMORY. */
+/* Finds it by running the job on coarse stacks, up to its 256th frame with changes: surfaces smaller than these stacks are missed. E_USAGE: an operation is wrong. E_MEMORY. */
 MUST_USE status terrain_size(const struct job *job, struct terrain_size *out);
 
 enum { TERRAIN_RATIOS = MATERIALS_OWN - MATERIAL_BEDROCK };

@@ -5,8 +5,9 @@
 #include "base/memory.h"
 #include "model/terrain.h"
 
-/* Coarse stacks at most: few are quick, and many see small tools. */
-enum { COARSE_STACKS = 2500 };
+/* At most so many coarse stacks, since few are quick and many see small tools; and so many frames in which something changes, of jobs whose
+ * tools work for thousands of frames. */
+enum { COARSE_STACKS = 2500, MOST_FRAMES = 256 };
 
 /* The ground's intervals of a stack, in quanta; returns their number. */
 static size_t ground_of(const struct stacks *s, uint32_t set, int i, int j, uint32_t (*out)[2])
@@ -99,12 +100,6 @@ done:
     return st;
 }
 
-static void count_nothing(void *user, uint64_t left)
-{
-    (void)user;
-    (void)left;
-}
-
 static void keep_larger(struct terrain_size *most, const struct terrain_size *now)
 {
     most->surface_m2 = fmax(most->surface_m2, now->surface_m2);
@@ -125,15 +120,18 @@ status terrain_size(const struct job *job, struct terrain_size *out)
     TRY(terrain_materials(&coarse, table, &n_materials));
     TRY(terrain_create(&coarse, &stacks));
     TRY(terrain_begin(&coarse, table, n_materials, false, &stacks));
-    const struct terrain_work work = {&coarse, &stacks, table, n_materials, count_nothing, NULL};
+    const struct terrain_work work = {
+        .job = &coarse, .stacks = &stacks, .table = table, .n_materials = n_materials};
     const uint32_t set = terrain_ground(job, n_materials);
-    for (int frame = job->frames.first; frame <= job->frames.last; frame++) {
+    int shaped = 0;
+    for (int frame = job->frames.first; frame <= job->frames.last && shaped < MOST_FRAMES; frame++) {
         struct terrain_area changed;
         struct terrain_size now;
         TRY(terrain_shape(&work, frame, frame == job->frames.first, &changed));
         TRY(terrain_slide(&work, frame, &changed));
         if (changed.lo[0] > changed.hi[0])
             continue;
+        shaped++;
         TRY(measure(&stacks, set, &now));
         keep_larger(out, &now);
     }

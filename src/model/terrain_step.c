@@ -28,7 +28,8 @@ status terrain_shape(const struct terrain_work *w, int frame, bool all, struct t
             continue;
         snprintf(path, sizeof path, "arches.operations.%zu", i);
         TRY(operation_apply(w->stacks, &tools, &job->operations[i], path, frame, from, to));
-        w->count(w->user, 0);
+        if (w->count)
+            w->count(w->user, 0);
         extend(area, from, to);
     }
     /* If slides continue from frame to frame, material anywhere may be sliding. */
@@ -57,6 +58,8 @@ status terrain_slide(const struct terrain_work *w, int frame, const struct terra
         return st;
     for (int k = 0; k < MATERIALS_MAX; k++)
         left += done.left[k];
+    if (!w->count)
+        return OK;
     w->count(w->user, left);
     if (!done.resting && !options.sweeps)
         log_warn("frame %d: after %lld sweeps some loose material still slides", frame,
