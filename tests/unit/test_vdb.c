@@ -415,6 +415,7 @@ static void a_particle_nowhere_is_a_blow_up(void **state)
         rock.P[4 * 7 + 1] = bad[k];
         assert_int_equal(vdb_points(&rock, &options, &file), E_NUMERIC);
         assert_non_null(strstr(status_message(), "particle 7"));
+        draft_drop(&file);
         rock_free(&rock);
     }
 }
