@@ -2,8 +2,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/cores.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/threads.h"
 #include "geology/attitude.h"
 #include "scene/sampler.h"
 
@@ -153,6 +155,7 @@ status sampler_init(struct sampler *s, const struct job *job, const struct job_n
     status st = OK;
     double h = job->domain.spacing_m;
     *s = (struct sampler){.job = job, .h = h};
+    TRY(threads_check(cores())); /* OpenMP's, before a device is opened */
     TRY(scene_voxels(job, s->n));
     TRY(node ? solid_create(node, h / 2, reach * h, &s->solid)
              : solid_of_job(job, h / 2, reach * h, &s->solid));
