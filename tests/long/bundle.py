@@ -12,13 +12,12 @@ sys.path.insert(0, os.path.join(os.environ["HOODOO_TOP"], "tests/peers/lib"))
 from packed import archive, inside, pack, root, unpack
 from script import *
 
-MIRROR = "http://deb.debian.org/debian"
 if os.getuid() != 0 or not shutil.which("debootstrap"):
     print("ok the bundle on other systems # skip needs root and debootstrap")
     sys.exit(0)
-code, said = ask("debootstrap", "--variant=minbase", "--print-debs", "bookworm", "probe", MIRROR)
+code, said = ask("debootstrap", "--variant=minbase", "--print-debs", "bookworm", "probe")
 if code:
-    print("ok the bundle on other systems # skip Debian's mirror cannot be reached")
+    print("ok the bundle on other systems # skip Debian's packages cannot be had")
     sys.exit(0)
 
 
@@ -52,7 +51,7 @@ def driver_of_12(folder):
 
 
 for release, libc in (("bookworm", "2.36"), ("bullseye", "2.31")):
-    code, said = ask("debootstrap", "--variant=minbase", "--include=libvulkan1,mesa-vulkan-drivers", release, release, MIRROR, timeout=1800)
+    code, said = ask("debootstrap", "--variant=minbase", "--include=libvulkan1,mesa-vulkan-drivers", release, release, timeout=1800)
     if not ok(code == 0, f"{release} is set up", said[-1500:]):
         continue
     bundle = unpack(release + "/opt").removeprefix(release)

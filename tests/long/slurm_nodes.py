@@ -10,16 +10,11 @@ import time
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.environ["HOODOO_TOP"], "tests/peers/lib"))
-from three_nodes import DELAY_S, ThreeNodes, why_not
+from three_nodes import ThreeNodes, begin
 from script import HOODOO, TOP, ask, finish, of_a_run, ok, tree
 
 KILLS, NODES = 20, 5
-os.environ["LP_NUM_THREADS"] = "1"
-os.environ["HOODOO_DISK_DELAY"] = str(4 * DELAY_S)
-reason = why_not()
-if reason:
-    print("ok three nodes # skip", reason)
-    sys.exit(0)
+begin()
 with open(os.path.join(TOP, "tests/restart/twelve.yaml")) as file:
     job = file.read().replace("frames: 1001-1012", "frames: 1001-1068").replace("every: 3", "every: 1")
 with open("job.yaml", "w") as file:

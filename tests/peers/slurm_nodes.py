@@ -10,15 +10,10 @@ import time
 sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "lib"))
-from three_nodes import DELAY_S, ThreeNodes, why_not
+from three_nodes import ThreeNodes, begin
 from script import HOODOO, TOP, ask, finish, of_a_run, ok, tree
 
-os.environ["LP_NUM_THREADS"] = "1"
-os.environ["HOODOO_DISK_DELAY"] = str(4 * DELAY_S)
-reason = why_not()
-if reason:
-    print("ok three nodes # skip", reason)
-    sys.exit(0)
+begin()
 
 
 def read(path):

@@ -5,6 +5,7 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import time
 
 from one_node import OneNode
@@ -26,6 +27,16 @@ def why_not():
     os.makedirs("probe/b", exist_ok=True)
     done = subprocess.run(["unshare", "--mount", "sh", "-c", VIEW + "true", os.path.abspath("probe/a"), os.path.abspath("probe/b")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return None if done.returncode == 0 else "FUSE is not allowed here: " + done.stdout.strip()
+
+
+def begin():
+    """Ends the test here with a skip if it cannot be tried. The environment of all nodes' tasks: one core each, and patience with the disk."""
+    reason = why_not()
+    if reason:
+        print("ok three nodes # skip", reason)
+        sys.exit(0)
+    os.environ["LP_NUM_THREADS"] = "1"
+    os.environ["HOODOO_DISK_DELAY"] = str(4 * DELAY_S)
 
 
 class ThreeNodes(OneNode):
