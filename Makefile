@@ -120,7 +120,7 @@ $(BUILD)/bundle/hoodoo-read-image: $(BUILD)/src/read_image.o $(BUILD)/bundle/dec
 	$(Q)$(CXX) $(OPT) -o $@ $^ -lOpenEXR-3_1 -lImath-3_1 -ltiff -ljpeg -lpng16 -lseccomp
 
 VDB_OBJ = $(patsubst %,$(SHARE)/src/%_shim.o,vdb/bytes vdb/points vdb/volumes meshinput/sdf shape/function) \
-	$(patsubst %,$(BUILD)/src/%.o,base/draft base/hash base/memory base/status base/text base/version job/values particles/rock)
+	$(patsubst %,$(BUILD)/src/%.o,system/draft base/hash base/memory base/status text/text base/version job/values particles/rock)
 $(VDB_OBJ): private PIC = -fPIC
 $(VDB_OBJ): src/vdb.map
 $(BUILD)/hoodoo-vdb.so: $(VDB_OBJ) src/vdb.map

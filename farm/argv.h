@@ -3,7 +3,7 @@
 #define HOODOO_FARM_ARGV_H
 
 #include "base/status.h"
-#include "base/text.h"
+#include "text/text.h"
 
 /* {0} is empty; argv_free(). */
 struct argv_list {

@@ -2,8 +2,8 @@
 #ifndef HOODOO_FARM_CANCEL_H
 #define HOODOO_FARM_CANCEL_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 /* Slurm: cancels the tasks' jobs, and no others. Local: sends SIGTERM to the submitting process, which has its tasks save and exits
  * with 85, and waits for it. Adds members "to" and "cancelled" (a list of tasks) to the open JSON object. farm.on_done is not

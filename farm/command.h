@@ -6,8 +6,8 @@
 #ifndef HOODOO_FARM_COMMAND_H
 #define HOODOO_FARM_COMMAND_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 #define COMMAND_VALUES(X)                                                                                    \
     X(job)      /* the job file that tasks read */                                                           \

@@ -2,8 +2,8 @@
 #ifndef HOODOO_FARM_COST_H
 #define HOODOO_FARM_COST_H
 
-#include "base/text.h"
 #include "farm/graph.h"
+#include "text/text.h"
 
 enum { COST_ROWS = 32, COST_NODES = 100000 };
 

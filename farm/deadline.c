@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-#include "base/atomic_file.h"
 #include "farm/openjd.h"
+#include "system/atomic_file.h"
 
 static void put_value(struct text *t, const char *name, const char *value)
 {

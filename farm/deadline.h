@@ -7,8 +7,8 @@
 #ifndef HOODOO_FARM_DEADLINE_H
 #define HOODOO_FARM_DEADLINE_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 struct deadline_bundle {
     struct text template, parameter_values, asset_references; /* JSON */

@@ -2,8 +2,8 @@
 #ifndef HOODOO_FARM_DESCRIBE_H
 #define HOODOO_FARM_DESCRIBE_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 /* The version of the format, the member "format": a farm that reads tasks should check it. It grows when the meaning of a member
  * changes, and stays when members are added. */

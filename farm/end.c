@@ -9,13 +9,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/child.h"
 #include "base/clock.h"
-#include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/visible.h"
+#include "system/atomic_file.h"
+#include "system/child.h"
+#include "text/json.h"
 
 enum { FILE_MAX = 65536 };
 

@@ -6,16 +6,16 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/beside.h"
 #include "base/memory.h"
-#include "base/nearest.h"
 #include "farm/command.h"
 #include "farm/end.h"
 #include "farm/submission.h"
 #include "output/folder.h"
 #include "run/branch.h"
 #include "run/run.h"
+#include "system/atomic_file.h"
+#include "system/beside.h"
+#include "text/nearest.h"
 
 static status set_paths(struct farm *f, const char *out)
 {

@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <time.h>
 
-#include "base/child.h"
 #include "base/clock.h"
 #include "base/cores.h"
 #include "base/log.h"
@@ -17,6 +16,7 @@
 #include "farm/schedule.h"
 #include "farm/tries.h"
 #include "gpu/gpu.h"
+#include "system/child.h"
 
 enum { PAUSE_S = 1 };
 

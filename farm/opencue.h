@@ -6,8 +6,8 @@
 #ifndef HOODOO_FARM_OPENCUE_H
 #define HOODOO_FARM_OPENCUE_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 /* The script, which reads `tasks`, the path of the tasks as JSON. */
 MUST_USE status opencue_outline(const struct farm *f, const char *tasks, struct text *out);

@@ -7,8 +7,8 @@
 #ifndef HOODOO_FARM_OPENJD_H
 #define HOODOO_FARM_OPENJD_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 /* The template, as JSON, after openjd_check(). */
 MUST_USE status openjd_template(const struct farm *f, const char *device, struct text *out);

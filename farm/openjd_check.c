@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/json.h"
 #include "base/memory.h"
 #include "farm/openjd.h"
+#include "text/json.h"
 
 enum {
     NAME_MOST = 128,

@@ -6,8 +6,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/atomic_file.h"
-#include "base/child.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "farm/argv.h"
@@ -16,6 +14,8 @@
 #include "farm/slurm_jobs.h"
 #include "farm/slurm_script.h"
 #include "farm/tries.h"
+#include "system/atomic_file.h"
+#include "system/child.h"
 
 /* Slurm counts memory in MiB and time limits in minutes. */
 enum { MIB = 1 << 20, MINUTE_S = 60 };

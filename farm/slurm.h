@@ -7,8 +7,8 @@
 #ifndef HOODOO_FARM_SLURM_H
 #define HOODOO_FARM_SLURM_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 struct slurm_options {
     const char *device;       /* for --device; NULL: slurm */

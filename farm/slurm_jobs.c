@@ -5,11 +5,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/child.h"
-#include "base/json.h"
 #include "base/memory.h"
 #include "farm/argv.h"
+#include "system/atomic_file.h"
+#include "system/child.h"
+#include "text/json.h"
 
 enum { FILE_MAX = 64 << 20 };
 

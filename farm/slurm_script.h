@@ -3,8 +3,8 @@
 #ifndef HOODOO_FARM_SLURM_SCRIPT_H
 #define HOODOO_FARM_SLURM_SCRIPT_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 /* `task`: the first of n tasks of one kind; the script chooses by SLURM_ARRAY_TASK_ID. `device`: for --device. */
 MUST_USE status slurm_script(const struct farm *f, const struct farm_task *task, size_t n, const char *device,

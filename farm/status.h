@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "base/text.h"
+#include "text/text.h"
 
 /* Whether `root` was made by hoodoo submit. */
 bool farm_is(const char *root);

@@ -5,10 +5,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/json.h"
 #include "base/path.h"
-#include "base/text.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
+#include "text/text.h"
 
 enum { FILE_MAX = 1 << 20, WEDGES_MOST = 9999, WORKERS_MOST = 9999 };
 

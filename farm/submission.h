@@ -6,8 +6,8 @@
 #include <stddef.h>
 
 #include "base/choice.h"
-#include "base/process.h"
 #include "base/status.h"
+#include "system/process.h"
 
 #define SUBMIT_TO_CHOICE                                                                                     \
     (TO_LOCAL, "local")(TO_SLURM, "slurm")(TO_OPENJD, "openjd")(TO_DEADLINE, "deadline")(                    \

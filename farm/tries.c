@@ -9,9 +9,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/child.h"
-#include "base/json.h"
+#include "system/atomic_file.h"
+#include "system/child.h"
+#include "text/json.h"
 
 enum { FILE_MAX = 16 << 20 };
 

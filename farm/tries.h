@@ -11,8 +11,8 @@
 #ifndef HOODOO_FARM_TRIES_H
 #define HOODOO_FARM_TRIES_H
 
-#include "base/text.h"
 #include "farm/farm.h"
+#include "text/text.h"
 
 struct farm_tries {
     int starts;   /* since the last submission */

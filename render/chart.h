@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/text.h"
+#include "text/text.h"
 
 /* Adds `value`, escaped for HTML text and for attributes in double quotes: special characters become entities,
  * control characters become spaces, and bytes that are not UTF-8 become U+FFFD. */

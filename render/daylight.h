@@ -3,9 +3,9 @@
 #ifndef HOODOO_DAYLIGHT_H
 #define HOODOO_DAYLIGHT_H
 
-#include "base/text.h"
 #include "field/light.h"
 #include "render/view.h"
+#include "text/text.h"
 
 #define DAYLIGHT_SCALE 0.25
 

@@ -11,9 +11,9 @@
 #ifndef HOODOO_GROUND_H
 #define HOODOO_GROUND_H
 
-#include "base/text.h"
 #include "render/view.h"
 #include "render/waves.h"
+#include "text/text.h"
 #include "vdb/vdb.h"
 
 struct ground {

@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/vector.h"
 #include "base/version.h"
@@ -19,6 +18,7 @@
 #include "render/png.h"
 #include "render/refine.h"
 #include "render/slate.h"
+#include "system/atomic_file.h"
 
 /* Larger values show as flat facets in raking light. */
 static const double ADAPTIVITY = 0.03;

@@ -9,13 +9,13 @@
 
 #include <stdbool.h>
 
-#include "base/child.h"
 #include "base/path.h"
-#include "base/progress.h"
-#include "base/ranges.h"
 #include "job/job.h"
 #include "output/product.h"
 #include "render/povray.h"
+#include "system/child.h"
+#include "system/progress.h"
+#include "text/ranges.h"
 
 /* The Debian packages of the programs that this and turntable.h run. */
 #define PICTURE_PACKAGES "povray, ffmpeg and openimageio-tools"

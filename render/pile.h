@@ -4,8 +4,8 @@
 #ifndef HOODOO_PILE_H
 #define HOODOO_PILE_H
 
-#include "base/text.h"
 #include "job/job.h"
+#include "text/text.h"
 
 void pile_write(const struct job *job, struct text *out);
 

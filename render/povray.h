@@ -3,11 +3,11 @@
 #define HOODOO_POVRAY_H
 
 #include "base/choice.h"
-#include "base/text.h"
 #include "field/camera.h"
 #include "piles/piles.h"
 #include "render/show.h"
 #include "render/view.h"
+#include "text/text.h"
 #include "vdb/vdb.h"
 
 #define PRESET_CHOICE (PRESET_DRAFT, "draft")(PRESET_PREVIEW, "preview")(PRESET_FINAL, "final")

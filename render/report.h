@@ -6,10 +6,10 @@
 #ifndef HOODOO_REPORT_H
 #define HOODOO_REPORT_H
 
-#include "base/child.h"
-#include "base/json.h"
 #include "job/job.h"
 #include "output/product.h"
+#include "system/child.h"
+#include "text/json.h"
 
 struct report_frame {
     struct manifest manifest;

@@ -6,11 +6,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
 #include "render/report.h"
+#include "system/atomic_file.h"
 #include "vdb/vdb.h"
 
 enum { LARGEST_LOG = 64 << 20, LOG_LINES = 24, MAX_SESSIONS = 10000 };

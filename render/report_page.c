@@ -5,11 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/progress.h"
 #include "base/version.h"
 #include "render/page_parts.h"
 #include "render/report_page.h"
 #include "render/template.h"
+#include "system/progress.h"
 
 enum { MOST_TROUBLES = 12 };
 

@@ -4,12 +4,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/cores.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "render/report.h"
+#include "system/atomic_file.h"
 
 enum { CONTACT = 24 /* upper limit of thumbnails */, MAX_VIEWS = 72, LARGEST_VIDEO = 1 << 30 };
 

@@ -5,8 +5,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/progress.h"
 #include "render/report_page.h"
+#include "system/progress.h"
 
 /* ---- timing */
 

@@ -5,11 +5,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "job/job.h"
 #include "output/folder.h"
 #include "render/report_page.h"
+#include "system/atomic_file.h"
 
 enum { SERIES_MAX = 8, STILL_BYTES = 64 << 20 };
 

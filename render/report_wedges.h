@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-#include "base/text.h"
+#include "text/text.h"
 
 /* Is `root` the folder of a job with wedges (with farm/job.yaml and without run.json)? */
 bool report_has_wedges(const char *root);

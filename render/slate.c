@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/vector.h"
+#include "system/atomic_file.h"
 
 static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf";
 static const double LETTER = 0.602; /* in units of the font size */

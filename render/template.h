@@ -12,8 +12,8 @@
 #ifndef HOODOO_TEMPLATE_H
 #define HOODOO_TEMPLATE_H
 
-#include "base/json.h"
-#include "base/text.h"
+#include "text/json.h"
+#include "text/text.h"
 
 /* Adds the page to `out`. The last of `lines` is NULL. Unknown names and unclosed sections are programming errors (asserted). */
 void template_fill(const char *const *lines, const struct json *data, struct text *out);

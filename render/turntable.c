@@ -6,11 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "output/folder.h"
 #include "render/png.h"
 #include "render/slate.h"
+#include "system/atomic_file.h"
 
 static const char FONT[] = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 

@@ -3,13 +3,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/begin.h"
 #include "base/build.h"
 #include "base/log.h"
-#include "base/nearest.h"
-#include "base/text.h"
 #include "base/version.h"
 #include "cli/cli.h"
+#include "system/begin.h"
+#include "text/nearest.h"
+#include "text/text.h"
 
 static const struct verb {
     const char *name, *operands, *summary;

@@ -1,7 +1,7 @@
 /* hoodoo-read: reads one OpenVDB or OpenEXR file in a sandbox, on behalf of hoodoo (reader/reader.h). */
-#include "base/begin.h"
 #include "exr/serve.h"
 #include "reader/serve.h"
+#include "system/begin.h"
 #include "vdb/serve.h"
 
 enum { MEMORY = 1 << 30 };

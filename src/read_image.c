@@ -1,9 +1,9 @@
 /* hoodoo-read-image: reads one image in a sandbox, on behalf of hoodoo (image/image.h). */
 #include <string.h>
 
-#include "base/begin.h"
 #include "image/serve.h"
 #include "reader/translate.h"
+#include "system/begin.h"
 
 int main(int argc, char **argv)
 {

@@ -1,6 +1,6 @@
 /* hoodoo-read-mesh: reads one mesh in a sandbox, on behalf of hoodoo (meshinput/serve.h). */
-#include "base/begin.h"
 #include "meshinput/serve.h"
+#include "system/begin.h"
 
 int main(int argc, char **argv)
 {

@@ -57,12 +57,12 @@ rule "only src/base/path.c formats file names and joins paths" none git grep -nE
 rule "properties of models are looked up with job_model()" none git grep -nE 'model *[!=]=|[!=]= *MODEL_' -- '*.c' '*.h'
 rule "no C++ outside *_shim.cpp" none git grep -nE 'std::|openvdb::' -- '*.c' '*.h'
 
-# A folder may include folders of lower rank, and itself. A folder that is not named here is a process, a solver or writes files: 4.
+# A folder may include folders of lower rank, and itself. A folder that is not named here is a process, a solver or writes files: 7.
 rank() {
     case $1 in
-    base) echo 0 ;; gpu | job | mesh | reader) echo 1 ;; particles | stacks | geology | image | meshinput) echo 2 ;; shape) echo 3 ;;
-    usd | checkpoint) echo 5 ;; frame) echo 6 ;; model) echo 7 ;; run) echo 8 ;; farm) echo 9 ;; render) echo 10 ;;
-    look | selftest) echo 11 ;; cli) echo 12 ;; *) echo 4 ;;
+    base) echo 0 ;; text) echo 1 ;; system) echo 2 ;; gltf) echo 3 ;; gpu | job | mesh | reader) echo 4 ;;
+    particles | stacks | geology | image | meshinput) echo 5 ;; shape) echo 6 ;; usd | checkpoint) echo 8 ;; frame) echo 9 ;;
+    model) echo 10 ;; run) echo 11 ;; farm) echo 12 ;; render) echo 13 ;; look | selftest) echo 14 ;; cli) echo 15 ;; *) echo 7 ;;
     esac
 }
 includes() {

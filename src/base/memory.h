@@ -18,7 +18,7 @@ MUST_USE status memory_grow(void *array, size_t *capacity, size_t want, size_t s
 MUST_USE status memory_strdup(const char *text, char **out);
 
 /* Host memory in bytes that this process may still use: the least that MemAvailable, control groups and resource limits leave
- * (base/memory_limits.h). */
+ * (system/memory_limits.h). */
 size_t memory_available(void);
 
 #endif

@@ -18,7 +18,7 @@
 #include <stdint.h>
 
 #include "base/status.h"
-#include "base/text.h"
+#include "text/text.h"
 
 enum { CHECKPOINT_SECTIONS_MAX = 64 };
 

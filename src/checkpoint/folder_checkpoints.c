@@ -4,11 +4,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
 #include "output/folder.h"
+#include "system/atomic_file.h"
 
 static int newest_first(const void *a, const void *b)
 {

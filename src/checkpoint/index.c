@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "base/hash.h"
-#include "base/json.h"
 #include "base/memory.h"
 #include "checkpoint/chunk.h"
 #include "checkpoint/layout.h"
+#include "text/json.h"
 
 enum { FRAME_LIMIT = 10000000 };
 

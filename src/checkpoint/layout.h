@@ -2,8 +2,8 @@
 #ifndef HOODOO_CHECKPOINT_LAYOUT_H
 #define HOODOO_CHECKPOINT_LAYOUT_H
 
-#include "base/text.h"
 #include "checkpoint/checkpoint.h"
+#include "text/text.h"
 
 #if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
 #error "checkpoints are little endian; this code needs a little-endian machine"

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/json.h"
 #include "base/memory.h"
-#include "base/progress.h"
+#include "system/progress.h"
+#include "text/json.h"
 
 enum { COLUMNS_MAX = 16, LABEL_SIZE = 64 };
 

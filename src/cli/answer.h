@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-#include "base/text.h"
+#include "text/text.h"
 
 /* Prints the finished JSON in `answer` on stdout. */
 MUST_USE status answer_print(const struct text *answer, bool as_json);

@@ -9,8 +9,6 @@
 
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/progress.h"
-#include "base/signals.h"
 #include "cli/cli.h"
 #include "exr/exr.h"
 #include "field/field.h"
@@ -18,6 +16,8 @@
 #include "output/product.h"
 #include "run/branch.h"
 #include "scene/scene.h"
+#include "system/progress.h"
+#include "system/signals.h"
 #include "vdb/vdb.h"
 
 /* The command recorded with a picture. It points into itself and must not be copied. */

@@ -1,8 +1,8 @@
 /* hoodoo cancel OUT: stops a submitted job. */
 #include "farm/cancel.h"
-#include "base/text.h"
 #include "cli/answer.h"
 #include "cli/cli.h"
+#include "text/text.h"
 
 status cli_cancel(int argc, char **argv)
 {

@@ -2,10 +2,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/text.h"
 #include "cli/cli.h"
 #include "job/job.h"
 #include "run/advice.h"
+#include "text/text.h"
 
 struct found {
     const char *path;

@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "base/text.h"
 #include "cli/cli.h"
 #include "gpu/gpu.h"
+#include "text/text.h"
 
 static void print_text(const struct gpu_info *d, size_t n)
 {

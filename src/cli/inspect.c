@@ -6,12 +6,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/atomic_file.h"
-#include "base/json.h"
 #include "checkpoint/checkpoint.h"
 #include "cli/answer.h"
 #include "cli/cli.h"
 #include "exr/exr.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 #include "vdb/vdb.h"
 
 enum { JSON_FILE_MAX = 64 << 20, HEAD_SIZE = 16 };

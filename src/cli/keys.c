@@ -4,9 +4,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "base/text.h"
 #include "cli/cli.h"
 #include "job/job.h"
+#include "text/text.h"
 
 enum { NARROW = 40, USUAL = 80, WIDE = 120 };
 

@@ -8,13 +8,13 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/progress.h"
-#include "base/signals.h"
 #include "cli/cli.h"
 #include "look/live.h"
+#include "system/atomic_file.h"
+#include "system/progress.h"
+#include "system/signals.h"
 
 #define QUALITY_CHOICE (QUALITY_SKETCH, "sketch")(QUALITY_DRAFT, "draft")(QUALITY_FULL, "full")
 enum { CHOICE_CONSTANTS(QUALITY_CHOICE) };

@@ -3,14 +3,14 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/progress.h"
-#include "base/text.h"
 #include "cli/cli.h"
 #include "frame/meshes.h"
 #include "frame/stage.h"
 #include "job/job.h"
 #include "output/folder.h"
+#include "system/atomic_file.h"
+#include "system/progress.h"
+#include "text/text.h"
 
 /* Lists the meshes in the USD stage, and repeats this as long as other tasks add meshes, so that the last task lists them all. */
 static status list_in_stage(const struct job *job, const char *root)

@@ -6,10 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/nearest.h"
-#include "base/text.h"
 #include "cli/cli.h"
 #include "cli/examples.h"
+#include "text/nearest.h"
+#include "text/text.h"
 
 enum { NAME_MOST = 64, EXAMPLES_MOST = 256 };
 

@@ -9,8 +9,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/nearest.h"
-#include "base/text.h"
+#include "text/nearest.h"
+#include "text/text.h"
 
 status arguments_add(struct arguments *a, const char *argument)
 {

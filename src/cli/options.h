@@ -20,9 +20,9 @@
 #include <stddef.h>
 
 #include "base/choice.h"
-#include "base/progress.h"
-#include "base/ranges.h"
 #include "base/status.h"
+#include "system/progress.h"
+#include "text/ranges.h"
 
 /* A list of arguments in the order given. The strings belong to argv; arguments_free() frees the list. */
 struct arguments {

@@ -5,7 +5,6 @@
 
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "cli/answer.h"
 #include "cli/cli.h"
 #include "cli/plan_time.h"
@@ -13,6 +12,7 @@
 #include "farm/describe.h"
 #include "run/memory.h"
 #include "scene/scene.h"
+#include "text/text.h"
 
 /* Memory before anything is rehearsed. */
 struct memory {

@@ -5,16 +5,16 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/cores.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/progress.h"
-#include "base/signals.h"
 #include "cli/cli.h"
 #include "output/product.h"
 #include "render/picture.h"
 #include "render/turntable.h"
+#include "system/atomic_file.h"
+#include "system/progress.h"
+#include "system/signals.h"
 
 #define ONLY_CHOICE                                                                                          \
     (ONLY_ALL, "all")(ONLY_STILLS, "stills")(ONLY_SHEET, "sheet")(ONLY_VIEWS, "views")(ONLY_VIDEO, "video")( \

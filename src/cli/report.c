@@ -2,11 +2,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
-#include "base/signals.h"
 #include "cli/cli.h"
 #include "render/report.h"
 #include "render/report_wedges.h"
+#include "system/atomic_file.h"
+#include "system/signals.h"
 
 static status write_page(const char *root, bool pictures, const struct text *page)
 {

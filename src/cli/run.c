@@ -4,11 +4,11 @@
 #include <stdio.h>
 
 #include "base/log.h"
-#include "base/progress.h"
-#include "base/signals.h"
 #include "cli/cli.h"
 #include "output/folder.h"
 #include "run/branch.h"
+#include "system/progress.h"
+#include "system/signals.h"
 
 struct shown {
     struct progress progress;

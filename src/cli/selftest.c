@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/log.h"
-#include "base/signals.h"
 #include "cli/cli.h"
 #include "cli/examples.h"
+#include "system/signals.h"
 
 static status print(const struct findings *findings, bool json)
 {

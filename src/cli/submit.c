@@ -1,11 +1,8 @@
 /* hoodoo submit JOB --to local|slurm|openjd|deadline|opencue|tasks: the job's tasks, to this machine's devices, to a scheduler, or as data. */
 #include <stdio.h>
 
-#include "base/atomic_file.h"
 #include "base/clock.h"
 #include "base/log.h"
-#include "base/progress.h"
-#include "base/signals.h"
 #include "cli/answer.h"
 #include "cli/cli.h"
 #include "cli/plan_time.h"
@@ -17,6 +14,9 @@
 #include "farm/openjd.h"
 #include "farm/slurm.h"
 #include "run/advice.h"
+#include "system/atomic_file.h"
+#include "system/progress.h"
+#include "system/signals.h"
 
 /* How many wedges are checked for settings that may surprise: they are alike. */
 enum { WARNED = 3 };

@@ -2,8 +2,8 @@
 #ifndef HOODOO_VERIFY_H
 #define HOODOO_VERIFY_H
 
-#include "base/text.h"
 #include "output/product.h"
+#include "text/text.h"
 
 /* A command that makes damaged or missing products again. */
 struct remake {

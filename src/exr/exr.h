@@ -3,8 +3,8 @@
 #define HOODOO_EXR_H
 
 #include "base/status.h"
-#include "base/text.h"
 #include "particles/frame.h"
+#include "text/text.h"
 
 struct exr_options {
     int layout; /* AOV_LAYOUT_* */

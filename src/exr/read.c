@@ -7,11 +7,11 @@
 
 #include <openexr.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "exr/hash.h"
 #include "exr/serve.h"
 #include "reader/describe.h"
+#include "system/atomic_file.h"
 
 struct source {
     const char *path;

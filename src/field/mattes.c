@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/text.h"
+#include "text/text.h"
 
 /* The ids that a pixel's samples have hit; of more than MATTE_RANKS, the first ones are kept. */
 struct ranks {

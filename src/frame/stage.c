@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/vector.h"
@@ -16,6 +15,7 @@
 #include "job/palette.h"
 #include "output/axes.h"
 #include "output/product.h"
+#include "text/json.h"
 #include "usd/usd.h"
 
 enum { MAX_FIELDS = VALUES };

@@ -6,10 +6,10 @@
 #include "base/cores.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/threads.h"
 #include "base/version.h"
 #include "gpu/choose.h"
 #include "gpu/internal.h"
+#include "system/threads.h"
 
 const char *vk_result_text(VkResult result)
 {

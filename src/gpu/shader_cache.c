@@ -8,11 +8,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/cache.h"
 #include "base/log.h"
 #include "base/path.h"
 #include "gpu/internal.h"
+#include "system/atomic_file.h"
+#include "system/cache.h"
 
 /* The folder that Mesa creates in the given one, and the file in it that Mesa maps. */
 static const char inside[] = "mesa_shader_cache", mapped[] = "mesa_shader_cache/index";

@@ -9,10 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/beside.h"
-#include "base/child.h"
 #include "reader/limits.h"
 #include "reader/translate.h"
+#include "system/beside.h"
+#include "system/child.h"
 
 /* Extensions that are raw values, or that a driver of GDAL reads from a single file. */
 static const struct {

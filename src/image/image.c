@@ -10,11 +10,11 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "image/convert.h"
 #include "image/fill.h"
 #include "image/protocol.h"
 #include "reader/reader.h"
+#include "text/text.h"
 
 #define SAME_CHOICES(S)                                                                                      \
     _Static_assert(                                                                                          \

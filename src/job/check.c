@@ -3,9 +3,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/nearest.h"
 #include "job/parse.h"
 #include "job/values.h"
+#include "text/nearest.h"
 
 /* A limit because each edit may require a copy of the job. */
 enum { EDITS = 256 };

@@ -10,8 +10,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/gltf.h"
 #include "base/memory.h"
+#include "gltf/gltf.h"
 #include "job/parse.h"
 
 /* A key that is not a section, and where its part of the canonical form ends. */

@@ -5,11 +5,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "job/parse.h"
 #include "job/values.h"
 #include "shared/params.h"
+#include "system/atomic_file.h"
 
 static void free_node(struct job_node *node)
 {

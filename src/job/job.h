@@ -11,9 +11,9 @@
 #include <stdint.h>
 
 #include "base/choice.h"
-#include "base/ranges.h"
 #include "base/status.h"
-#include "base/text.h"
+#include "text/ranges.h"
+#include "text/text.h"
 
 enum curve_ease { EASE_LINEAR, EASE_SMOOTH, EASE_STEP };
 
@@ -237,7 +237,7 @@ MUST_USE status job_is_default(const struct job *job, const char *key, bool *out
  * section around it. Never fails: if no position is known, the result is the file name. */
 void job_key_place(const char *path, const char *key, char out[300]);
 
-/* A file that the job reads (mesh, heightfield, jointmap ...) or that such a file refers to (base/gltf.h), with the hash of its content. */
+/* A file that the job reads (mesh, heightfield, jointmap ...) or that such a file refers to (gltf/gltf.h), with the hash of its content. */
 struct job_input {
     char *path;
     uint64_t hash, size;

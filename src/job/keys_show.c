@@ -5,9 +5,9 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/nearest.h"
 #include "job/job.h"
 #include "job/words.h"
+#include "text/nearest.h"
 
 enum { PATH_MAX_KEYS = 256, INDENT = 4, KEYS_MOST = 2048 };
 

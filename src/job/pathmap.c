@@ -5,11 +5,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "job/parse.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 
 enum { RULES_BYTES = 4 << 20 };
 

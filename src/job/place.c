@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "job/job.h"
 #include "job/yaml.h"
+#include "system/atomic_file.h"
 
 static const struct yaml *step_into(const struct yaml *at, const char *part)
 {

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/nearest.h"
 #include "job/parse.h"
+#include "text/nearest.h"
 
 /* Limit of nested operators. Each takes two levels of YAML, so this is within YAML_DEPTH. */
 enum { NODE_DEPTH = 24, MAX_KEYS = 64 };

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "text/text.h"
 
 /* One row. Parameters end in _ so that they are not substituted in the designators. */
 #define ROW(section_, key_, type_, use_, unit_, meaning_, source_, ...)                                      \

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/text.h"
+#include "text/text.h"
 
 enum value_id {
     VALUE_NONE, /* the rock in its natural colours */

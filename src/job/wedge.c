@@ -4,10 +4,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/path.h"
 #include "job/parse.h"
+#include "system/atomic_file.h"
 
 enum { WEDGES_MAX = 9999, OVER_MAX = 64, LABEL_MAX = 1000 };
 

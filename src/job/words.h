@@ -2,8 +2,8 @@
 #ifndef HOODOO_JOB_WORDS_H
 #define HOODOO_JOB_WORDS_H
 
-#include "base/text.h"
 #include "job/table.h"
+#include "text/text.h"
 
 /* "number", "list of points". */
 const char *key_type_words(const struct job_key *key);

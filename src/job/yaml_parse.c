@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/utf8.h"
 #include "job/yaml.h"
+#include "text/utf8.h"
 
 struct reading {
     struct yaml_tree *tree;

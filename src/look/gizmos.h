@@ -4,8 +4,8 @@
 #define HOODOO_LOOK_GIZMOS_H
 
 #include "base/choice.h"
-#include "base/text.h"
 #include "look/shot.h"
+#include "text/text.h"
 
 #define GIZMOS_CHOICE (GIZMOS_NOW, "now")(GIZMOS_ALL, "all")(GIZMOS_NONE, "none")
 enum gizmos { CHOICE_CONSTANTS(GIZMOS_CHOICE) };

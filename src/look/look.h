@@ -10,10 +10,10 @@
 
 #include <stdbool.h>
 
-#include "base/text.h"
 #include "look/gizmos.h"
 #include "look/sketch.h"
 #include "render/show.h"
+#include "text/text.h"
 
 struct look;
 

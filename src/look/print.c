@@ -3,11 +3,11 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/child.h"
 #include "base/path.h"
 #include "render/picture.h"
 #include "render/png.h"
+#include "system/atomic_file.h"
+#include "system/child.h"
 
 /* Temporary files, whose names contain no characters that are special to oiiotool. */
 struct drawn {

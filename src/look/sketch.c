@@ -7,10 +7,10 @@
 
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "model/model.h"
 #include "render/view.h"
 #include "run/advice.h"
+#include "text/text.h"
 
 /* Seconds on two cores: per frame at least, and per particle and step. */
 static const double FRAME_SECONDS = 0.025, STEP_SECONDS = 4e-6;

@@ -7,13 +7,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/build.h"
-#include "base/cache.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
-#include "base/text.h"
+#include "system/atomic_file.h"
+#include "system/cache.h"
+#include "text/text.h"
 
 static const char ending[] = ".state";
 

@@ -2,7 +2,7 @@
  *
  * Names     Hashes of everything that a state depends on: job_frame_hashes(), the build of hoodoo and the device. The name of the job is not
  *           part of them.
- * Storage   Checkpoints in the folder `look` of the cache (base/cache.h). When they exceed STATES_BYTES, the least recently used ones
+ * Storage   Checkpoints in the folder `look` of the cache (system/cache.h). When they exceed STATES_BYTES, the least recently used ones
  *           are removed.
  * Errors    None: a state that cannot be read counts as missing, and one that cannot be written will be simulated again. The first
  *           failure is logged.

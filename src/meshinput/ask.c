@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
-#include "base/gltf.h"
 #include "base/memory.h"
+#include "gltf/gltf.h"
+#include "system/atomic_file.h"
 
 #define MAX_BUFFERS ((size_t)8 << 30)
 

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/json.h"
+#include "text/json.h"
 
 enum mesh_format { MESH_OBJ, MESH_PLY, MESH_STL, MESH_OFF, MESH_GLTF, MESH_GLB };
 

@@ -15,7 +15,7 @@
 #include <assimp/scene.h>
 
 extern "C" {
-#include "base/gltf.h"
+#include "gltf/gltf.h"
 }
 
 namespace

@@ -2,8 +2,8 @@
 
 #include <stdatomic.h>
 
-#include "base/library.h"
 #include "meshinput/sdf_make.h"
+#include "system/library.h"
 
 /* Functions of hoodoo-vdb.so, set before the first distance field exists. */
 static _Atomic(sdf_at_function *) at;

@@ -2,12 +2,12 @@
 
 #include <stdlib.h>
 
-#include "base/atomic_file.h"
-#include "base/gltf.h"
 #include "base/memory.h"
+#include "gltf/gltf.h"
 #include "meshinput/decode.h"
 #include "reader/mesh_part.h"
 #include "reader/serve.h"
+#include "system/atomic_file.h"
 
 #define MEMORY ((uint64_t)1 << 30)
 #define MAX_FILE ((size_t)8 << 30)

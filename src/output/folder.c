@@ -7,10 +7,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/atomic_file.h"
-#include "base/json.h"
 #include "base/memory.h"
 #include "output/product.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 
 #define ORBITS "turntable"
 static const char FIRST_VIEW[] = "000.png";

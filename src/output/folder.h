@@ -8,8 +8,8 @@
 
 #include "base/path.h"
 #include "base/status.h"
-#include "base/text.h"
 #include "particles/frame.h"
+#include "text/text.h"
 
 enum folder_file { /* the identity of a VDB depends on these numbers: add new kinds at the end */
                    FILE_POINTS,

@@ -6,10 +6,10 @@
 #include <sys/stat.h>
 
 #include "base/hash.h"
-#include "base/json.h"
 #include "base/memory.h"
 #include "output/folder.h"
 #include "output/sealed.h"
+#include "text/json.h"
 
 enum { MOST_FILES = 4096 };
 

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/text.h"
+#include "text/text.h"
 
 struct mesh_file {
     const char *name;    /* of the object */

@@ -8,11 +8,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "output/sealed.h"
+#include "system/atomic_file.h"
 
 #define RECORDS "records"
 static const char ENDING[] = ".json";

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
+#include "system/atomic_file.h"
 
 /* The last member is the hash of all bytes before it. */
 static const char SELF[] = "\n  \"self_xxh3\": \"", END[] = "\"\n}\n";

@@ -6,8 +6,8 @@
 #ifndef HOODOO_SEALED_H
 #define HOODOO_SEALED_H
 
-#include "base/json.h"
-#include "base/text.h"
+#include "text/json.h"
+#include "text/text.h"
 
 /* Adds the hash, closes the object and writes the file. Frees `t`, also on error. */
 MUST_USE status sealed_write(const char *path, struct text *t);

@@ -2,8 +2,8 @@
 #ifndef HOODOO_DESCRIBE_H
 #define HOODOO_DESCRIBE_H
 
-#include "base/text.h"
 #include "reader/serve.h"
+#include "text/text.h"
 
 #ifdef __cplusplus
 extern "C" {

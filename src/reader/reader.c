@@ -11,11 +11,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/beside.h"
-#include "base/child.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "reader/limits.h"
+#include "system/beside.h"
+#include "system/child.h"
 
 enum { ARGUMENTS = 32 };
 

@@ -14,8 +14,8 @@
 #include <stddef.h>
 
 #include "base/status.h"
-#include "base/text.h"
 #include "reader/protocol.h"
+#include "text/text.h"
 
 struct reader_question {
     const char *program, *kind, *path;

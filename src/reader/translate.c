@@ -7,9 +7,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/child.h"
 #include "reader/calls.h"
 #include "reader/serve.h"
+#include "system/child.h"
 
 /* Bytes of memory for its libraries. */
 #define MEMORY ((uint64_t)2 << 30)

@@ -6,10 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "output/folder.h"
+#include "system/atomic_file.h"
 
 status branch_copy_path(struct path *out, const char *root, const char *name)
 {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "base/memory.h"
-#include "base/memory_limits.h"
+#include "system/memory_limits.h"
 
 struct run_memory run_memory_available(const struct gpu *gpu)
 {

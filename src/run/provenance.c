@@ -4,15 +4,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "base/build.h"
 #include "base/hash.h"
-#include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/path.h"
 #include "base/version.h"
 #include "output/product.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 
 enum { RUN_JSON_MAX = 16 << 20 };
 

@@ -5,9 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/clock.h"
-#include "base/lock.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/visible.h"
@@ -20,6 +18,8 @@
 #include "run/provenance.h"
 #include "run/timing.h"
 #include "run/writer.h"
+#include "system/atomic_file.h"
+#include "system/lock.h"
 
 struct run {
     const struct job *job;

@@ -11,7 +11,7 @@
  *             checkpoint before it.
  * Repair      As resume, but damaged checkpoints are removed and made again, and a range of frames with no checkpoint before it is
  *             simulated from the job's first frame.
- * Exclusive   root/lock (base/lock.h) keeps a second writer out: E_OUTPUT. A run that has nothing to do takes no lock.
+ * Exclusive   root/lock (system/lock.h) keeps a second writer out: E_OUTPUT. A run that has nothing to do takes no lock.
  * Stop        When a stop is requested, the current frame is finished and written, then a checkpoint; the run returns STOPPED.
  */
 #ifndef HOODOO_RUN_H
@@ -19,9 +19,9 @@
 
 #include <stdbool.h>
 
-#include "base/ranges.h"
 #include "gpu/gpu.h"
 #include "job/job.h"
+#include "text/ranges.h"
 
 enum run_resume { RUN_AUTO, RUN_NEVER, RUN_REQUIRE, RUN_OTHER_DEVICE, RUN_OTHER_BUILD, RUN_OTHER_BOTH };
 

@@ -10,8 +10,8 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "base/path.h"
-#include "base/text.h"
 #include "base/version.h"
+#include "text/text.h"
 
 /* Rounds to milliseconds; more digits are noise. */
 static double rounded(double seconds)

@@ -6,13 +6,13 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "exr/exr.h"
 #include "frame/stage.h"
 #include "job/palette.h"
 #include "output/folder.h"
+#include "system/atomic_file.h"
 #include "usd/usd.h"
 #include "vdb/vdb.h"
 

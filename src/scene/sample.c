@@ -5,9 +5,9 @@
 #include "base/cores.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "base/threads.h"
 #include "geology/attitude.h"
 #include "scene/sampler.h"
+#include "system/threads.h"
 
 #define MAX_VOXELS                                                                                           \
     4294967295.0     /* a voxel is numbered by 32 times its word of bits (particles/held.h) plus its bit */

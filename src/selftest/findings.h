@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/text.h"
 #include "gpu/gpu.h"
+#include "text/text.h"
 
 enum { VALUES_MOST = 12, PACES_MOST = 3, STAGES_MOST = 32 };
 

@@ -4,11 +4,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "gpu/kernel_source.h"
 #include "model/model.h"
 #include "selftest/selftest.h"
+#include "system/atomic_file.h"
 
 /* Results of a run. */
 struct leavings {

@@ -7,11 +7,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/clock.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "job/job.h"
+#include "system/atomic_file.h"
 
 status selftest_stop(const struct selftest *t)
 {

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/library.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "shape/function_make.h"
 #include "shape/noise.h"
+#include "system/library.h"
 
 enum { POSITIONS = 1 << 15 };
 

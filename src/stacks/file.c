@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/memory.h"
+#include "system/atomic_file.h"
 
 static const char MAGIC[12] = "hoodoo.stck";
 enum { VERSION = 1, MAX_BYTES = 1 << 30 };

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/text.h"
 #include "job/job.h"
+#include "text/text.h"
 
 /* ---- the container */
 

@@ -2,7 +2,7 @@
 #ifndef HOODOO_USD_TEXT_H
 #define HOODOO_USD_TEXT_H
 
-#include "base/text.h"
+#include "text/text.h"
 
 void usd_add_number(struct text *t, double value);
 void usd_add_vector(struct text *t, const double *v, int n);

@@ -18,9 +18,9 @@
 #ifndef HOODOO_USD_H
 #define HOODOO_USD_H
 
-#include "base/text.h"
 #include "output/mesh_file.h"
 #include "particles/rock.h"
+#include "text/text.h"
 #include "usd/crate.h"
 #include "vdb/vdb.h"
 

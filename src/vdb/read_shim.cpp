@@ -10,8 +10,8 @@
 #include <streambuf>
 
 extern "C" {
-#include "base/atomic_file.h"
 #include "reader/describe.h"
+#include "system/atomic_file.h"
 #include "vdb/serve.h"
 }
 

@@ -15,8 +15,8 @@
 
 extern "C" {
 #include "base/memory.h"
-#include "base/text.h"
 #include "base/version.h"
+#include "text/text.h"
 #include "vdb/encode.h"
 }
 

@@ -1,9 +1,9 @@
 /* OpenVDB files: encoding volumes and points, and reading them back. The only interface to OpenVDB, which is in hoodoo-vdb.so
- * (base/library.h) for encoding and in hoodoo-read (reader/reader.h) for reading.
+ * (system/library.h) for encoding and in hoodoo-read (reader/reader.h) for reading.
  *
  * Axes      In memory everything is in the simulator's axes (z up). Files have the axes of the job's output.up: for y, index and world
  *           space (x, y, z) become (x, z, -y). Reading converts back, by the file's up_axis metadata.
- * Bytes     Files are encoded into a draft (base/draft.h) without dates, and their random archive UUID is replaced by one derived from
+ * Bytes     Files are encoded into a draft (system/draft.h) without dates, and their random archive UUID is replaced by one derived from
  *           `identity`, so equal input gives equal bytes. On an error the caller drops the draft.
  */
 #ifndef HOODOO_VDB_H
@@ -12,9 +12,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/draft.h"
 #include "base/status.h"
 #include "particles/frame.h"
+#include "system/draft.h"
 
 struct vdb_options {
     int up;                  /* OUTPUT_UP_* */

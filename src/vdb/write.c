@@ -1,5 +1,5 @@
-#include "base/library.h"
 #include "particles/pieces.h"
+#include "system/library.h"
 #include "vdb/encode.h"
 #include "vdb/vdb.h"
 

@@ -12,7 +12,7 @@ done
 hash() {
     build=$1
     shift
-    env -u MAKEFLAGS -u MAKELEVEL make -C top BUILD="$build" COMPUTES="$build/src/base/hash.o $build/src/base/text.o $build/src/job/curve.o" "$@" "$build/gen/build" >log 2>&1 || cat log
+    env -u MAKEFLAGS -u MAKELEVEL make -C top BUILD="$build" COMPUTES="$build/src/base/hash.o $build/src/text/text.o $build/src/job/curve.o" "$@" "$build/gen/build" >log 2>&1 || cat log
     cat "top/$build/gen/build"
 }
 first=$(hash build)
@@ -22,7 +22,7 @@ say $? "it is 16 digits"
 say $? "another folder: the same"
 [ "$first" = "$(hash build-bare OPT=-O2)" ]
 say $? "without debug information: the same"
-for file in src/base/hash.c src/base/text.c src/job/curve.c; do
+for file in src/base/hash.c src/text/text.c src/job/curve.c; do
     sed -i '1i /* a word more */' "top/$file"
 done
 [ "$first" = "$(hash build-comments)" ]

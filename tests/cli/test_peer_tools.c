@@ -9,8 +9,8 @@
 #include <cmocka.h>
 #undef fail /* conflicts with our fail() */
 
-#include "base/atomic_file.h"
 #include "exr/exr.h"
+#include "system/atomic_file.h"
 #include "unit/sample_frame.h"
 
 static const float COLORS[2][3] = {{0.8F, 0.4F, 0.2F}, {0.5F, 0.3F, 0.1F}};

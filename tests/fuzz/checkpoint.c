@@ -2,8 +2,8 @@
 #include "fuzz/fuzz.h"
 
 #include "base/hash.h"
-#include "base/text.h"
 #include "checkpoint/layout.h"
+#include "text/text.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
 {

@@ -1,7 +1,7 @@
 /* The JSON of a glTF file, from which the main program takes the names of buffers: none leads out of the folder. */
 #include "fuzz/fuzz.h"
 
-#include "base/gltf.h"
+#include "gltf/gltf.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
 {

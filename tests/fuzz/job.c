@@ -1,8 +1,8 @@
 /* A job file. One that is taken is written out as it was understood, and that must load again with the same hash. */
 #include "fuzz/fuzz.h"
 
-#include "base/text.h"
 #include "job/job.h"
+#include "text/text.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
 {

@@ -1,7 +1,7 @@
 /* A range of frames. One that is taken is written out and read again as the same. */
 #include "fuzz/fuzz.h"
 
-#include "base/ranges.h"
+#include "text/ranges.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
 {

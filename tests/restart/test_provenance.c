@@ -9,9 +9,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/build.h"
 #include "checkpoint/checkpoint.h"
+#include "system/atomic_file.h"
 
 static const char job[] = "hoodoo: 1\n"
                           "name: tiny\n"

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "effort.h"
+#include "system/atomic_file.h"
 
 typedef status damage_check(const char *path);
 

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/json.h"
-#include "base/nearest.h"
-#include "base/text.h"
+#include "text/json.h"
+#include "text/nearest.h"
+#include "text/text.h"
 
 #include <cmocka.h> /* after ours: it has a macro fail() */
 

@@ -13,14 +13,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
-#include "base/json.h"
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
 #include "checkpoint/chunk.h"
 #include "checkpoint/layout.h"
 #include "effort.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 
 #include <cmocka.h> /* after ours: it has a macro fail() */
 

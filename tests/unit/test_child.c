@@ -11,8 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/child.h"
 #include "base/clock.h"
+#include "system/child.h"
 
 /* After the use of fail(). */
 #include <cmocka.h>

@@ -8,9 +8,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
 #include "base/random.h"
+#include "system/atomic_file.h"
 
 #include <cmocka.h> /* after ours: it has a macro fail() */
 

@@ -14,10 +14,10 @@
 #include <omp.h>
 #include <openexr.h>
 
-#include "base/atomic_file.h"
-#include "base/json.h"
 #include "base/memory.h"
 #include "exr/exr.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 #include "unit/damage.h"
 
 enum { WIDTH = 61, HEIGHT = 37, PIXELS = WIDTH * HEIGHT };

@@ -9,12 +9,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "farm/command.h"
 #include "farm/farm.h"
 #include "output/product.h"
+#include "system/atomic_file.h"
 
 enum { JOBS = 500, WEDGES = 4 };
 

@@ -19,10 +19,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
-#include "base/json.h"
 #include "output/folder.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 #include "unit/damage.h"
 
 static void paths_are_those_of_the_design(void **state)

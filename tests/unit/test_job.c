@@ -3,8 +3,8 @@
 #include <math.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "job_files.h"
+#include "system/atomic_file.h"
 
 static void a_job_holds_what_its_file_says(void **state)
 {

@@ -16,10 +16,10 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/clock.h"
-#include "base/lock.h"
-#include "base/process.h"
+#include "system/atomic_file.h"
+#include "system/lock.h"
+#include "system/process.h"
 
 /* For all of this program: the wall clock is as many seconds ahead, the machine slept as long, and the disk has no hard links, for this
  * reason. */

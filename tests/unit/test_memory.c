@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "base/memory_limits.h"
 #include "effort.h"
+#include "system/memory_limits.h"
 
 enum { MIB = 1 << 20 };
 

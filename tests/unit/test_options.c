@@ -12,9 +12,9 @@
 #include <unistd.h>
 
 #include "base/log.h"
-#include "base/progress.h"
-#include "base/signals.h"
 #include "cli/options.h"
+#include "system/progress.h"
+#include "system/signals.h"
 
 #include <cmocka.h> /* after ours: it has a macro fail() */
 

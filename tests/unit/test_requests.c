@@ -7,11 +7,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "farm/needs.h"
 #include "farm/openjd.h"
 #include "farm/submission.h"
 #include "farm/tries.h"
+#include "system/atomic_file.h"
 
 static struct job sample_job(void)
 {

@@ -6,11 +6,11 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/random.h"
 #include "effort.h"
 #include "render/png.h"
 #include "render/slate.h"
+#include "system/atomic_file.h"
 
 static const struct show_range ranges[] = {{-0.34, 1.7},  {0, 1},      {1, 6e5},       {1e-4, 1},
                                            {-3, -1},      {0, 1e12},   {0.1, 0.10001}, {-1e-6, 1e12},

@@ -6,10 +6,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
 #include "frame/stage.h"
 #include "output/folder.h"
+#include "system/atomic_file.h"
 
 enum { HASH = 77 };
 

@@ -5,12 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
 #include "base/choice.h"
 #include "base/memory.h"
 #include "field/field.h"
 #include "render/show.h"
 #include "stacks/material.h"
+#include "system/atomic_file.h"
 #include "usd/usd.h"
 #include "vdb/vdb.h"
 

@@ -13,9 +13,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
 #include "base/hash.h"
-#include "base/json.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 #include "unit/damage.h"
 #include "unit/sample_frame.h"
 

@@ -1,4 +1,4 @@
-#include "base/beside.h"
+#include "system/beside.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "base/atomic_file.h"
+#include "system/atomic_file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "base/memory.h"
-#include "base/process.h"
+#include "system/process.h"
 
 static const char TEMPORARY[] = ".tmp-";
 

@@ -8,9 +8,9 @@
 
 #include <stddef.h>
 
-#include "base/draft.h"
 #include "base/path.h"
 #include "base/status.h"
+#include "system/draft.h"
 
 /* Writes n bytes to `path`. E_OUTPUT: the message has the path, the bytes written and the system's reason. */
 MUST_USE status atomic_file_write(const char *path, const void *bytes, size_t n);

@@ -1,4 +1,4 @@
-#include "base/draft.h"
+#include "system/draft.h"
 
 #include <errno.h>
 #include <stdlib.h>

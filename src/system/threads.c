@@ -1,4 +1,4 @@
-#include "base/threads.h"
+#include "system/threads.h"
 
 #include <limits.h>
 #include <pthread.h>

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "base/memory_limits.h"
+#include "system/memory_limits.h"
 
 /* A number in a file of a group's folder, after a key or at the beginning of a line. */
 struct place {

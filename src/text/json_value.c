@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/json.h"
+#include "text/json.h"
 
 const struct json *json_member(const struct json *object, const char *key)
 {

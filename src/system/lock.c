@@ -1,4 +1,4 @@
-#include "base/lock.h"
+#include "system/lock.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -11,13 +11,13 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/json.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/path.h"
-#include "base/process.h"
-#include "base/text.h"
+#include "system/atomic_file.h"
+#include "system/process.h"
+#include "text/json.h"
+#include "text/text.h"
 
 enum { LOCK_BYTES = 4096, COUNT_DIGITS = 12, WATCH_US = 100000 };
 static const double HEARTBEAT_S = 5, WATCH_S = 30;

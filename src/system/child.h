@@ -15,7 +15,7 @@
 #include <sys/types.h>
 
 #include "base/status.h"
-#include "base/text.h"
+#include "text/text.h"
 
 enum { CHILD_NOT_SET_UP = 126, CHILD_NO_PROGRAM = 127 };
 

@@ -8,8 +8,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/child.h"
 #include "base/clock.h"
+#include "system/child.h"
 
 enum { TAIL = 4000, ANSWER_MAX = 16 << 20 };
 

@@ -1,4 +1,4 @@
-#include "base/child.h"
+#include "system/child.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -14,7 +14,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "base/signals.h"
+#include "system/signals.h"
 
 enum { BLIND_MS = 10, HIGH = 64 };
 

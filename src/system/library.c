@@ -1,12 +1,12 @@
-#include "base/library.h"
+#include "system/library.h"
 
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/beside.h"
 #include "base/build.h"
+#include "system/beside.h"
 
 #define LIBRARY "hoodoo-vdb.so"
 

@@ -1,4 +1,4 @@
-#include "base/begin.h"
+#include "system/begin.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -16,7 +16,7 @@
 #include <stddef.h>
 
 #include "base/choice.h"
-#include "base/ranges.h"
+#include "text/ranges.h"
 
 #define PROGRESS_CHOICE                                                                                      \
     (PROGRESS_AUTO, "auto")(PROGRESS_BAR, "bar")(PROGRESS_PLAIN, "plain")(PROGRESS_OPENJD,                   \

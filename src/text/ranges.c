@@ -1,4 +1,4 @@
-#include "base/ranges.h"
+#include "text/ranges.h"
 
 #include <ctype.h>
 #include <stdio.h>

@@ -1,4 +1,4 @@
-#include "base/gltf.h"
+#include "gltf/gltf.h"
 
 #include <ctype.h>
 #include <stdbool.h>
@@ -7,10 +7,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/atomic_file.h"
-#include "base/json.h"
 #include "base/memory.h"
 #include "base/path.h"
+#include "system/atomic_file.h"
+#include "text/json.h"
 
 #define MAX_JSON ((size_t)1 << 30)
 

@@ -2,8 +2,8 @@
 #include <string.h>
 #include <sys/wait.h>
 
-#include "base/child.h"
-#include "base/signals.h"
+#include "system/child.h"
+#include "system/signals.h"
 
 /* Interval at which a stop is noticed whose signal went to another thread. */
 static const double POLL_S = 0.05;

@@ -1,10 +1,10 @@
-#include "base/json.h"
+#include "text/json.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/json_text.h"
 #include "base/memory.h"
+#include "text/json_text.h"
 
 enum { DEEPEST = 32 };
 

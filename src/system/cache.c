@@ -1,4 +1,4 @@
-#include "base/cache.h"
+#include "system/cache.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,4 @@
-#include "base/signals.h"
+#include "system/signals.h"
 
 #include <signal.h>
 #include <stdatomic.h>
