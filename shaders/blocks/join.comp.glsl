@@ -12,7 +12,7 @@ READ_U(1, list)
 READ_U(2, solid)
 READ_U(3, root)
 WRITE_U(4, pointer)
-WRITE_U(5, counts)
+WRITE_U(5, flags)
 READ_U(6, parted) // geology/maps.h; not read if k.parted is 0
 PARAMS(join_params)
 #include "particles/voxel.glsl"
@@ -52,6 +52,6 @@ void main()
     }
     if (least < own) {
         atomicMin(AT(pointer, own), least);
-        AT(counts, COUNT_CHANGED) = 1u;
+        AT(flags, k.flag) = 1u;
     }
 }

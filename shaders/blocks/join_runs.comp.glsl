@@ -10,7 +10,7 @@ READ_U(1, first)
 READ_U(2, solid)
 READ_U(3, root)
 WRITE_U(4, pointer)
-WRITE_U(5, counts)
+WRITE_U(5, flags)
 READ_U(6, list)
 PARAMS(runs_params)
 #include "particles/bits.glsl"
@@ -23,7 +23,7 @@ void join(uint a, uint b)
     if (root_a == root_b)
         return;
     atomicMin(AT(pointer, max(root_a, root_b)), min(root_a, root_b));
-    AT(counts, COUNT_CHANGED) = 1u;
+    AT(flags, k.flag) = 1u;
 }
 
 // Joins the run at `bit` of word i with the held voxel at bit `at` of word w.

@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per item, one pass of pointer doubling: to[i] = from[from[i]]. Sets changed[0] if any pointer moved.
+// Per item, one pass of pointer doubling: to[i] = from[from[i]]. Sets the flag if any pointer moved.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
 READ_U(0, from)
 WRITE_U(1, to)
-WRITE_U(2, changed)
-PARAMS(count_params)
+WRITE_U(2, flags)
+PARAMS(double_params)
 
 void main()
 {
@@ -17,5 +17,5 @@ void main()
     uint a = LOAD_U(from, i), b = LOAD_U(from, a);
     AT(to, i) = b;
     if (a != b)
-        AT(changed, 0) = 1u;
+        AT(flags, k.flag) = 1u;
 }

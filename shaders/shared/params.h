@@ -30,6 +30,13 @@ SHARED_SIZE(numbers_params, 12)
 
 /* ---- gpu: scan, sort, reduce */
 
+/* `flag` is the item of gpu_rounds.flags that a kernel sets if another round is needed. */
+struct double_params {
+    uint n;
+    uint flag;
+};
+SHARED_SIZE(double_params, 8)
+
 #define SCAN_RUN 64u
 #define REDUCE_THREADS 2048u
 
@@ -82,8 +89,9 @@ struct join_params {
     uint nx, ny, nz;
     float h;
     uint parted;
+    uint flag; /* gpu_rounds */
 };
-SHARED_SIZE(join_params, 24)
+SHARED_SIZE(join_params, 28)
 
 /* The ratio of the speeds of a front along beds and across them is stored as MAPS_OCTAVE log2(ratio). */
 #define MAPS_OCTAVE 32
@@ -134,8 +142,9 @@ struct runs_params {
     uint nx, ny, nz;
     uint slots; /* number of held voxels, whose nodes come first */
     uint words; /* number of words of bits */
+    uint flag;  /* gpu_rounds */
 };
-SHARED_SIZE(runs_params, 24)
+SHARED_SIZE(runs_params, 28)
 
 /* One axis of the search for voxels near the surface. */
 struct near_params {
@@ -297,7 +306,6 @@ SHARED_SIZE(seep_params, 48)
 /* Items of the erosion's counters; the FASTEST ones are floats. */
 #define COUNT_ERODED 0u
 #define COUNT_FALLEN 1u
-#define COUNT_CHANGED 2u
 #define COUNT_FASTEST_ROCK 3u
 #define COUNT_FASTEST_LOOSE 4u
 #define COUNT_FASTEST_SLOPE 5u
@@ -416,8 +424,9 @@ struct water_params {
     uint round;
     float per_row, per_slab; /* 1 / cx, 1 / (cx cy) */
     uint walls;
+    uint flag; /* gpu_rounds */
 };
-SHARED_SIZE(water_params, 84)
+SHARED_SIZE(water_params, 88)
 
 /* Shares of a span's rain sum to this. */
 #define WATER_WHOLE 0x8000u
@@ -647,7 +656,6 @@ SHARED_SIZE(pixel_air_params, 32)
 
 /* Items that the host reads. */
 #define VOXELS_GONE 0u /* number of voxels that vanished */
-#define VOXELS_CHANGED 1u
 
 struct voxels_params {
     uint n;
@@ -664,8 +672,9 @@ struct voxels_params {
     float per_row, per_slab; /* 1 / row, 1 / slab */
     uint walls;
     uint tilted; /* 1: strata are stored by voxel; 0: by slab */
+    uint flag;   /* gpu_rounds */
 };
-SHARED_SIZE(voxels_params, 76)
+SHARED_SIZE(voxels_params, 80)
 
 #undef SHARED_SIZE
 #endif

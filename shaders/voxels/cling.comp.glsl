@@ -8,7 +8,7 @@
 READ_F(0, left)
 READ_U(1, solid)
 WRITE_U(2, stands)
-WRITE_U(3, words)
+WRITE_U(3, flags)
 PARAMS(voxels_params)
 #include "voxels/grid.glsl"
 
@@ -25,6 +25,6 @@ void main()
                 (z > 0u && AT(stands, i - slab) == 1u) || (z + 1u < k.nz && AT(stands, i + slab) == 1u);
     if (held) {
         AT(stands, i) = 1u;
-        AT(words, VOXELS_CHANGED) = 1u;
+        AT(flags, k.flag) = 1u;
     }
 }

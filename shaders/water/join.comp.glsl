@@ -13,7 +13,7 @@ READ_U(3, basin)
 WRITE_U(4, next)
 WRITE_U(5, from)
 WRITE_U(6, to)
-WRITE_U(7, counts)
+WRITE_U(7, flags)
 PARAMS(water_params)
 
 void main()
@@ -44,7 +44,7 @@ void main()
                 j = was_from;
                 b = LOAD_U(basin, i);
             }
-            AT(counts, COUNT_CHANGED) = 1u;
+            AT(flags, k.flag) = 1u;
         }
     }
     AT(next, c) = drains;

@@ -42,16 +42,15 @@ void blocks_destroy(struct gpu *gpu, struct blocks *b)
 
 /* Labels blocks: every node points to its block's root. `runs`: NULL if there are none; `list`: words of bits that have some. */
 static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, const struct held_voxels *h,
-                   const struct runs_params *runs, size_t n_runs, struct gpu_buffer *list)
+                   struct runs_params *runs, size_t n_runs, struct gpu_buffer *list)
 {
     status st = OK;
     const size_t n = h->n + n_runs;
     const struct voxel_params k = {
         .n = (uint)h->n, .nx = (uint)h->voxels[0], .ny = (uint)h->voxels[1], .nz = (uint)h->voxels[2]};
-    const struct join_params beside = {
-        .n = k.n, .nx = k.nx, .ny = k.ny, .nz = k.nz, .parted = b->parted != NULL};
-    struct gpu_buffer *counts = gpu_work_words(work), *parted = b->parted ? b->parted : h->words;
-    uint32_t changed = h->n > 0;
+    struct join_params beside = {.n = k.n, .nx = k.nx, .ny = k.ny, .nz = k.nz, .parted = b->parted != NULL};
+    struct gpu_buffer *parted = b->parted ? b->parted : h->words;
+    struct gpu_rounds r = {.what = "blocks: voxels still join", .most = (uint32_t)n};
     if (h->n == 0)
         return OK;
     if (runs) {
@@ -59,17 +58,19 @@ static status join(struct gpu *gpu, struct gpu_work *work, struct blocks *b, con
         GPU_RUN(gpu, gpu_iota, n, all, b->pointer);
     }
     GPU_RUN(gpu, blocks_below, h->n, k, h->words, h->list, b->solid, b->pointer);
-    while (changed) {
+    while (gpu_round(gpu, work, &r)) {
         TRY(gpu_double_pointers(gpu, work, b->pointer, b->other, n));
-        gpu_fill(gpu, counts, 0);
+        beside.flag = r.flag;
         gpu_copy(gpu, b->other, b->pointer, n);
-        GPU_RUN(gpu, blocks_join, h->n, beside, h->words, h->list, b->solid, b->other, b->pointer, counts,
+        GPU_RUN(gpu, blocks_join, h->n, beside, h->words, h->list, b->solid, b->other, b->pointer, r.flags,
                 parted);
-        if (runs)
+        if (runs) {
+            runs->flag = r.flag;
             GPU_RUN(gpu, blocks_join_runs, runs->n, *runs, h->words, b->first, b->solid, b->other, b->pointer,
-                    counts, list);
-        TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
+                    r.flags, list);
+        }
     }
+    TRY(r.st);
 done:
     return st;
 }

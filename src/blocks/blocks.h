@@ -29,7 +29,7 @@ MUST_USE status blocks_create(struct gpu *gpu, size_t n, struct gpu_buffer *part
 void blocks_destroy(struct gpu *gpu, struct blocks *b);
 
 /* Labels the blocks of `solid`, which the caller has filled: pointer[i] of a solid voxel becomes its block's lowest voxel, which is
- * in the first slab if the block stands on the ground. Leaves gpu_work_words() zero. Waits for the device. */
+ * in the first slab if the block stands on the ground. Waits for the device. */
 MUST_USE status blocks_join(struct gpu *gpu, struct gpu_work *work, struct blocks *b,
                             const struct held_voxels *held);
 

@@ -73,6 +73,7 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
             name, (double)n * (double)item / 1e6, n, GPU_ITEMS_MAX);
     TRY(memory_alloc(1, sizeof *b, name, &b));
     snprintf(b->name, sizeof b->name, "%s", name);
+    b->id = ++gpu->n_buffers;
     b->n = n;
     b->item = item;
     b->bytes = (n ? n : 1) * item;
@@ -90,7 +91,8 @@ status gpu_buffer_create(struct gpu *gpu, const char *name, size_t n, size_t ite
     raw_buffer_create(gpu, b->bytes,
                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT |
+                          (gpu->conditions.begin ? VK_BUFFER_USAGE_CONDITIONAL_RENDERING_BIT_EXT : 0),
                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
                       gpu->maps ? VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
                                 : 0,
@@ -177,53 +179,111 @@ void gpu_copy(struct gpu *gpu, struct gpu_buffer *to, const struct gpu_buffer *f
     vkCmdCopyBuffer(commands, from->handle, to->handle, 1, &region);
 }
 
-/* Transfers at most STAGING_BYTES through the staging buffer, for device memory that the host cannot map. */
-static void stage(struct gpu *gpu, struct gpu_buffer *b, VkDeviceSize offset, VkDeviceSize bytes, bool upload)
+/* Transfers go through the two halves of the staging buffer in turn, where the host cannot map the memory of the device: it copies a
+ * piece of STAGING_BYTES while the device copies the next. Each piece is a submission, behind the kernels recorded before. */
+struct piece {
+    char *staged;       /* in a half of the staging buffer */
+    struct slot **last; /* the submission that last used this half */
+    size_t at, bytes;
+};
+
+static struct piece piece_at(struct gpu *gpu, size_t at, size_t bytes)
+{
+    const size_t half = at / STAGING_BYTES % 2;
+    return (struct piece){.staged = gpu->staging_mapped + half * STAGING_BYTES,
+                          .last = &gpu->staged[half],
+                          .at = at,
+                          .bytes = bytes - at < STAGING_BYTES ? bytes - at : STAGING_BYTES};
+}
+
+static void submit_piece(struct gpu *gpu, struct gpu_buffer *b, VkDeviceSize offset, const struct piece *p,
+                         bool upload)
 {
     VkCommandBuffer commands = record_begin(gpu);
+    const VkDeviceSize there = offset + p->at, staged = (VkDeviceSize)(p->staged - gpu->staging_mapped);
+    VkBufferCopy region = {
+        .srcOffset = upload ? staged : there, .dstOffset = upload ? there : staged, .size = p->bytes};
     if (!commands)
         return;
     record_accesses(gpu, commands, &(struct access){b, upload}, 1);
-    VkBufferCopy region = {.srcOffset = upload ? 0 : offset, .dstOffset = upload ? offset : 0, .size = bytes};
     vkCmdCopyBuffer(commands, upload ? gpu->staging : b->handle, upload ? b->handle : gpu->staging, 1,
                     &region);
+    *p->last = &gpu->slot[gpu->current];
+    gpu_submit(gpu);
 }
 
-static status transfer(struct gpu *gpu, struct gpu_buffer *b, size_t first, char *host, size_t n_items,
-                       bool upload)
+/* Waits until the device has copied the piece, or what was last in its half. */
+static void await_piece(struct gpu *gpu, const struct piece *p)
 {
-    status st = OK;
-    assert(first <= b->n && n_items <= b->n - first);
-    size_t offset = first * b->item, bytes = n_items * b->item;
-    TRY(gpu_status(gpu));
-    if (b->mapped) {
-        TRY(gpu_wait(gpu));
-        if (bytes)
-            memcpy(upload ? (char *)b->mapped + offset : host, upload ? host : (char *)b->mapped + offset,
-                   bytes);
-        goto done;
+    if (*p->last)
+        slot_finish(gpu, *p->last);
+}
+
+static status upload_staged(struct gpu *gpu, struct gpu_buffer *b, size_t offset, const char *host,
+                            size_t bytes)
+{
+    for (size_t at = 0; at < bytes && gpu->st == OK; at += STAGING_BYTES) {
+        const struct piece p = piece_at(gpu, at, bytes);
+        await_piece(gpu, &p);
+        memcpy(p.staged, host + at, p.bytes);
+        submit_piece(gpu, b, offset, &p, true);
     }
-    /* The copies are recorded behind the kernels that write the buffer, so that host and device wait for each other once. The staging
-     * buffer is free: every transfer waits for its last copy. */
-    for (size_t at = 0; at < bytes; at += STAGING_BYTES) {
-        size_t piece = bytes - at < STAGING_BYTES ? bytes - at : STAGING_BYTES;
-        if (upload)
-            memcpy(gpu->staging_mapped, host + at, piece);
-        stage(gpu, b, offset + at, piece, upload);
-        TRY(gpu_wait(gpu));
-        if (!upload)
-            memcpy(host + at, gpu->staging_mapped, piece);
+    return gpu_status(gpu);
+}
+
+static status download_staged(struct gpu *gpu, struct gpu_buffer *b, size_t offset, char *host, size_t bytes)
+{
+    for (size_t at = 0; at < bytes + STAGING_BYTES && gpu->st == OK; at += STAGING_BYTES) {
+        if (at < bytes) {
+            const struct piece next = piece_at(gpu, at, bytes);
+            await_piece(gpu, &next);
+            submit_piece(gpu, b, offset, &next, false);
+        }
+        if (at > 0) {
+            const struct piece p = piece_at(gpu, at - STAGING_BYTES, bytes);
+            await_piece(gpu, &p);
+            if (gpu->st == OK)
+                memcpy(host + p.at, p.staged, p.bytes);
+        }
     }
-done:
-    return st;
+    return gpu_wait(gpu);
 }
 
 status gpu_upload(struct gpu *gpu, struct gpu_buffer *to, size_t first, const void *from, size_t n_items)
 {
-    return transfer(gpu, to, first, (char *)from, n_items, true);
+    status st = OK;
+    const size_t offset = first * to->item, bytes = n_items * to->item;
+    assert(first <= to->n && n_items <= to->n - first);
+    TRY(gpu_status(gpu));
+    if (bytes == 0)
+        return OK;
+    if (bytes <= UPDATE_BYTES) {
+        VkCommandBuffer commands = record_begin(gpu);
+        if (commands) {
+            record_accesses(gpu, commands, &(struct access){to, true}, 1);
+            vkCmdUpdateBuffer(commands, to->handle, offset, bytes, from);
+        }
+        return gpu_status(gpu);
+    }
+    if (!to->mapped)
+        return upload_staged(gpu, to, offset, from, bytes);
+    TRY(gpu_wait(gpu));
+    memcpy((char *)to->mapped + offset, from, bytes);
+done:
+    return st;
 }
 
 status gpu_download(struct gpu *gpu, const struct gpu_buffer *from, size_t first, void *to, size_t n_items)
 {
-    return transfer(gpu, (struct gpu_buffer *)from, first, to, n_items, false);
+    status st = OK;
+    const size_t offset = first * from->item, bytes = n_items * from->item;
+    assert(first <= from->n && n_items <= from->n - first);
+    TRY(gpu_status(gpu));
+    if (!from->mapped)
+        return download_staged(gpu, (struct gpu_buffer *)from, offset, to, bytes);
+    TRY(gpu_wait(gpu));
+    if (bytes)
+        memcpy(to, (const char *)from->mapped + offset, bytes);
+done:
+    return st;
 }

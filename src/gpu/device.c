@@ -183,21 +183,33 @@ done:
 
 static status device_open(struct gpu *gpu)
 {
+    status st = OK;
     float priority = 1;
-    const char *extension[1];
+    const char *extension[2];
     uint32_t n_extensions = 0;
     gpu->family = compute_family(gpu->physical, &gpu->timestamp_bits);
     gpu->has_budget = has_extension(gpu->physical, VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
     if (gpu->has_budget)
         extension[n_extensions++] = VK_EXT_MEMORY_BUDGET_EXTENSION_NAME;
+    VkPhysicalDeviceConditionalRenderingFeaturesEXT conditions = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONDITIONAL_RENDERING_FEATURES_EXT};
+    if (!gpu->options.unconditional &&
+        has_extension(gpu->physical, VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME)) {
+        vkGetPhysicalDeviceFeatures2(
+            gpu->physical, &(VkPhysicalDeviceFeatures2){.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                                        .pNext = &conditions});
+        conditions.inheritedConditionalRendering = VK_FALSE;
+        extension[n_extensions++] = VK_EXT_CONDITIONAL_RENDERING_EXTENSION_NAME;
+    }
     VkDeviceQueueCreateInfo queue = {.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                      .queueFamilyIndex = gpu->family,
                                      .queueCount = 1,
                                      .pQueuePriorities = &priority};
-    VkPhysicalDeviceVulkan12Features features = {.sType =
-                                                     VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
-                                                 .bufferDeviceAddress = VK_TRUE,
-                                                 .scalarBlockLayout = VK_TRUE};
+    VkPhysicalDeviceVulkan12Features features = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+        .pNext = conditions.conditionalRendering ? &conditions : NULL,
+        .bufferDeviceAddress = VK_TRUE,
+        .scalarBlockLayout = VK_TRUE};
     VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                .pNext = &features,
                                .queueCreateInfoCount = 1,
@@ -228,10 +240,16 @@ static status device_open(struct gpu *gpu)
                    : gpu->info.is_cpu ? VARIANT_TEXEL
                                       : VARIANT_STORAGE;
     VK_TRY(gpu, vkCreateDevice(gpu->physical, &info, NULL, &gpu->device));
+    if (conditions.conditionalRendering) {
+        gpu->conditions.begin = (PFN_vkCmdBeginConditionalRenderingEXT)vkGetDeviceProcAddr(
+            gpu->device, "vkCmdBeginConditionalRenderingEXT");
+        gpu->conditions.end = (PFN_vkCmdEndConditionalRenderingEXT)vkGetDeviceProcAddr(
+            gpu->device, "vkCmdEndConditionalRenderingEXT");
+    }
     vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
     VK_TRY(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->commands));
     if (!gpu->maps) {
-        raw_buffer_create(gpu, STAGING_BYTES,
+        raw_buffer_create(gpu, 2 * STAGING_BYTES,
                           VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                           VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
                           VK_MEMORY_PROPERTY_HOST_CACHED_BIT, &gpu->staging, &gpu->staging_memory);
@@ -240,8 +258,9 @@ static status device_open(struct gpu *gpu)
                                     (void **)&gpu->staging_mapped));
     }
     slots_create(gpu);
+    TRY(sets_create(gpu));
 done:
-    return gpu_status(gpu);
+    return st != OK ? st : gpu_status(gpu);
 }
 
 status gpu_create(const struct gpu_options *options, struct gpu **out)
@@ -285,6 +304,7 @@ void gpu_destroy(struct gpu **handle)
     if (gpu->device) {
         vkDeviceWaitIdle(gpu->device);
         pipelines_destroy(gpu);
+        sets_destroy(gpu);
         slots_destroy(gpu);
         vkDestroyBuffer(gpu->device, gpu->staging, NULL);
         vkFreeMemory(gpu->device, gpu->staging_memory, NULL);

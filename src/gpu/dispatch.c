@@ -16,15 +16,15 @@ static bool binding_writes(enum gpu_kernel kernel, uint32_t i)
     return kernel_source[kernel]->bindings[3 * i] == 'w';
 }
 
-static char binding_letter(enum gpu_kernel kernel, uint32_t i)
+char binding_letter(enum gpu_kernel kernel, uint32_t i)
 {
     return kernel_source[kernel]->bindings[3 * i + 1];
 }
 
-static VkDescriptorType descriptor_type(enum gpu_kernel kernel, enum kernel_variant variant, uint32_t i)
+VkDescriptorType descriptor_type(enum gpu_kernel kernel, enum kernel_variant variant, uint32_t i)
 {
     if (variant == VARIANT_WIDE)
-        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+        return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC;
     return variant == VARIANT_TEXEL && !binding_writes(kernel, i) ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
                                                                   : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
@@ -94,43 +94,13 @@ static enum kernel_variant fitting_variant(const struct gpu *gpu, enum gpu_kerne
     return gpu->variant;
 }
 
-static VkDescriptorSet bind(struct gpu *gpu, struct slot *s, const struct pipeline *p, enum gpu_kernel kernel,
-                            enum kernel_variant variant, struct gpu_buffer *const *buffers, uint32_t n)
+/* Writes the addresses of a dispatch's buffers to those of its command buffer; returns their offset. */
+static uint32_t write_addresses(struct slot *s, struct gpu_buffer *const *buffers, uint32_t n)
 {
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
-                                            .descriptorPool = s->pool,
-                                            .descriptorSetCount = 1,
-                                            .pSetLayouts = &p->set_layout};
-    VkWriteDescriptorSet write[BINDINGS_MAX];
-    VkDescriptorBufferInfo range[BINDINGS_MAX];
-    VkBufferView view[BINDINGS_MAX];
-    uint32_t n_writes = variant == VARIANT_WIDE ? 1 : n;
-    VK_TRY(gpu, vkAllocateDescriptorSets(gpu->device, &allocate, &set));
-    if (variant == VARIANT_WIDE) {
-        VkDeviceSize offset = (VkDeviceSize)s->n_dispatches * BINDINGS_MAX * 16;
-        for (uint32_t i = 0; i < n; i++)
-            memcpy(s->addresses_mapped + offset + 16 * i, &buffers[i]->address, sizeof buffers[i]->address);
-        range[0] = (VkDescriptorBufferInfo){s->addresses, offset, BINDINGS_MAX * 16};
-    }
-    for (uint32_t i = 0; i < n_writes; i++) {
-        VkDescriptorType type = descriptor_type(kernel, variant, i);
-        write[i] = (VkWriteDescriptorSet){.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                          .dstSet = set,
-                                          .dstBinding = i,
-                                          .descriptorCount = 1,
-                                          .descriptorType = type,
-                                          .pBufferInfo = &range[i],
-                                          .pTexelBufferView = &view[i]};
-        if (type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER)
-            view[i] = buffer_view(gpu, buffers[i], binding_letter(kernel, i));
-        else if (variant != VARIANT_WIDE)
-            range[i] = (VkDescriptorBufferInfo){buffers[i]->handle, 0, buffers[i]->bytes};
-    }
-    if (gpu->st == OK)
-        vkUpdateDescriptorSets(gpu->device, n_writes, write, 0, NULL);
-done:
-    return set;
+    const uint32_t offset = s->n_dispatches * BINDINGS_MAX * 16;
+    for (uint32_t i = 0; i < n; i++)
+        memcpy(s->addresses_mapped + offset + 16 * i, &buffers[i]->address, sizeof buffers[i]->address);
+    return offset;
 }
 
 void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const void *params,
@@ -144,15 +114,17 @@ void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const
         gpu_break(gpu, VK_ERROR_OUT_OF_DEVICE_MEMORY, "more than 2^32 threads");
         return;
     }
-    VkCommandBuffer commands = threads ? record_begin(gpu) : VK_NULL_HANDLE;
+    if (threads == 0 || gpu->st != OK)
+        return;
+    enum kernel_variant variant = fitting_variant(gpu, kernel, buffers, n);
+    const bool wide = variant == VARIANT_WIDE;
+    const struct pipeline *p = pipeline_get(gpu, kernel, variant);
+    VkDescriptorSet set = p && !wide ? set_get(gpu, p, kernel, variant, buffers, n) : VK_NULL_HANDLE;
+    VkCommandBuffer commands = record_begin(gpu);
     if (!commands)
         return;
     struct slot *s = &gpu->slot[gpu->current];
-    enum kernel_variant variant = fitting_variant(gpu, kernel, buffers, n);
-    const struct pipeline *p = pipeline_get(gpu, kernel, variant);
-    VkDescriptorSet set = p ? bind(gpu, s, p, kernel, variant, buffers, n) : VK_NULL_HANDLE;
-    if (gpu->st != OK)
-        return;
+    const uint32_t offset = wide ? write_addresses(s, buffers, n) : 0;
     struct access access[BINDINGS_MAX];
     for (uint32_t i = 0; i < n; i++)
         access[i] = (struct access){buffers[i], binding_writes(kernel, i)};
@@ -162,7 +134,8 @@ void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const
     uint32_t x = groups < gpu->group_limit ? groups : gpu->group_limit;
     uint32_t y = (groups + x - 1) / x;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p->handle);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p->layout, 0, 1, &set, 0, NULL);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p->layout, 0, 1,
+                            wide ? &s->address_set : &set, wide, &offset);
     vkCmdPushConstants(commands, p->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, (uint32_t)params_size, params);
     if (gpu->timestamp_bits)
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, s->queries, 2 * s->n_dispatches);

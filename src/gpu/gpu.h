@@ -44,9 +44,9 @@ struct gpu_options {
     const char *device;
     /* For tests. variant: forces a kernel variant (enum kernel_variant + 1; 0: the device's preferred one). The limits replace those of
      * the device: bytes that can be bound, bytes of one allocation, number of allocations (0: the device's own). staged: copies to and from
-     * buffers as for memory that the host cannot map, also on a CPU. */
+     * buffers as for memory that the host cannot map, also on a CPU. unconditional: does not use VK_EXT_conditional_rendering. */
     int variant;
-    bool staged;
+    bool staged, unconditional;
     uint64_t range_limit, allocation_limit;
     uint32_t allocations_limit;
 };
@@ -95,7 +95,8 @@ void gpu_dispatch(struct gpu *gpu, enum gpu_kernel kernel, size_t threads, const
 void gpu_fill(struct gpu *gpu, struct gpu_buffer *buffer, uint32_t word);
 void gpu_copy(struct gpu *gpu, struct gpu_buffer *to, const struct gpu_buffer *from, size_t n_items);
 
-/* Wait for all recorded work, then copy items between host memory and a buffer, starting at its item `first`. */
+/* Copy items between host memory and a buffer, starting at its item `first`, behind all work recorded before. gpu_upload() has read `from`
+ * when it returns, and waits for the device only with large data; gpu_download() waits. */
 MUST_USE status gpu_upload(struct gpu *gpu, struct gpu_buffer *to, size_t first, const void *from,
                            size_t n_items);
 MUST_USE status gpu_download(struct gpu *gpu, const struct gpu_buffer *from, size_t first, void *to,

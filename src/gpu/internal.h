@@ -6,6 +6,7 @@
 
 #include "gpu/gpu.h"
 #include "gpu/kernel_source.h"
+#include "gpu/primitives.h"
 
 enum {
     SLOTS = 3,                /* command buffers in flight */
@@ -18,6 +19,7 @@ enum {
 
 struct gpu_buffer {
     char name[48];
+    uint64_t id; /* of all buffers of this device, also those destroyed */
     size_t n, item;
     VkDeviceSize bytes;
     VkBuffer handle;
@@ -37,11 +39,11 @@ struct pipeline {
 struct slot {
     VkCommandBuffer commands;
     VkFence fence;
-    VkDescriptorPool pool;
     VkQueryPool queries;
     VkBuffer addresses; /* for VARIANT_WIDE: BINDINGS_MAX addresses per dispatch */
     VkDeviceMemory addresses_memory;
     char *addresses_mapped;
+    VkDescriptorSet address_set;
     bool submitted;
     uint32_t n_dispatches;
     struct {
@@ -69,11 +71,21 @@ struct gpu {
     struct slot slot[SLOTS];
     int current;
     bool recording;
-    uint64_t epoch; /* of barriers */
+    uint64_t epoch;             /* of barriers */
+    struct condition condition; /* of what is being recorded; flags NULL: none */
+    struct {
+        PFN_vkCmdBeginConditionalRenderingEXT begin; /* NULL: the device cannot leave out dispatches */
+        PFN_vkCmdEndConditionalRenderingEXT end;
+    } conditions;
     struct pipeline pipeline[KERNELS][VARIANTS];
+    struct sets *sets;
+    VkDescriptorSetLayout address_layout;
+    VkDescriptorPool address_pool;
+    uint64_t n_buffers; /* ever created */
     VkBuffer staging;
     VkDeviceMemory staging_memory;
     char *staging_mapped;
+    struct slot *staged[2]; /* the slot that last copied from or to each half of `staging` */
     status st;
     char message[1024];
     struct gpu_time stage[STAGES_MAX], kernel[KERNELS];
@@ -82,7 +94,8 @@ struct gpu {
     void *ended_user;
 };
 
-enum { STAGING_BYTES = 16 << 20 };
+/* Bytes of a half of the staging buffer, and of the largest upload that is recorded with its data, which waits for nothing. */
+enum { STAGING_BYTES = 16 << 20, UPDATE_BYTES = 4096 };
 
 const char *vk_result_text(VkResult result);
 
@@ -108,6 +121,9 @@ void raw_buffer_create(struct gpu *gpu, VkDeviceSize bytes, VkBufferUsageFlags u
 /* The command buffer of the current slot, in the recording state. NULL after an error. */
 VkCommandBuffer record_begin(struct gpu *gpu);
 
+/* Waits until the slot's commands have run, if they were submitted. */
+void slot_finish(struct gpu *gpu, struct slot *s);
+
 /* One command's access to a buffer. */
 struct access {
     struct gpu_buffer *buffer;
@@ -116,6 +132,20 @@ struct access {
 
 /* Records a barrier before a command if one of its accesses conflicts with one since the last barrier. */
 void record_accesses(struct gpu *gpu, VkCommandBuffer commands, const struct access *access, size_t n);
+
+/* The descriptor sets of kernels that bind their buffers (descriptors.c). set_get() may submit what is recorded. VK_NULL_HANDLE after an
+ * error. */
+status sets_create(struct gpu *gpu);
+void sets_destroy(struct gpu *gpu);
+VkDescriptorSet set_get(struct gpu *gpu, const struct pipeline *p, enum gpu_kernel kernel,
+                        enum kernel_variant variant, struct gpu_buffer *const *buffers, uint32_t n);
+
+/* How a kernel accesses its binding i: 'F', 'U' or 'V', and the type of its descriptor. */
+char binding_letter(enum gpu_kernel kernel, uint32_t i);
+VkDescriptorType descriptor_type(enum gpu_kernel kernel, enum kernel_variant variant, uint32_t i);
+
+/* The dispatches recorded from here on run only if the flag is not 0; fills and copies always do. A condition without flags ends that. */
+void record_condition(struct gpu *gpu, struct condition condition);
 
 const struct pipeline *pipeline_get(struct gpu *gpu, enum gpu_kernel kernel, enum kernel_variant variant);
 VkBufferView buffer_view(struct gpu *gpu, struct gpu_buffer *buffer, char letter);

@@ -4,14 +4,18 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "gpu/internal.h"
 
-enum { LEVELS_MAX = 8, WORDS = 64 };
+/* BATCH_FIRST: rounds of a loop's first batch. */
+enum { LEVELS_MAX = 8, WORDS = 64, FLAGS = 64, BATCH_FIRST = 4, DEPTH_MAX = 2 };
 
 struct gpu_work {
     struct gpu_buffer *sums[LEVELS_MAX]; /* per level: sums of the groups of the level below */
     int n_levels;
     size_t n_max;
     struct gpu_buffer *partial, *words;
+    struct gpu_buffer *flags[DEPTH_MAX]; /* of the rounds of a loop, and of the loop in it */
+    int depth;
 };
 
 static size_t runs(size_t n)
@@ -21,7 +25,7 @@ static size_t runs(size_t n)
 
 uint64_t gpu_work_bytes(size_t n_max)
 {
-    uint64_t bytes = REDUCE_THREADS * 4 + WORDS * 4;
+    uint64_t bytes = REDUCE_THREADS * 4 + WORDS * 4 + DEPTH_MAX * FLAGS * 4;
     for (size_t n = runs(n_max + 1);; n = runs(n)) {
         bytes += n * 4;
         if (n == 1)
@@ -42,6 +46,8 @@ status gpu_work_create(struct gpu *gpu, size_t n_max, struct gpu_work **out)
     }
     TRY(gpu_buffer_create(gpu, "partial sums", REDUCE_THREADS, 4, &w->partial));
     TRY(gpu_buffer_create(gpu, "words", WORDS, 4, &w->words));
+    for (int i = 0; i < DEPTH_MAX; i++)
+        TRY(gpu_buffer_create(gpu, "flags of rounds", FLAGS, 4, &w->flags[i]));
     *out = w;
     w = NULL;
 done:
@@ -58,6 +64,8 @@ void gpu_work_destroy(struct gpu *gpu, struct gpu_work **work)
         gpu_buffer_destroy(gpu, &w->sums[i]);
     gpu_buffer_destroy(gpu, &w->partial);
     gpu_buffer_destroy(gpu, &w->words);
+    for (int i = 0; i < DEPTH_MAX; i++)
+        gpu_buffer_destroy(gpu, &w->flags[i]);
     free(w);
     *work = NULL;
 }
@@ -116,17 +124,16 @@ status gpu_compact(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *fl
 {
     status st = OK;
     struct count_params k = {(uint32_t)n};
-    uint32_t total = 0, last = 0;
+    uint32_t total = 0;
     if (n == 0) {
         *n_list = 0;
         return OK;
     }
     gpu_copy(gpu, place, flags, n);
     gpu_scan(gpu, work, place, n);
-    GPU_RUN(gpu, gpu_compact, n, k, flags, place, list);
-    TRY(gpu_download(gpu, place, n - 1, &total, 1));
-    TRY(gpu_download(gpu, flags, n - 1, &last, 1));
-    *n_list = total + (last != 0);
+    GPU_RUN(gpu, gpu_compact, n, k, flags, place, list, work->partial);
+    TRY(gpu_download(gpu, work->partial, 0, &total, 1));
+    *n_list = total;
 done:
     return st;
 }
@@ -163,20 +170,58 @@ void gpu_max(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, 
     GPU_RUN(gpu, gpu_reduce_end, 64, k, work->partial, scalars);
 }
 
+/* Whether the batch that ends here was the last one. The host looks unless `most` rounds are known to suffice. */
+static bool rounds_ended(struct gpu *gpu, struct gpu_rounds *r)
+{
+    uint32_t more = 0;
+    if (gpu->st != OK || (r->bounded && gpu->conditions.begin))
+        return true;
+    r->st = gpu_download(gpu, r->flags, r->flag, &more, 1);
+    if (r->st == OK && more && r->n == r->most)
+        r->st =
+            fail(E_NUMERIC, "%s after %u rounds: the device computes wrongly", r->what, (unsigned)r->most);
+    return r->st != OK || !more;
+}
+
+bool gpu_round(struct gpu *gpu, struct gpu_work *work, struct gpu_rounds *r)
+{
+    if (r->n == 0) {
+        assert(work->depth < DEPTH_MAX && r->most > 0 && (!r->bounded || r->most < FLAGS));
+        r->flags = work->flags[work->depth++];
+        r->outer = gpu->condition;
+    }
+    if (r->at == r->batch) {
+        record_condition(gpu, r->outer);
+        if (r->n > 0 && rounds_ended(gpu, r)) {
+            work->depth--;
+            return false;
+        }
+        r->batch = !gpu->conditions.begin ? 1 : r->bounded ? r->most : r->batch ? 2 * r->batch : BATCH_FIRST;
+        r->batch = r->batch < FLAGS ? r->batch : FLAGS - 1;
+        r->batch = r->batch < r->most - r->n ? r->batch : r->most - r->n;
+        r->at = 0;
+        gpu_fill(gpu, r->flags, 0);
+    } else {
+        record_condition(gpu, (struct condition){r->flags, r->flag});
+    }
+    r->flag = ++r->at;
+    r->n++;
+    return true;
+}
+
 status gpu_double_pointers(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *pointer,
                            struct gpu_buffer *other, size_t n)
 {
-    status st = OK;
-    struct count_params k = {(uint32_t)n};
-    uint32_t changed = 1;
-    /* Two passes per round, so that the result ends in `pointer`. 32 rounds suffice for chains of 2^64 items. */
-    for (int round = 0; changed && round < 32; round++) {
-        gpu_fill(gpu, work->words, 0);
-        GPU_RUN(gpu, gpu_double, n, k, pointer, other, work->words);
-        GPU_RUN(gpu, gpu_double, n, k, other, pointer, work->words);
-        TRY(gpu_download(gpu, work->words, 0, &changed, 1));
+    struct double_params k = {.n = (uint32_t)n};
+    /* A pass doubles the distance; a round has two, so that the result ends in `pointer`. A chain has fewer than n links, and the last round
+     * changes nothing. */
+    struct gpu_rounds r = {.what = "pointers still double", .most = 1, .bounded = true};
+    for (size_t links = n; links > 1; links = (links + 3) / 4)
+        r.most++;
+    while (gpu_round(gpu, work, &r)) {
+        k.flag = r.flag;
+        GPU_RUN(gpu, gpu_double, n, k, pointer, other, r.flags);
+        GPU_RUN(gpu, gpu_double, n, k, other, pointer, r.flags);
     }
-    assert(!changed);
-done:
-    return st;
+    return r.st;
 }

@@ -6,6 +6,8 @@
 #ifndef HOODOO_PRIMITIVES_H
 #define HOODOO_PRIMITIVES_H
 
+#include <stdbool.h>
+
 #include "gpu/gpu.h"
 
 /* Scratch memory for the functions below, for up to n_max values and keys. */
@@ -45,8 +47,34 @@ void gpu_max(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values, 
 struct gpu_buffer *gpu_partial_sums(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *values,
                                     size_t n);
 
+/* The rounds of a loop that ends with the first round in which no kernel sets the round's flag. They are recorded in batches, and the device
+ * itself leaves out the kernels of the rounds after the last, so that the host looks once for each batch; where a device cannot
+ * (VK_EXT_conditional_rendering), it looks after each round. Fills and copies are never left out, so they must do no harm after the last round.
+ *
+ *     struct gpu_rounds r = {.what = "nodes still join", .most = n};
+ *     while (gpu_round(gpu, work, &r))
+ *         ... a kernel that finds that another round is needed sets item r.flag of r.flags, a buffer of uints, to 1 ...
+ *     TRY(r.st);
+ *
+ * A round may contain another loop, if that is `bounded`. */
+struct gpu_rounds {
+    const char *what; /* for the message of E_NUMERIC, if the loop does not end */
+    uint32_t most;    /* rounds */
+    bool bounded;     /* `most` is so small that all rounds are recorded at once, and the host never looks */
+    /* set by gpu_round() */
+    struct gpu_buffer *flags;
+    uint32_t flag;
+    status st;
+    struct condition {
+        struct gpu_buffer *flags;
+        uint32_t flag;
+    } outer; /* of the round that this loop is in */
+    uint32_t n, batch, at;
+};
+bool gpu_round(struct gpu *gpu, struct gpu_work *work, struct gpu_rounds *r);
+
 /* Pointer doubling: pointer[i] becomes the end of the chain that starts at i. Chains must not have cycles. `other` is scratch of n
- * items. Waits. */
+ * items. May wait. */
 MUST_USE status gpu_double_pointers(struct gpu *gpu, struct gpu_work *work, struct gpu_buffer *pointer,
                                     struct gpu_buffer *other, size_t n);
 

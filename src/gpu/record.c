@@ -6,6 +6,40 @@
 #include "gpu/internal.h"
 #include "gpu/timestamp.h"
 
+/* What VARIANT_WIDE binds: a part of the slot's buffer of addresses, at an offset that each dispatch gives. */
+static void address_sets_create(struct gpu *gpu)
+{
+    VkDescriptorSetLayoutBinding binding = {.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+                                            .descriptorCount = 1,
+                                            .stageFlags = VK_SHADER_STAGE_COMPUTE_BIT};
+    VkDescriptorSetLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+                                              .bindingCount = 1,
+                                              .pBindings = &binding};
+    VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, SLOTS};
+    VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                       .maxSets = SLOTS,
+                                       .poolSizeCount = 1,
+                                       .pPoolSizes = &size};
+    VK_TRY(gpu, vkCreateDescriptorSetLayout(gpu->device, &layout, NULL, &gpu->address_layout));
+    VK_TRY(gpu, vkCreateDescriptorPool(gpu->device, &pool, NULL, &gpu->address_pool));
+    for (int i = 0; i < SLOTS; i++) {
+        struct slot *s = &gpu->slot[i];
+        VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
+                                                .descriptorPool = gpu->address_pool,
+                                                .descriptorSetCount = 1,
+                                                .pSetLayouts = &gpu->address_layout};
+        VkDescriptorBufferInfo range = {s->addresses, 0, BINDINGS_MAX * 16};
+        VK_TRY(gpu, vkAllocateDescriptorSets(gpu->device, &allocate, &s->address_set));
+        VkWriteDescriptorSet write = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                      .dstSet = s->address_set,
+                                      .descriptorCount = 1,
+                                      .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+                                      .pBufferInfo = &range};
+        vkUpdateDescriptorSets(gpu->device, 1, &write, 0, NULL);
+    }
+done:;
+}
+
 bool slots_create(struct gpu *gpu)
 {
     VkCommandBufferAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
@@ -13,15 +47,6 @@ bool slots_create(struct gpu *gpu)
                                             .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                             .commandBufferCount = 1};
     VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    VkDescriptorPoolSize sizes[] = {
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, DISPATCHES_PER_SLOT * BINDINGS_MAX},
-        {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, DISPATCHES_PER_SLOT * BINDINGS_MAX},
-        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, DISPATCHES_PER_SLOT},
-    };
-    VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                       .maxSets = DISPATCHES_PER_SLOT,
-                                       .poolSizeCount = 3,
-                                       .pPoolSizes = sizes};
     VkQueryPoolCreateInfo queries = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                      .queryCount = 2 * DISPATCHES_PER_SLOT};
@@ -29,7 +54,6 @@ bool slots_create(struct gpu *gpu)
         struct slot *s = &gpu->slot[i];
         VK_TRY(gpu, vkAllocateCommandBuffers(gpu->device, &allocate, &s->commands));
         VK_TRY(gpu, vkCreateFence(gpu->device, &fence, NULL, &s->fence));
-        VK_TRY(gpu, vkCreateDescriptorPool(gpu->device, &pool, NULL, &s->pool));
         VK_TRY(gpu, vkCreateQueryPool(gpu->device, &queries, NULL, &s->queries));
         raw_buffer_create(gpu, (VkDeviceSize)DISPATCHES_PER_SLOT * BINDINGS_MAX * 16,
                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
@@ -39,6 +63,8 @@ bool slots_create(struct gpu *gpu)
             VK_TRY(gpu, vkMapMemory(gpu->device, s->addresses_memory, 0, VK_WHOLE_SIZE, 0,
                                     (void **)&s->addresses_mapped));
     }
+    if (gpu->st == OK)
+        address_sets_create(gpu);
 done:
     return gpu->st == OK;
 }
@@ -48,11 +74,12 @@ void slots_destroy(struct gpu *gpu)
     for (int i = 0; i < SLOTS; i++) {
         struct slot *s = &gpu->slot[i];
         vkDestroyFence(gpu->device, s->fence, NULL);
-        vkDestroyDescriptorPool(gpu->device, s->pool, NULL);
         vkDestroyQueryPool(gpu->device, s->queries, NULL);
         vkDestroyBuffer(gpu->device, s->addresses, NULL);
         vkFreeMemory(gpu->device, s->addresses_memory, NULL);
     }
+    vkDestroyDescriptorPool(gpu->device, gpu->address_pool, NULL);
+    vkDestroyDescriptorSetLayout(gpu->device, gpu->address_layout, NULL);
 }
 
 static void collect_times(struct gpu *gpu, struct slot *s)
@@ -77,7 +104,7 @@ static void collect_times(struct gpu *gpu, struct slot *s)
 done:;
 }
 
-static void slot_finish(struct gpu *gpu, struct slot *s)
+void slot_finish(struct gpu *gpu, struct slot *s)
 {
     if (!s->submitted || gpu->st != OK)
         return;
@@ -85,8 +112,58 @@ static void slot_finish(struct gpu *gpu, struct slot *s)
     s->submitted = false;
     collect_times(gpu, s);
     VK_TRY(gpu, vkResetFences(gpu->device, 1, &s->fence));
-    VK_TRY(gpu, vkResetDescriptorPool(gpu->device, s->pool, 0));
 done:;
+}
+
+static void barrier(struct gpu *gpu, VkCommandBuffer commands)
+{
+    const bool conditions = gpu->conditions.begin != NULL;
+    VkMemoryBarrier memory = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                              .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                              .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                                               VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
+    VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+    vkCmdPipelineBarrier(commands,
+                         stages | (conditions ? VK_PIPELINE_STAGE_CONDITIONAL_RENDERING_BIT_EXT : 0), stages,
+                         0, 1, &memory, 0, NULL, 0, NULL);
+    gpu->epoch++;
+}
+
+/* The device reads the flag when it reaches the first command that depends on it, so whatever sets it must have ended. */
+static void condition_begin(struct gpu *gpu, VkCommandBuffer commands)
+{
+    struct gpu_buffer *flags = gpu->condition.flags;
+    VkMemoryBarrier memory = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
+                              .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
+                              .dstAccessMask = VK_ACCESS_CONDITIONAL_RENDERING_READ_BIT_EXT};
+    if (!flags)
+        return;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                         VK_PIPELINE_STAGE_CONDITIONAL_RENDERING_BIT_EXT, 0, 1, &memory, 0, NULL, 0, NULL);
+    gpu->conditions.begin(commands, &(VkConditionalRenderingBeginInfoEXT){
+                                        .sType = VK_STRUCTURE_TYPE_CONDITIONAL_RENDERING_BEGIN_INFO_EXT,
+                                        .buffer = flags->handle,
+                                        .offset = 4 * gpu->condition.flag});
+}
+
+static void condition_end(struct gpu *gpu, VkCommandBuffer commands)
+{
+    if (!gpu->condition.flags)
+        return;
+    gpu->conditions.end(commands);
+    gpu->condition.flags->read = gpu->epoch; /* devices may read it again for every dispatch */
+}
+
+void record_condition(struct gpu *gpu, struct condition condition)
+{
+    VkCommandBuffer commands = gpu->recording && gpu->st == OK ? gpu->slot[gpu->current].commands : NULL;
+    if (condition.flags == gpu->condition.flags && condition.flag == gpu->condition.flag)
+        return;
+    if (commands)
+        condition_end(gpu, commands);
+    gpu->condition = condition;
+    if (commands)
+        condition_begin(gpu, commands);
 }
 
 VkCommandBuffer record_begin(struct gpu *gpu)
@@ -103,19 +180,9 @@ VkCommandBuffer record_begin(struct gpu *gpu)
     VK_TRY(gpu, vkBeginCommandBuffer(s->commands, &begin));
     vkCmdResetQueryPool(s->commands, s->queries, 0, 2 * DISPATCHES_PER_SLOT);
     gpu->recording = true;
+    condition_begin(gpu, s->commands);
 done:
     return gpu->st == OK ? s->commands : VK_NULL_HANDLE;
-}
-
-static void barrier(struct gpu *gpu, VkCommandBuffer commands)
-{
-    VkMemoryBarrier memory = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER,
-                              .srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
-                              .dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
-                                               VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT};
-    VkPipelineStageFlags stages = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
-    vkCmdPipelineBarrier(commands, stages, stages, 0, 1, &memory, 0, NULL, 0, NULL);
-    gpu->epoch++;
 }
 
 void record_accesses(struct gpu *gpu, VkCommandBuffer commands, const struct access *access, size_t n)
@@ -141,6 +208,7 @@ void gpu_submit(struct gpu *gpu)
                                .dstAccessMask = VK_ACCESS_HOST_READ_BIT};
     if (gpu->st != OK || !gpu->recording)
         return;
+    condition_end(gpu, s->commands);
     /* Commands of the next slot may access the same buffers, and the host may read them after the fence. */
     barrier(gpu, s->commands);
     vkCmdPipelineBarrier(s->commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -1,4 +1,5 @@
-/* Speed: bandwidth of kernels that mostly read and write, and frames of the demo at spacings as fine as time and memory allow. */
+/* Speed: bandwidth of kernels that mostly read and write, the cost of a dispatch and of a wait for the device, and frames of the demo at
+ * spacings as fine as time and memory allow. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,6 +113,45 @@ static status one_stream(struct selftest *t, const void *what, struct row *row)
     row_value(row, "bytes_a_second", rate);
     row_value(row, "words", (double)s.n);
     row_value(row, "pass_seconds", least);
+done:
+    streams_free(&s);
+    return st;
+}
+
+/* ---- dispatches */
+
+/* Time of the host to record a dispatch. They are fewer than are submitted at once. */
+static double record_seconds(struct streams *s)
+{
+    enum { DISPATCHES = 90 };
+    const struct count_params k = {64};
+    const double start = clock_seconds();
+    for (int i = 0; i < DISPATCHES; i += 2) {
+        GPU_RUN(s->gpu, gpu_gather_u, k.n, k, s->order, s->from, s->to);
+        GPU_RUN(s->gpu, gpu_gather_u, k.n, k, s->order, s->to, s->from);
+    }
+    return (clock_seconds() - start) / DISPATCHES;
+}
+
+static status dispatches(struct selftest *t, const void *what, struct row *row)
+{
+    status st = OK;
+    struct streams s = {0};
+    double record = INFINITY, look = INFINITY;
+    uint32_t word;
+    (void)what;
+    TRY(streams_make(t, &s));
+    for (int i = 0; i < 10 * REPEATS; i++) {
+        record = fmin(record, record_seconds(&s));
+        TRY(gpu_wait(s.gpu));
+        const double start = clock_seconds();
+        gpu_fill(s.gpu, s.scalars, 0);
+        TRY(gpu_download(s.gpu, s.scalars, 0, &word, 1));
+        look = fmin(look, clock_seconds() - start);
+    }
+    row_found(row, "%.2f us to record, %.0f us for a wait", 1e6 * record, 1e6 * look);
+    row_value(row, "record_seconds", record);
+    row_value(row, "wait_seconds", look);
 done:
     streams_free(&s);
     return st;
@@ -233,6 +273,7 @@ status selftest_speed(struct selftest *t)
     status st = OK;
     for (size_t i = 0; i < sizeof streams / sizeof *streams; i++)
         TRY(selftest_do(t, "speed", streams[i].name, one_stream, &streams[i]));
+    TRY(selftest_do(t, "speed", "dispatch", dispatches, NULL));
     TRY(demo(t));
 done:
     return st;

@@ -16,14 +16,13 @@ status voxels_fall(struct gpu *gpu, struct gpu_work *work, struct voxels *v, str
 {
     status st = OK;
     struct voxels_params k = voxels_params(v, domain_voxels(v));
-    struct gpu_buffer *counts = gpu_work_words(work);
-    uint32_t changed = 1;
+    struct gpu_rounds r = {.what = "goblins: weathered rock still gains support", .most = k.n};
     GPU_RUN(gpu, voxels_stand, k.n, k, solid, root, v->left, stands);
-    while (changed) {
-        gpu_fill(gpu, counts, 0);
-        GPU_RUN(gpu, voxels_cling, k.n, k, v->left, solid, stands, counts);
-        TRY(gpu_download(gpu, counts, VOXELS_CHANGED, &changed, 1));
+    while (gpu_round(gpu, work, &r)) {
+        k.flag = r.flag;
+        GPU_RUN(gpu, voxels_cling, k.n, k, v->left, solid, stands, r.flags);
     }
+    TRY(r.st);
     GPU_RUN(gpu, voxels_fall, k.n, k, stands, v->left, v->bits);
 done:
     return st;

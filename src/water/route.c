@@ -89,31 +89,27 @@ done:
 static status join_basins(struct gpu *gpu, struct gpu_work *work, struct water *w, size_t n_border)
 {
     status st = OK;
-    struct gpu_buffer **node = w->node, *border = node[WATER_SCRATCH + 3], *counts = gpu_work_words(work);
+    struct gpu_buffer **node = w->node, *border = node[WATER_SCRATCH + 3];
     struct count_params n = {(uint)w->n_basins + 1};
     struct water_params k = water_params(w, n_border), all = water_params(w, w->n_basins + 1);
-    uint32_t changed = n_border > 0;
+    /* Each round at least halves the number of components that have a pass but no path out. */
+    struct gpu_rounds r = {.what = "water: basins still join", .most = 64};
     GPU_RUN(gpu, gpu_iota, n.n, n, node[WATER_COMPONENT]);
     gpu_fill(gpu, node[WATER_LOWEST], UINT32_MAX);
     gpu_fill(gpu, node[WATER_PICK], UINT32_MAX);
-    for (int round = 0; changed; round++) {
-        if (round ==
-            64) /* each round at least halves the number of components that have a pass but no path out */
-            return fail(E_NUMERIC, "water: %zu basins do not join: the device computes wrongly", w->n_basins);
-        gpu_fill(gpu, counts, 0);
+    while (n_border > 0 && gpu_round(gpu, work, &r)) {
+        all.flag = r.flag;
         GPU_RUN(gpu, water_lowest, n_border, k, border, w->pass, node[WATER_BASIN], node[WATER_COMPONENT],
                 node[WATER_Z], node[WATER_LOWEST]);
         GPU_RUN(gpu, water_pick, n_border, k, border, w->pass, node[WATER_BASIN], node[WATER_COMPONENT],
                 node[WATER_Z], node[WATER_LOWEST], node[WATER_PICK]);
         GPU_RUN(gpu, water_join, all.n, all, node[WATER_COMPONENT], node[WATER_PICK], w->pass,
-                node[WATER_BASIN], node[WATER_NEXT], node[WATER_FROM], node[WATER_TO], counts);
-        TRY(gpu_download(gpu, counts, COUNT_CHANGED, &changed, 1));
-        if (changed) {
-            TRY(gpu_double_pointers(gpu, work, node[WATER_NEXT], node[WATER_SCRATCH], w->n_basins + 1));
-            GPU_RUN(gpu, water_merge, all.n, all, node[WATER_NEXT], node[WATER_COMPONENT], node[WATER_LOWEST],
-                    node[WATER_PICK]);
-        }
+                node[WATER_BASIN], node[WATER_NEXT], node[WATER_FROM], node[WATER_TO], r.flags);
+        TRY(gpu_double_pointers(gpu, work, node[WATER_NEXT], node[WATER_SCRATCH], w->n_basins + 1));
+        GPU_RUN(gpu, water_merge, all.n, all, node[WATER_NEXT], node[WATER_COMPONENT], node[WATER_LOWEST],
+                node[WATER_PICK]);
     }
+    TRY(r.st);
 done:
     return st;
 }

@@ -43,6 +43,8 @@ ok(found["device"]["type"] == "cpu" and found["device"]["variant"] == "texel" an
    found["device"])
 ok(checks["memory", "largest buffer"]["values"]["bytes"] >= found["device"]["binding_bytes"] + 4096, "buffers beyond what a kernel binds", checks["memory", "largest buffer"])
 ok(checks["speed", "copy"]["values"]["bytes_a_second"] > 1e8 and checks["picture", "1920 x 1080"]["values"]["picture_seconds"] > 0, "speeds are numbers")
+dispatch = checks["speed", "dispatch"]["values"]
+ok(0 < dispatch["record_seconds"] < dispatch["wait_seconds"] < 1, "to record a dispatch takes less than to wait for one", dispatch)
 demo = found["demo"]
 ok(1 <= len(demo) <= 3 and all(a["spacing_m"] == 2 * b["spacing_m"] and a["particles"] < b["particles"] for a, b in zip(demo, demo[1:])), "the demo, coarse to fine", demo)
 ok(all(d["frame_dispatches"] > 20 and 0 < sum(s["frame_ms"] for s in d["stages"]) <= 1001 * d["frame_seconds"] for d in demo), "its stages are within its frames", demo)

@@ -192,6 +192,44 @@ static void pointers_double_to_their_roots(void **state)
     free(got);
 }
 
+/* The rounds after the last one may be recorded, but their kernels do not run: a count is raised in each. A chain of 4^6 links, which takes six
+ * rounds and one that changes nothing, and a loop that is over at once. */
+static void rounds_after_the_last_are_left_out(void **state)
+{
+    enum { N = 5000, LINKS = 4096 };
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_work *work;
+    uint32_t *chain = malloc(N * 4), got[N];
+    assert_ok(gpu_work_create(gpu, N, &work));
+    struct gpu_buffer *other = buffer_of(gpu, NULL, N);
+    for (uint32_t links = 0; links <= LINKS; links += LINKS) {
+        const uint32_t count[2] = {0, 1};
+        for (uint32_t i = 0; i < N; i++)
+            chain[i] = i > 0 && i <= links ? i - 1 : i;
+        struct gpu_buffer *pointer = buffer_of(gpu, chain, N), *counter = buffer_of(gpu, count, 2);
+        const struct scan_params add = {1, 2};
+        struct gpu_rounds r = {.what = "links", .most = 100};
+        while (gpu_round(gpu, work, &r)) {
+            const struct double_params k = {N, r.flag};
+            GPU_RUN(gpu, gpu_double, N, k, pointer, other, r.flags);
+            GPU_RUN(gpu, gpu_double, N, k, other, pointer, r.flags);
+            GPU_RUN(gpu, gpu_scan_sum, 1, add, counter, counter);
+        }
+        assert_ok(r.st);
+        assert_ok(gpu_download(gpu, pointer, 0, got, N));
+        for (uint32_t i = 0; i < N; i++)
+            assert_int_equal(got[i], i <= links ? 0 : i);
+        assert_ok(gpu_download(gpu, counter, 0, got, 1));
+        assert_int_equal(got[0], links ? 7 : 1);
+        gpu_buffer_destroy(gpu, &pointer);
+        gpu_buffer_destroy(gpu, &counter);
+    }
+    gpu_buffer_destroy(gpu, &other);
+    gpu_work_destroy(gpu, &work);
+    gpu_destroy(&gpu);
+    free(chain);
+}
+
 /* lavapipe binds at most 128 MiB as a storage buffer. */
 static void buffers_beyond_the_storage_range_work(void **state)
 {
@@ -206,6 +244,70 @@ static void buffers_beyond_the_storage_range_work(void **state)
     assert_int_equal(got[2], N - 1);
     assert_ok(gpu_download(gpu, b, 33554433, got, 1));
     assert_int_equal(got[0], 33554433);
+    gpu_buffer_destroy(gpu, &b);
+    gpu_destroy(&gpu);
+}
+
+/* More pairs of buffers than the device keeps descriptor sets for, among them new buffers in the place of destroyed ones. */
+static void every_dispatch_finds_its_own_buffers(void **state)
+{
+    enum { N = 64, BUFFERS = 50, ROUNDS = 55 };
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_buffer *from[BUFFERS], *to[BUFFERS], *order = buffer_of(gpu, NULL, N);
+    const struct count_params k = {N};
+    uint32_t got;
+    GPU_RUN(gpu, gpu_iota, N, k, order);
+    for (uint32_t i = 0; i < BUFFERS; i++) {
+        from[i] = buffer_of(gpu, NULL, N);
+        to[i] = buffer_of(gpu, NULL, N);
+        gpu_fill(gpu, from[i], i);
+    }
+    for (uint32_t r = 0; r < ROUNDS; r++) {
+        for (uint32_t i = 0; i < BUFFERS; i++)
+            gpu_gather(gpu, order, from[(i + r) % BUFFERS], to[i], N);
+        assert_ok(gpu_download(gpu, to[r % BUFFERS], N - 1, &got, 1));
+        assert_int_equal(got, 2 * r % BUFFERS);
+        struct gpu_buffer **renewed = &from[r % BUFFERS];
+        gpu_buffer_destroy(gpu, renewed);
+        *renewed = buffer_of(gpu, NULL, N);
+        gpu_fill(gpu, *renewed, r % BUFFERS);
+    }
+    for (int i = 0; i < BUFFERS; i++) {
+        gpu_buffer_destroy(gpu, &from[i]);
+        gpu_buffer_destroy(gpu, &to[i]);
+    }
+    gpu_buffer_destroy(gpu, &order);
+    gpu_destroy(&gpu);
+}
+
+/* Transfers of every size, from a word to several pieces of the staging buffer, at odd places, behind kernels that are not awaited. */
+static void transfers_are_exact(void **state)
+{
+    enum { N = 10 << 20 };
+    static const struct {
+        size_t first, n;
+    } part[] = {{3, 1}, {5, 1023}, {5, 1025}, {7, (4 << 20) + 1}, {0, N}, {11, N - 13}, {N, 0}};
+    struct gpu *gpu = open_gpu(state);
+    struct gpu_buffer *b = buffer_of(gpu, NULL, N);
+    const struct count_params k = {N};
+    uint32_t *data = random_words(N, UINT32_MAX), *got = malloc(N * 4), *expected = malloc(N * 4);
+    for (size_t p = 0; p < sizeof part / sizeof *part; p++) {
+        GPU_RUN(gpu, gpu_iota, N, k, b);
+        assert_ok(gpu_upload(gpu, b, part[p].first, data, part[p].n));
+        for (uint32_t i = 0; i < N; i++)
+            expected[i] = i;
+        memcpy(expected + part[p].first, data, part[p].n * 4);
+        assert_ok(gpu_download(gpu, b, 0, got, N));
+        assert_memory_equal(got, expected, N * 4);
+        memset(got, 0xff, N * 4);
+        assert_ok(gpu_download(gpu, b, part[p].first, got, part[p].n));
+        assert_memory_equal(got, data, part[p].n * 4);
+        if (part[p].n < N)
+            assert_int_equal(got[part[p].n], UINT32_MAX);
+    }
+    free(data);
+    free(got);
+    free(expected);
     gpu_buffer_destroy(gpu, &b);
     gpu_destroy(&gpu);
 }
@@ -286,20 +388,37 @@ int main(void)
 {
     static struct gpu_options own = {.device = "auto"};
     static struct gpu_options storage = {.device = "auto", .variant = VARIANT_STORAGE + 1};
+    static struct gpu_options unconditional = {.device = "auto", .unconditional = true};
+    static struct gpu_options staged = {.device = "auto", .staged = true};
     static struct gpu_options wide = {.device = "auto", .range_limit = 1};
 #define EACH(test, options)                                                                                  \
     {                                                                                                        \
 #test " (" #options ")", test, NULL, NULL, &options                                                  \
     }
     const struct CMUnitTest tests[] = {
-        EACH(scan_equals_running_sum, own),         EACH(scan_equals_running_sum, storage),
-        EACH(scan_equals_running_sum, wide),        EACH(sort_is_stable_by_id, own),
-        EACH(sort_is_stable_by_id, storage),        EACH(sort_is_stable_by_id, wide),
-        EACH(compaction_keeps_order, own),          EACH(compaction_keeps_order, wide),
-        EACH(reductions_agree_with_double, own),    EACH(reductions_agree_with_double, storage),
-        EACH(reductions_agree_with_double, wide),   EACH(pointers_double_to_their_roots, own),
-        EACH(pointers_double_to_their_roots, wide), EACH(buffers_beyond_the_storage_range_work, own),
-        EACH(unknown_devices_are_refused, own),     EACH(a_buffer_too_large_is_refused_with_its_size, own),
+        EACH(scan_equals_running_sum, own),
+        EACH(scan_equals_running_sum, storage),
+        EACH(scan_equals_running_sum, wide),
+        EACH(sort_is_stable_by_id, own),
+        EACH(sort_is_stable_by_id, storage),
+        EACH(sort_is_stable_by_id, wide),
+        EACH(compaction_keeps_order, own),
+        EACH(compaction_keeps_order, wide),
+        EACH(reductions_agree_with_double, own),
+        EACH(reductions_agree_with_double, storage),
+        EACH(reductions_agree_with_double, wide),
+        EACH(pointers_double_to_their_roots, own),
+        EACH(pointers_double_to_their_roots, wide),
+        EACH(buffers_beyond_the_storage_range_work, own),
+        EACH(every_dispatch_finds_its_own_buffers, own),
+        EACH(every_dispatch_finds_its_own_buffers, wide),
+        EACH(rounds_after_the_last_are_left_out, own),
+        EACH(rounds_after_the_last_are_left_out, unconditional),
+        EACH(pointers_double_to_their_roots, unconditional),
+        EACH(transfers_are_exact, own),
+        EACH(transfers_are_exact, staged),
+        EACH(unknown_devices_are_refused, own),
+        EACH(a_buffer_too_large_is_refused_with_its_size, own),
         EACH(limits_of_allocations_are_named, own),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -133,7 +133,7 @@ static int end(void **state)
 int main(void)
 {
     static struct gpu_options texel = {.device = "auto", .variant = VARIANT_TEXEL + 1};
-    static struct gpu_options wide = {.device = "auto", .variant = VARIANT_WIDE + 1};
+    static struct gpu_options wide = {.device = "auto", .variant = VARIANT_WIDE + 1, .unconditional = true};
     static struct gpu_options staged = {
         .device = "auto", .variant = VARIANT_STORAGE + 1, .staged = true}; /* as on a GPU */
     static struct gpu_options nothing_fits = {.device = "auto", .range_limit = 1};
