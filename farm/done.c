@@ -86,8 +86,8 @@ static status sim_done(const char *root, const struct job *job, struct frame_ran
     status st = OK;
     int *list = NULL;
     size_t n;
-    uint64_t hash;
-    TRY(job_hash(job, &hash));
+    struct job_states states = {0};
+    TRY(job_states(job, &states));
     TRY(checkpoint_list(root, job->name, &list, &n));
     *done = n > 0 && list[0] >= frames.last;
     for (int frame = frames.first; *done && frame <= frames.last; frame += frames.step) {
@@ -96,13 +96,14 @@ static status sim_done(const char *root, const struct job *job, struct frame_ran
         st = manifest_read(root, job->name, frame, &m);
         if (st == OK)
             st = manifest_check(root, &m, false, &bad);
-        *done = st == OK && !*bad && m.job_hash == hash;
+        *done = st == OK && !*bad && job_states_hold(&states, frame, m.job_hash);
         manifest_free(&m);
         if (st != E_MEMORY)
             st = OK; /* a missing or damaged manifest is not an error here */
         TRY(st);
     }
 done:
+    job_states_free(&states);
     free(list);
     return st;
 }

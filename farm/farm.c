@@ -12,7 +12,7 @@
 #include "farm/submission.h"
 #include "output/folder.h"
 #include "run/branch.h"
-#include "run/run.h"
+#include "run/owner.h"
 #include "system/atomic_file.h"
 #include "system/beside.h"
 #include "text/nearest.h"
@@ -229,9 +229,9 @@ static status check_owner(const struct farm *f, const struct job *job)
     const bool read = job_load(path.text, NULL, 0, &theirs) == OK &&
                       branch_prepare_own(theirs, root.text) == OK && job_hash(theirs, &hash) == OK;
     if (read && (hash != ours || strcmp(theirs->name, job->name) != 0))
-        st = run_refuse_other_job(root.text, path.text, theirs, job);
+        st = owner_refuse(root.text, path.text, theirs, job);
     else if (read)
-        st = run_check_files(root.text, theirs, job);
+        st = owner_check_files(root.text, theirs, job);
     else
         st =
             fail(E_CHECKPOINT,

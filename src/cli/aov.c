@@ -32,7 +32,7 @@ struct pictures {
     char name[256];
     bool missing; /* --missing */
     struct job *job;
-    uint64_t job_hash;
+    struct job_states states;
     const struct job_camera **camera;
     size_t n_cameras;
     bool no_wind; /* the wind was a flow and is not in any file */
@@ -143,7 +143,7 @@ static status write_picture(const struct pictures *s, int frame, const struct ao
         .fps = s->job->fps,
         .frame = frame,
         .years = (frame - s->job->frames.first) * s->job->clock.years_per_frame,
-        .job_hash = s->job_hash,
+        .job_hash = job_state(&s->states, frame),
         .owner = s->job->output.owner,
         .comments = s->job->output.comments,
     };
@@ -275,6 +275,7 @@ static void finish(struct pictures *s)
         gpu_destroy(&s->gpu);
     }
     free(s->camera);
+    job_states_free(&s->states);
     job_destroy(&s->job);
 }
 
@@ -318,7 +319,7 @@ status cli_aov(int argc, char **argv)
     TRY(path_join(&path, s.root.text, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &s.job));
     TRY(branch_prepare_own(s.job, s.root.text));
-    TRY(job_hash(s.job, &s.job_hash));
+    TRY(job_states(s.job, &s.states));
     job_destroy(&s.job);
     TRY(job_load(path.text, c.sets.item, c.sets.n, &s.job));
     TRY(choose_cameras(&s, &cameras));

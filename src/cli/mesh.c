@@ -12,21 +12,27 @@
 #include "system/progress.h"
 #include "text/text.h"
 
-/* Lists the meshes in the USD stage, and repeats this as long as other tasks add meshes, so that the last task lists them all. */
+/* Lists the meshes in the USD stage, and repeats this as long as other tasks add meshes, so that the last task lists them all. Where the
+ * job's input files are missing, frames of another job cannot be told from its own. */
 static status list_in_stage(const struct job *job, const char *root)
 {
     status st = OK;
-    uint64_t hash;
+    struct job_states states = {0};
     size_t before, n = 0;
-    TRY(folder_job_hash(root, &hash));
+    st = job_states(job, &states);
+    const bool known = st == OK;
+    if (st == E_INPUT)
+        st = OK;
+    TRY(st);
     do {
         int *frames = NULL;
         before = n;
-        TRY(stage_write(job, hash, root, NULL));
+        TRY(stage_write(job, known ? &states : NULL, root, NULL));
         TRY(folder_list(root, job->name, FILE_MESH_USD, &frames, &n));
         free(frames);
     } while (n != before);
 done:
+    job_states_free(&states);
     return st;
 }
 

@@ -47,7 +47,7 @@ status cli_run(int argc, char **argv)
     struct shown shown = {0};
     struct path root, path, folder;
     const char *farm = NULL, *path_map = NULL;
-    bool help = false, repair = false;
+    bool help = false, repair = false, change = false;
     int wedge = 0;
     const struct option options[] = {
         OPTION_OUT(&c),
@@ -62,11 +62,17 @@ status cli_run(int argc, char **argv)
          "the farm's output folder; with --wedge, output goes to the wedge's folder in it"},
         {"path-map", "FILE", OPTION_TEXT, &path_map,
          "path mapping rules of an OpenJD session, applied to the job's input files"},
+        {"continue", NULL, OPTION_FLAG, &change,
+         "the job was changed from some frame on: keep the frames before, and make the others again from the nearest checkpoint; says first what is kept"},
         {"repair", NULL, OPTION_FLAG, &repair,
          "also restore damaged and missing checkpoints, by simulating again, from the start if necessary"}};
     TRY(options_parse(&usage_run, options, sizeof options / sizeof *options, argc, argv, &operands, &help));
     if (help)
         goto done;
+    if (change && c.resume == RUN_NEVER) {
+        st = fail(E_USAGE, "run: --continue keeps frames and --resume never discards them; choose one");
+        goto done;
+    }
     if (c.from)
         TRY(arguments_add(&c.sets, BRANCH_SET));
     TRY(job_load(operands.item[0], c.sets.item, c.sets.n, &job));
@@ -96,6 +102,7 @@ status cli_run(int argc, char **argv)
                                            .frames = c.frames,
                                            .resume = (enum run_resume)c.resume,
                                            .repair = repair,
+                                           .change = change,
                                            .begin = show_begin,
                                            .frame = show_frame,
                                            .stop = stop_requested,

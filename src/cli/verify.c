@@ -104,7 +104,7 @@ static status verify_frame(struct search *s, int frame)
         st = OK;
         goto done;
     }
-    if (m.job_hash != s->job_hash)
+    if (s->states.n && !job_states_hold(&s->states, frame, m.job_hash))
         report_problem(s, false, relative, "it belongs to another job");
     else if (s->files_hash && m.files_hash != s->files_hash)
         report_problem(
@@ -127,8 +127,8 @@ static status verify_job(struct search *s)
     status st = OK;
     struct path path;
     struct job *job = NULL;
-    uint64_t hash;
-    TRY(folder_job_hash(s->root, &s->job_hash));
+    uint64_t made;
+    TRY(folder_job_hash(s->root, &made));
     TRY(path_join(&path, s->root, "job.yaml"));
     st = job_load(path.text, NULL, 0, &job);
     if (st != OK && st != E_MEMORY) {
@@ -141,13 +141,16 @@ static status verify_job(struct search *s)
     if (!s->only_frames)
         s->frames = job->frames;
     TRY(job_files_hash(job, &s->files_hash));
-    st = job_hash(job, &hash);
+    st = branch_prepare_own(job, s->root);
+    if (st == OK)
+        st = job_states(job, &s->states);
     if (st == E_INPUT) {
         log_info("%s cannot be compared with the job of the frames: %s", path.text, status_message());
         st = OK;
-    } else if (st == OK && hash != s->job_hash) {
+    } else if (st == OK && s->states.job != made) {
         report_problem(s, false, "job.yaml", "it is not the job of the frames");
         s->bad_job = true;
+        job_states_free(&s->states); /* not those of the frames */
     }
 done:
     job_destroy(&job);
@@ -273,6 +276,7 @@ status cli_verify(int argc, char **argv)
     TRY(report(&s));
 done:
     text_free(&s.answer);
+    job_states_free(&s.states);
     remakes_free(&s);
     arguments_free(&operands);
     return st;

@@ -2,6 +2,7 @@
 #ifndef HOODOO_VERIFY_H
 #define HOODOO_VERIFY_H
 
+#include "job/job.h"
 #include "output/product.h"
 #include "text/text.h"
 
@@ -20,8 +21,8 @@ struct search {
     bool json,
         only_frames; /* only_frames: --frames is given, which excludes checkpoints and products of all frames */
     bool bad_job;    /* a problem with job.yaml was already reported */
-    uint64_t job_hash;   /* of the job that made the frames */
-    uint64_t files_hash; /* of the keys of job.yaml that affect the files of frames only; 0: unknown */
+    struct job_states states; /* of the job; n is 0 if job.yaml cannot be compared with the frames */
+    uint64_t files_hash;      /* of the keys of job.yaml that affect the files of frames only; 0: unknown */
     size_t n_frames, n_files, n_products, n_checkpoints, n_bad_checkpoints, n_damaged, n_missing;
     size_t n_others; /* damaged and missing files that `hoodoo run` does not make */
     struct remake *remake;

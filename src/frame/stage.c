@@ -44,8 +44,8 @@ static void left_out(const struct stage *s, int frame, const char *why)
 }
 
 /* *sound: the frame is done and belongs to this job. */
-static status read_frame(const struct stage *s, uint64_t job_hash, int number, struct stage_frame *out,
-                         bool *sound)
+static status read_frame(const struct stage *s, const struct job_states *states, int number,
+                         struct stage_frame *out, bool *sound)
 {
     status st = OK;
     const char *bad = "";
@@ -61,7 +61,8 @@ static status read_frame(const struct stage *s, uint64_t job_hash, int number, s
     TRY(manifest_check(s->root, &m, false, &bad));
     if (*bad)
         left_out(s, number, status_message());
-    *sound = !*bad && m.job_hash == job_hash && range_holds(s->job->frames, number);
+    *sound = !*bad && (!states || job_states_hold(states, number, m.job_hash)) &&
+             range_holds(s->job->frames, number);
     *out = (struct stage_frame){.number = number,
                                 .volumes = manifest_lists(&m, "volumes/", ".vdb"),
                                 .points = manifest_lists(&m, "points/", ".usdc"),
@@ -72,7 +73,7 @@ done:
 }
 
 /* Updates `known`, in ascending order; the manifests of frames that it has already are not read again. */
-static status find_frames(const struct stage *s, uint64_t job_hash, struct stage_frames *known)
+static status find_frames(const struct stage *s, const struct job_states *states, struct stage_frames *known)
 {
     status st = OK;
     int *number = NULL;
@@ -87,7 +88,7 @@ static status find_frames(const struct stage *s, uint64_t job_hash, struct stage
         if (k < known->n && known->frame[k].number == number[i])
             found[n_found] = known->frame[k];
         else
-            TRY(read_frame(s, job_hash, number[i], &found[n_found], &sound));
+            TRY(read_frame(s, states, number[i], &found[n_found], &sound));
         n_found += sound;
     }
     stage_frames_free(known);
@@ -392,7 +393,8 @@ done:
     return st;
 }
 
-status stage_write(const struct job *job, uint64_t job_hash, const char *root, struct stage_frames *known)
+status stage_write(const struct job *job, const struct job_states *states, const char *root,
+                   struct stage_frames *known)
 {
     status st = OK;
     struct stage_frames all = {0};
@@ -409,7 +411,7 @@ status stage_write(const struct job *job, uint64_t job_hash, const char *root, s
                                    .up = job->output.up}};
     if (!known)
         known = &all;
-    TRY(find_frames(&s, job_hash, known));
+    TRY(find_frames(&s, states, known));
     if (known->n == 0)
         goto done;
     TRY(list_frames(&s, known));

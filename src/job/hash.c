@@ -189,8 +189,7 @@ done:
     return st;
 }
 
-/* An edit or an operation is hashed in full in the frames in which it is applied. Constant parameters that an edit sets, and whether it
- * plants anything, count from the start, because models allocate memory accordingly. */
+/* An edit or an operation is hashed in full in the frames in which it is applied. */
 static status walk_deed(struct walk *w, enum job_section_id section, const void *item)
 {
     status st = OK;
@@ -200,13 +199,7 @@ static status walk_deed(struct walk *w, enum job_section_id section, const void 
     const struct frame_range when = section == SECTION_edit
                                         ? (struct frame_range){(int)edit->frame, (int)edit->frame, 1}
                                         : operation->frames;
-    if (part == WALK_STEADY && section == SECTION_edit) {
-        bool plants = false;
-        for (size_t k = 0; k < edit->n_paint; k++)
-            plants |= edit->paint[k].vegetation > 0;
-        put_count(w, plants);
-        TRY(walk_sets(w, &edit->set));
-    } else if (part == WALK_MOMENT && range_holds(when, w->frame)) {
+    if (part == WALK_MOMENT && range_holds(when, w->frame)) {
         w->part = WALK_ALL;
         TRY(walk_section(w, section, item));
     }
@@ -239,13 +232,66 @@ static status walk_sets(struct walk *w, const struct job_sets *sets)
 {
     const struct job_section *s = &job_sections[SECTION_job];
     status st = OK;
-    if (w->whole && w->part == WALK_ALL) /* the hash of a frame covers the job with its edits applied */
+    if (w->whole) /* the hash of a frame covers the job with its edits applied */
         return OK;
     put_count(w, sets->n);
     for (size_t i = 0; sets->n && i < s->n; i++)
         if (job_settable(s->key[i].name))
             TRY(walk_key(w, &s->key[i], sets->job));
 done:
+    return st;
+}
+
+/* The part that does not vary between frames of the keys that an edit may set. */
+static status walk_settable(struct walk *w, const struct job *job)
+{
+    const struct job_section *s = &job_sections[SECTION_job];
+    const enum walk_part part = w->part;
+    status st = OK;
+    w->part = WALK_STEADY;
+    for (size_t i = 0; i < s->n; i++)
+        if (job_settable(s->key[i].name))
+            TRY(walk_key(w, &s->key[i], job));
+done:
+    w->part = part;
+    return st;
+}
+
+static bool same_bytes(const struct text *a, const struct text *b)
+{
+    return a->size == b->size && memcmp(a->data, b->data, a->size) == 0;
+}
+
+/* What later edits make a model allocate from the start: whether any of them plants, and constants that differ from those of the job and
+ * of the edit before. */
+static status walk_ahead(struct walk *w)
+{
+    const struct job *job = w->whole;
+    status st = OK;
+    bool plants = false;
+    struct walk base = {.whole = job}, last = {.whole = job}, next = {.whole = job};
+    TRY(walk_settable(&base, job));
+    TRY(walk_settable(&last, job));
+    for (size_t i = 0; i < job->n_edits; i++) {
+        const struct job_edit *edit = &job->edits[i];
+        for (size_t k = 0; k < edit->n_paint; k++)
+            plants |= edit->paint[k].vegetation > 0;
+        if (!edit->set.job)
+            continue;
+        next.canonical.size = 0;
+        TRY(walk_settable(&next, edit->set.job));
+        if (same_bytes(&next.canonical, &base.canonical) || same_bytes(&next.canonical, &last.canonical))
+            continue;
+        text_add_bytes(&w->canonical, next.canonical.data, next.canonical.size);
+        const struct text swap = last.canonical;
+        last.canonical = next.canonical;
+        next.canonical = swap;
+    }
+    put_count(w, plants);
+done:
+    text_free(&base.canonical);
+    text_free(&last.canonical);
+    text_free(&next.canonical);
     return st;
 }
 
@@ -268,8 +314,6 @@ static status walk_key(struct walk *w, const struct job_key *key, const void *ba
     const double *points;
     const void *child;
     size_t n;
-    if (w->part == WALK_MOMENT && !key_has_moments(key))
-        return OK;
     switch (key->type) {
     case KEY_TEXT:
     case KEY_NAME:
@@ -343,7 +387,7 @@ static status is_default(struct walk *w, enum job_section_id section, const stru
                          bool *out)
 {
     status st = OK;
-    struct walk preset = {.of_files = w->of_files, .all = w->all};
+    struct walk preset = {.of_files = w->of_files, .all = w->all, .part = w->part, .frame = w->frame};
     void *base = NULL;
     *out = false;
     if (key_required(key))
@@ -387,13 +431,13 @@ static status walk_section(struct walk *w, enum job_section_id section, const vo
     for (size_t i = 0; i < s->n; i++) {
         const struct job_key *key = &s->key[i];
         bool leave = false;
-        if (!wanted(w, key))
+        if (!wanted(w, key) || (w->part == WALK_MOMENT && !key_has_moments(key)))
             continue;
         const size_t back = path_add(w, key->name), before = w->canonical.size;
         put_text(w, key->name);
         const size_t at = w->canonical.size;
         TRY(walk_key(w, key, base));
-        if (!w->of_files && w->part == WALK_ALL && key_later(key))
+        if (!w->of_files && key_later(key))
             TRY(is_default(w, section, key, at, &leave));
         if (leave)
             w->canonical.size = before;
@@ -489,11 +533,15 @@ status job_frame_hashes(const struct job *job, int last, uint64_t *hash)
     status st = OK;
     struct walk w = {.part = WALK_STEADY, .whole = job};
     TRY(walk_job(&w, job));
+    TRY(walk_ahead(&w));
     for (int frame = job->frames.first; frame <= last; frame++) {
         const size_t at = (size_t)(frame - job->frames.first);
+        const struct job *now = job_at(job, frame);
         w.part = WALK_MOMENT;
         w.frame = frame;
-        TRY(walk_section(&w, SECTION_job, job_at(job, frame)));
+        TRY(walk_section(&w, SECTION_job, now));
+        if (now != (at ? job_at(job, frame - 1) : job))
+            TRY(walk_settable(&w, now));
         TRY(text_status(&w.canonical));
         hash[at] = hash_bytes(w.canonical.data, w.canonical.size);
         w.canonical.size = 0;
@@ -502,6 +550,46 @@ status job_frame_hashes(const struct job *job, int last, uint64_t *hash)
 done:
     walk_end(&w);
     return st;
+}
+
+status job_states(const struct job *job, struct job_states *out)
+{
+    status st = OK;
+    struct job_states s = {.first = job->frames.first};
+    TRY(job_hash(job, &s.job));
+    s.n = (size_t)(job->frames.last - job->frames.first) + 1;
+    TRY(memory_alloc(s.n, sizeof *s.frame, "hashes of frames", &s.frame));
+    TRY(job_frame_hashes(job, job->frames.last, s.frame));
+    *out = s;
+    s = (struct job_states){0};
+done:
+    job_states_free(&s);
+    return st;
+}
+
+void job_states_free(struct job_states *states)
+{
+    free(states->frame);
+    *states = (struct job_states){0};
+}
+
+uint64_t job_state(const struct job_states *s, int frame)
+{
+    const bool inside = frame >= s->first && (size_t)(frame - s->first) < s->n;
+    return inside ? s->frame[frame - s->first] : s->job;
+}
+
+bool job_states_hold(const struct job_states *s, int frame, uint64_t hash)
+{
+    return hash == job_state(s, frame) || hash == s->job;
+}
+
+int job_states_differ(const struct job_states *one, const struct job_states *other)
+{
+    size_t i = 0;
+    while (i < one->n && i < other->n && one->frame[i] == other->frame[i])
+        i++;
+    return one->first + (int)i;
 }
 
 /* The start of a leaf. */

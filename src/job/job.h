@@ -223,8 +223,29 @@ MUST_USE status job_files_hash(const struct job *job, uint64_t *hash);
 
 /* Hashes of frames: hash[i] covers everything that the state in frame `first + i` <= `last` depends on, which is all constant
  * values, and the curves, edits and operations up to that frame. Two jobs with the same hash of a frame have the same state
- * there. The hashes are valid within one build of hoodoo and are not stored in files. */
+ * there. Like job_hash(), they do not change with releases of hoodoo. */
 MUST_USE status job_frame_hashes(const struct job *job, int last, uint64_t *hash);
+
+/* What identifies the frames of a job in manifests and checkpoints: the hashes of all its frames. Releases before 0.2 wrote the hash
+ * of the whole job instead, which remains valid. */
+struct job_states {
+    uint64_t job;    /* job_hash() */
+    int first;       /* the frame of hash[0] */
+    size_t n;        /* frames */
+    uint64_t *frame; /* owned; job_states_free() */
+};
+MUST_USE status job_states(const struct job *job, struct job_states *out);
+void job_states_free(struct job_states *states);
+
+/* The hash of a frame; that of the job for frames outside of it. */
+uint64_t job_state(const struct job_states *states, int frame);
+
+/* Whether a manifest or checkpoint of the frame with this hash belongs to the job. */
+bool job_states_hold(const struct job_states *states, int frame, uint64_t hash);
+
+/* The first frame in which the states of two jobs with the same first frame differ; if there is none, the frame after the last that
+ * both have. */
+int job_states_differ(const struct job_states *one, const struct job_states *other);
 
 /* The path of the first key, in the table's order, in which two jobs differ, among the keys that affect the simulation or, with `files`,
  * the files of frames. "frames" if no other key differs. */

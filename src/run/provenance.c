@@ -11,6 +11,7 @@
 #include "base/path.h"
 #include "base/version.h"
 #include "output/product.h"
+#include "output/sealed.h"
 #include "system/atomic_file.h"
 #include "text/json.h"
 
@@ -58,6 +59,16 @@ done:
     return st;
 }
 
+static status add_change(struct provenance *p, const struct change *change)
+{
+    status st = OK;
+    TRY(memory_grow(&p->change, &p->change_capacity, p->n_changes + 1, sizeof *p->change,
+                    "the changes of a run"));
+    p->change[p->n_changes++] = *change;
+done:
+    return st;
+}
+
 static status read_run(const char *root, struct provenance *p)
 {
     status st = OK;
@@ -75,6 +86,13 @@ static status read_run(const char *root, struct provenance *p)
     for (const struct json *v = list && list->kind == JSON_ARRAY ? list->first : NULL; v; v = v->next)
         if (read_maker(v, &maker) && json_to_int(json_member(v, "frame"), &frame))
             TRY(add(p, frame, &maker));
+    list = json_member(json, "changed");
+    for (const struct json *v = list && list->kind == JSON_ARRAY ? list->first : NULL; v; v = v->next) {
+        struct change change = {.any = true};
+        if (json_to_int(json_member(v, "frame"), &change.frame) &&
+            sealed_to_hash(json_member(v, "job_hash"), &change.job_hash))
+            TRY(add_change(p, &change));
+    }
 done:
     json_free(&json);
     free(bytes);
@@ -98,6 +116,7 @@ status provenance_begin(const struct gpu *gpu, const char *root, enum run_resume
 void provenance_free(struct provenance *p)
 {
     free(p->continued);
+    free(p->change);
     *p = (struct provenance){0};
 }
 
@@ -197,6 +216,21 @@ static void add_continued(struct text *t, const struct provenance *p)
     json_end_array(t);
 }
 
+static void add_changes(struct text *t, const struct provenance *p)
+{
+    char hash[17];
+    if (p->n_changes == 0)
+        return;
+    json_array(t, "changed");
+    for (size_t i = 0; i < p->n_changes; i++) {
+        json_object(t, NULL);
+        json_integer(t, "frame", p->change[i].frame);
+        json_text(t, "job_hash", hash_text(p->change[i].job_hash, hash));
+        json_end_object(t);
+    }
+    json_end_array(t);
+}
+
 static void add_job(struct text *t, const struct job *job, uint64_t job_hash)
 {
     char hash[17];
@@ -267,6 +301,7 @@ static status write_run(const struct provenance *p, const struct gpu *gpu, const
         json_text(&t, "device_pci", gpu_info(gpu)->pci);
     }
     add_continued(&t, p);
+    add_changes(&t, p);
     add_job(&t, job, job_hash);
     TRY(add_inputs(&t, job));
     json_end_object(&t);
@@ -277,11 +312,17 @@ done:
     return st;
 }
 
+/* job.yaml comes last: it decides whose folder this is. */
 status provenance_write(const struct provenance *p, const struct gpu *gpu, const struct job *job,
                         uint64_t job_hash, const char *root)
 {
-    const status st = write_job(job, root);
-    return st == OK ? write_run(p, gpu, job, job_hash, root) : st;
+    const status st = write_run(p, gpu, job, job_hash, root);
+    return st == OK ? write_job(job, root) : st;
+}
+
+status provenance_change(struct provenance *p, const struct change *change)
+{
+    return change->any ? add_change(p, change) : OK;
 }
 
 /* The maker of the newest sound checkpoint; without one, *out is not changed. */
@@ -343,24 +384,31 @@ done:
     return st;
 }
 
-status provenance_restore(const struct job *job, uint64_t job_hash, const char *root)
+status provenance_restore(const struct job *job, uint64_t job_hash, const struct change *change,
+                          const char *root)
 {
     status st = OK;
     struct provenance p = {0};
     uint64_t hash;
     bool recorded, intact;
-    TRY(write_job(job, root));
     TRY(check_file(root, "run.json", &recorded, &intact));
-    if ((intact || !recorded) && folder_job_hash(root, &hash) == OK && hash == job_hash)
-        return intact ? OK : record_again(root, "run.json");
-    log_warn("%s/run.json is missing, damaged or belongs to another job; it is rewritten", root);
+    if ((intact || !recorded) && !change->any && folder_job_hash(root, &hash) == OK && hash == job_hash) {
+        if (!intact)
+            TRY(record_again(root, "run.json"));
+        TRY(write_job(job, root));
+        goto done;
+    }
+    if (!change->any)
+        log_warn("%s/run.json is missing, damaged or belongs to another job; it is rewritten", root);
     if (!recorded || intact)
         TRY(read_run(root, &p));
     if (p.known)
         p.here = p.maker;
     else
         TRY(maker_of_newest(root, job->name, &p.here));
+    TRY(provenance_change(&p, change));
     TRY(write_run(&p, NULL, job, job_hash, root));
+    TRY(write_job(job, root));
 done:
     provenance_free(&p);
     return st;

@@ -68,7 +68,7 @@ static status time_output(struct gpu *gpu, struct model *model, struct job *job,
     TRY(gpu_wait(gpu));
     *made = since(start);
     start = now();
-    TRY(frame_write(job, 0, "", &frame));
+    TRY(frame_write(job, &(struct job_states){0}, "", &frame));
     *written = since(start);
 done:
     frame_free(&frame);

@@ -15,6 +15,7 @@
 #include "run/advice.h"
 #include "run/branch.h"
 #include "run/memory.h"
+#include "run/owner.h"
 #include "run/provenance.h"
 #include "run/timing.h"
 #include "run/writer.h"
@@ -24,7 +25,8 @@
 struct run {
     const struct job *job;
     const struct run_options *options;
-    uint64_t job_hash;
+    struct job_states states;
+    struct change change; /* the folder's job before, with --continue */
     struct frame_range frames;
     struct gpu *gpu;
     struct model *model;
@@ -57,7 +59,7 @@ static status frame_done(struct run *r, int frame, bool *done, bool *compared)
     status st = manifest_read(r->options->root, r->job->name, frame, &manifest);
     if (st == OK)
         st = manifest_check(r->options->root, &manifest, !*compared, &bad);
-    *done = st == OK && *bad == '\0' && manifest.job_hash == r->job_hash;
+    *done = st == OK && *bad == '\0' && job_states_hold(&r->states, frame, manifest.job_hash);
     *compared = *done;
     if (st == OK && *bad)
         log_info("frame %d will be made again: %s", frame, status_message());
@@ -107,7 +109,7 @@ static status survey(struct run *r)
     TRY(folder_frames(r->options->root, r->job->name, &existing, &n_existing));
     r->any_frames = n_existing > 0;
     for (size_t i = 0; i < n_existing; i++) {
-        if (!range_holds(r->frames, existing[i]))
+        if (!range_holds(r->frames, existing[i]) || (r->change.any && existing[i] >= r->change.frame))
             continue;
         if (r->options->stop && r->options->stop()) {
             st = fail(STOPPED,
@@ -143,57 +145,7 @@ done:
 static bool frames_are_ours(const struct run *r)
 {
     uint64_t hash;
-    return folder_job_hash(r->options->root, &hash) == OK && hash == r->job_hash;
-}
-
-status run_refuse_other_job(const char *root, const char *path, const struct job *theirs,
-                            const struct job *ours)
-{
-    status st = OK;
-    char key[256];
-    if (strcmp(theirs->name, ours->name) != 0)
-        return fail(E_CHECKPOINT, "%s holds another job, %s; use another --out", root, theirs->name);
-    TRY(job_differ(theirs, ours, false, key));
-    if (strcmp(key, "frames") == 0)
-        st = fail(
-            E_CHECKPOINT,
-            "%s holds this job's frames from frame %d on, but the job now begins at frame %d, which changes the age of the rock in every frame; use another --out, or start over with hoodoo run --resume never",
-            root, theirs->frames.first, ours->frames.first);
-    else
-        st = fail(
-            E_CHECKPOINT,
-            "%s holds another job: %s differs in %s, which changes the simulation; use another --out, or start over with hoodoo run --resume never",
-            root, path, key);
-done:
-    return st;
-}
-
-static status refuse_mixed_files(const char *root, struct frame_range frames, const char *key)
-{
-    char range[48];
-    return fail(
-        E_CHECKPOINT,
-        "%s: frames %s were written with another %s than the job has now, and all frames of a folder must be written alike; restore the old value, use another --out, or start over with hoodoo run --resume never (hoodoo aov makes pictures with other cameras from existing frames)",
-        root, range_text(frames, range), key);
-}
-
-status run_check_files(const char *root, const struct job *theirs, const struct job *ours)
-{
-    status st = OK;
-    uint64_t hash, other;
-    int *frames = NULL;
-    size_t n = 0;
-    char key[256];
-    TRY(job_files_hash(theirs, &hash));
-    TRY(job_files_hash(ours, &other));
-    TRY(folder_frames(root, ours->name, &frames, &n));
-    if (n == 0 || hash == other)
-        goto done;
-    TRY(job_differ(theirs, ours, true, key));
-    st = refuse_mixed_files(root, (struct frame_range){frames[0], frames[n - 1], 1}, key);
-done:
-    free(frames);
-    return st;
+    return folder_job_hash(r->options->root, &hash) == OK && hash == r->states.job;
 }
 
 /* Decides whether job.yaml must be rewritten because keys were edited that no frame depends on, such as those of previews: the other
@@ -240,13 +192,16 @@ static status check_owner(struct run *r)
             E_CHECKPOINT,
             "%s cannot be read, so it is not known which job this folder belongs to (%s); use another --out, or --resume never to start over",
             path.text, status_message());
-    } else if (strcmp(theirs->name, r->job->name) == 0 && hash != r->job_hash && frames_are_ours(r)) {
+    } else if (strcmp(theirs->name, r->job->name) == 0 && hash != r->states.job && frames_are_ours(r)) {
         log_warn("%s is not the job that made the frames; it is rewritten", path.text);
         r->write_provenance = true;
-    } else if (hash != r->job_hash || strcmp(theirs->name, r->job->name) != 0) {
-        st = run_refuse_other_job(r->options->root, path.text, theirs, r->job);
+    } else if (r->options->change && (hash != r->states.job || theirs->frames.last < r->job->frames.last)) {
+        TRY(owner_change(r->options->root, path.text, theirs, r->job, &r->states, &r->change));
+        r->write_provenance = true;
+    } else if (hash != r->states.job || strcmp(theirs->name, r->job->name) != 0) {
+        st = owner_refuse(r->options->root, path.text, theirs, r->job);
     } else {
-        TRY(run_check_files(r->options->root, theirs, r->job));
+        TRY(owner_check_files(r->options->root, theirs, r->job));
         TRY(compare_job_file(r, theirs));
     }
 done:
@@ -330,9 +285,6 @@ done:
 /* Checks that this process may continue the checkpoint: bit for bit, unless --resume allows otherwise. */
 static status check_provenance(struct run *r, const struct checkpoint *c, const char *path)
 {
-    if (c->job_hash != r->job_hash && strcmp(path, r->job->from) != 0)
-        return fail(E_CHECKPOINT,
-                    "%s belongs to another job; use another --out, or --resume never to start over", path);
     return provenance_continue(&r->provenance, &c->maker, c->frame, path);
 }
 
@@ -357,6 +309,11 @@ static status find_checkpoint(struct run *r, struct checkpoint *c, bool *found)
             continue;
         }
         TRY(st);
+        if (!job_states_hold(&r->states, c->frame, c->job_hash)) {
+            log_info("%s is not of this job; trying the one before", path.text);
+            checkpoint_free(c);
+            continue;
+        }
         TRY(check_provenance(r, c, path.text));
         *found = true;
     }
@@ -370,7 +327,7 @@ static status save(struct run *r)
     status st = OK;
     struct checkpoint c;
     TRY(model_save(r->model, &c));
-    c.job_hash = r->job_hash;
+    c.job_hash = job_state(&r->states, c.frame);
     c.maker = r->provenance.here;
     TRY(writer_checkpoint(r->writer, &c));
 done:
@@ -450,8 +407,11 @@ static status begin(struct run *r)
     if (r->pace == PACE_STREAM)
         model_stream(r->model);
     /* Only now, so that a job whose scene is refused does not claim the folder. */
-    TRY(provenance_write(&r->provenance, r->gpu, r->job, r->job_hash, r->options->root));
-    TRY(writer_create(r->job, r->job_hash, r->options->root, r->pace != PACE_OVERLAP, &r->writer));
+    TRY(provenance_change(&r->provenance, &r->change));
+    TRY(provenance_write(&r->provenance, r->gpu, r->job, r->states.job, r->options->root));
+    if (r->change.any)
+        TRY(owner_discard(r->options->root, r->job->name, r->change.frame));
+    TRY(writer_create(r->job, &r->states, r->options->root, r->pace != PACE_OVERLAP, &r->writer));
 done:
     checkpoint_free(&c);
     return st;
@@ -532,11 +492,13 @@ static status complete_folder(struct run *r)
     if (r->write_provenance || !intact || !frames_are_ours(r)) {
         if (!r->lock)
             TRY(lock_folder(r));
-        TRY(provenance_restore(r->job, r->job_hash, r->options->root));
+        TRY(provenance_restore(r->job, r->states.job, &r->change, r->options->root));
     }
+    if (r->change.any)
+        TRY(owner_discard(r->options->root, r->job->name, r->change.frame));
     TRY(path_join(&path, r->options->root, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &theirs));
-    TRY(stage_write(theirs, r->job_hash, r->options->root, NULL));
+    TRY(stage_write(theirs, &r->states, r->options->root, NULL));
 done:
     job_destroy(&theirs);
     return st;
@@ -556,7 +518,7 @@ status run_job(struct job *job, const struct run_options *options)
         return fail(E_USAGE, "--frames %s: the job's frames are %s", range_text(r.frames, requested),
                     range_text(job->frames, all));
     }
-    TRY(job_hash(job, &r.job_hash));
+    TRY(job_states(job, &r.states));
     TRY(job_files_hash(job, &r.files_hash));
     TRY(folder_prepare(options->root));
     TRY(path_join(&r.lock_path, options->root, "lock"));
@@ -565,7 +527,7 @@ status run_job(struct job *job, const struct run_options *options)
     if (!options->repair)
         TRY(survey(&r));
     if (options->resume != RUN_NEVER && r.other.step)
-        TRY(refuse_mixed_files(options->root, r.other, "setting of output, cameras, fps or colours"));
+        TRY(owner_refuse_mixed(options->root, r.other, "setting of output, cameras, fps or colours"));
     if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
         TRY(lock_folder(&r));
     else
@@ -598,6 +560,7 @@ done:
     atomic_file_guard(NULL, NULL);
     lock_release(&r.lock);
     provenance_free(&r.provenance);
+    job_states_free(&r.states);
     free(r.done);
     free(r.compared);
     return st;

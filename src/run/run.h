@@ -4,6 +4,7 @@
  * Resume      Work starts at the first frame that is not done, from the newest sound checkpoint at or before that frame, or from the
  *             job's first frame. Frames passed on the way that are already done are not written again. Work ends at the last frame that
  *             is not done, provided that the checkpoint of the last frame exists.
+ * Changes     With `change`, a job that differs from the folder's only from a frame on keeps the frames before (owner.h).
  * Branches    A job with `from` starts from that checkpoint (branch.h), whose frame becomes the job's first.
  * Marks       The checkpoints of the frames in checkpoint.mark are kept; missing ones are made, by simulating again if necessary.
  * Refusals    E_CHECKPOINT: the folder belongs to another job; a checkpoint, or frames without one, were made by another build of
@@ -33,6 +34,8 @@ struct run_options {
     bool
         repair; /* also replace damaged and missing checkpoints, if necessary by simulating from the first frame */
 
+    bool change; /* take over a folder whose job has the same states up to some frame */
+
     /* Callbacks for progress and stopping; each may be NULL. */
     void (*begin)(void *user, struct frame_range frames, size_t done);
     void (*frame)(void *user, int frame, double volume_share, int stress_iterations);
@@ -41,13 +44,5 @@ struct run_options {
 };
 
 MUST_USE status run_job(struct job *job, const struct run_options *options);
-
-/* Returns E_CHECKPOINT: the folder's job.yaml, read from `path`, is the job `theirs` and not `ours`; the message names the first
- * key that differs. */
-status run_refuse_other_job(const char *root, const char *path, const struct job *theirs,
-                            const struct job *ours);
-
-/* E_CHECKPOINT if the folder has frames whose files `ours` would write differently, for example with other cameras. */
-MUST_USE status run_check_files(const char *root, const struct job *theirs, const struct job *ours);
 
 #endif

@@ -18,9 +18,9 @@
 
 /* ---- the files of one frame */
 
-static uint64_t identity(uint64_t job_hash, int frame, enum folder_file kind)
+static uint64_t identity(uint64_t state, int frame, enum folder_file kind)
 {
-    uint64_t words[3] = {job_hash, (uint64_t)(int64_t)frame, (uint64_t)kind};
+    uint64_t words[3] = {state, (uint64_t)(int64_t)frame, (uint64_t)kind};
     return hash_bytes(words, sizeof words);
 }
 
@@ -61,13 +61,13 @@ done:
     return st;
 }
 
-static status write_points(const struct job *job, uint64_t job_hash, const char *root,
-                           const struct frame *frame, struct vdb_options *options, struct manifest *manifest)
+static status write_points(const struct job *job, uint64_t state, const char *root, const struct frame *frame,
+                           struct vdb_options *options, struct manifest *manifest)
 {
     status st = OK;
     struct draft file = {0};
     if (options->points != VDB_POINTS_NONE) {
-        options->identity = identity(job_hash, frame->number, FILE_POINTS);
+        options->identity = identity(state, frame->number, FILE_POINTS);
         TRY(begin_file(root, job->name, FILE_POINTS, frame->number, NULL, &file));
         TRY(vdb_points_of_frame(&frame->rock, frame->deep.voxels[0] ? &frame->deep : NULL, options, &file));
         TRY(end_file(root, &file, manifest));
@@ -82,8 +82,8 @@ done:
     return st;
 }
 
-static status write_vdbs(const struct job *job, uint64_t job_hash, const char *root,
-                         const struct frame *frame, struct manifest *manifest)
+static status write_vdbs(const struct job *job, uint64_t state, const char *root, const struct frame *frame,
+                         struct manifest *manifest)
 {
     status st = OK;
     struct draft file = {0};
@@ -105,21 +105,21 @@ static status write_vdbs(const struct job *job, uint64_t job_hash, const char *r
         palette_color(job, i, color[i]);
     options.color = (const float(*)[3])color;
     if (job_writes(job, JOB_POINTS, frame->number))
-        TRY(write_points(job, job_hash, root, frame, &options, manifest));
+        TRY(write_points(job, state, root, frame, &options, manifest));
     if (!job_writes(job, JOB_VOLUMES, frame->number))
         goto done;
-    options.identity = identity(job_hash, frame->number, FILE_VOLUMES);
+    options.identity = identity(state, frame->number, FILE_VOLUMES);
     TRY(begin_file(root, job->name, FILE_VOLUMES, frame->number, NULL, &file));
     TRY(vdb_volumes(&frame->grids, &options, &file));
     TRY(end_file(root, &file, manifest));
     if (frame->air.n_grids && job->output.vdb.wind) {
-        options.identity = identity(job_hash, frame->number, FILE_WIND);
+        options.identity = identity(state, frame->number, FILE_WIND);
         TRY(begin_file(root, job->name, FILE_WIND, frame->number, NULL, &file));
         TRY(vdb_volumes(&frame->air, &options, &file));
         TRY(end_file(root, &file, manifest));
     }
     if (frame->rocks.wanted) {
-        options.identity = identity(job_hash, frame->number, FILE_ROCKS);
+        options.identity = identity(state, frame->number, FILE_ROCKS);
         options.instances = true;
         options.points = VDB_POINTS_ALL;
         options.precision = VDB_PRECISION_EXACT;
@@ -137,8 +137,8 @@ done:
     return st;
 }
 
-static status write_images(const struct job *job, uint64_t job_hash, const char *root,
-                           const struct frame *frame, struct manifest *manifest)
+static status write_images(const struct job *job, uint64_t state, const char *root, const struct frame *frame,
+                           struct manifest *manifest)
 {
     status st = OK;
     struct draft file = {0};
@@ -148,7 +148,7 @@ static status write_images(const struct job *job, uint64_t job_hash, const char 
                                   .fps = job->fps,
                                   .frame = frame->number,
                                   .years = frame->years,
-                                  .job_hash = job_hash,
+                                  .job_hash = state,
                                   .owner = job->output.owner,
                                   .comments = job->output.comments,
                                   .wedge = job->wedge.label};
@@ -167,13 +167,15 @@ done:
     return st;
 }
 
-status frame_write(const struct job *job, uint64_t job_hash, const char *root, const struct frame *frame)
+status frame_write(const struct job *job, const struct job_states *states, const char *root,
+                   const struct frame *frame)
 {
     status st = OK;
+    const uint64_t hash = job_state(states, frame->number);
     struct draft file = {0};
     struct manifest manifest = {
         .frame = frame->number,
-        .job_hash = job_hash,
+        .job_hash = hash,
         .years = frame->years,
         .volume_m3 = frame->volume_m3,
         .start_volume_m3 = frame->start_volume_m3,
@@ -188,8 +190,8 @@ status frame_write(const struct job *job, uint64_t job_hash, const char *root, c
                  frame->change[i].process);
         manifest.change[i].m3 = frame->change[i].m3;
     }
-    TRY(write_vdbs(job, job_hash, root, frame, &manifest));
-    TRY(write_images(job, job_hash, root, frame, &manifest));
+    TRY(write_vdbs(job, hash, root, frame, &manifest));
+    TRY(write_images(job, hash, root, frame, &manifest));
     if (frame->stacks.bytes) {
         TRY(begin_file(root, job->name, FILE_STACKS, frame->number, NULL, &file));
         TRY(draft_append(&file, frame->stacks.bytes, frame->stacks.size));
@@ -217,7 +219,7 @@ struct item {
 
 struct writer {
     const struct job *job;
-    uint64_t job_hash;
+    const struct job_states *states;
     const char *root;
     bool blocking;
     pthread_t thread;
@@ -267,10 +269,10 @@ static void *writer_main(void *argument)
         pthread_mutex_unlock(&w->lock);
         if (st == OK)
             st = item->is_checkpoint ? write_checkpoint(w, &item->checkpoint)
-                                     : frame_write(w->job, w->job_hash, w->root, &item->frame);
+                                     : frame_write(w->job, w->states, w->root, &item->frame);
         /* Keep the USD stage current, so that an unfinished run can be opened. */
         if (st == OK && item->is_checkpoint)
-            st = stage_write(w->job, w->job_hash, w->root, &w->frames);
+            st = stage_write(w->job, w->states, w->root, &w->frames);
         pthread_mutex_lock(&w->lock);
         if (st != OK && w->st == OK) {
             w->st = st;
@@ -285,7 +287,7 @@ static void *writer_main(void *argument)
     return NULL;
 }
 
-status writer_create(const struct job *job, uint64_t job_hash, const char *root, bool blocking,
+status writer_create(const struct job *job, const struct job_states *states, const char *root, bool blocking,
                      struct writer **out)
 {
     struct writer *w = NULL;
@@ -293,7 +295,7 @@ status writer_create(const struct job *job, uint64_t job_hash, const char *root,
     if (st != OK)
         return st;
     w->job = job;
-    w->job_hash = job_hash;
+    w->states = states;
     w->root = root;
     w->blocking = blocking;
     pthread_mutex_init(&w->lock, NULL);
@@ -363,7 +365,7 @@ status writer_finish(struct writer **handle)
     pthread_mutex_unlock(&w->lock);
     pthread_join(w->thread, NULL);
     /* The final stage is made from all manifests, as that of a folder that is found complete, and not from the known frames. */
-    status st = w->st == OK ? stage_write(w->job, w->job_hash, w->root, NULL) : fail(w->st, "%s", w->message);
+    status st = w->st == OK ? stage_write(w->job, w->states, w->root, NULL) : fail(w->st, "%s", w->message);
     pthread_mutex_destroy(&w->lock);
     pthread_cond_destroy(&w->changed);
     stage_frames_free(&w->frames);

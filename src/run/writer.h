@@ -16,10 +16,10 @@
 
 struct writer;
 
-/* `job` and `root` must outlive the writer. `blocking`: each call waits until its item is written, because memory does not hold a
+/* `job`, `states` (job_states()) and `root` must outlive the writer. `blocking`: each call waits until its item is written, because memory does not hold a
  * second frame. */
-MUST_USE status writer_create(const struct job *job, uint64_t job_hash, const char *root, bool blocking,
-                              struct writer **out);
+MUST_USE status writer_create(const struct job *job, const struct job_states *states, const char *root,
+                              bool blocking, struct writer **out);
 
 /* Takes ownership of *frame, also on error. */
 MUST_USE status writer_frame(struct writer *w, struct frame *frame);
@@ -31,7 +31,7 @@ MUST_USE status writer_checkpoint(struct writer *w, struct checkpoint *checkpoin
 MUST_USE status writer_finish(struct writer **w);
 
 /* Writes the files of one frame in the calling thread. If root is "", the files are encoded in memory and discarded. */
-MUST_USE status frame_write(const struct job *job, uint64_t job_hash, const char *root,
+MUST_USE status frame_write(const struct job *job, const struct job_states *states, const char *root,
                             const struct frame *frame);
 
 #endif

@@ -194,7 +194,7 @@ static double demo(const struct job *job, const char *root, bool stages)
     gpu_times_reset(gpu);
     if (root) {
         check(folder_prepare(root));
-        check(writer_create(job, 0, root, false, &writer));
+        check(writer_create(job, &(struct job_states){0}, root, false, &writer));
     }
     const double start = clock_seconds();
     for (int f = 0; f < FRAMES; f++) {

@@ -92,6 +92,58 @@ static void the_hash_sees_edits_and_not_how_they_are_written(void **state)
     }
 }
 
+/* The first frame whose hash differs between two lists of edits. */
+static int first_difference(const char *edits, const char *others)
+{
+    struct job *one = load_good(with(edits)), *other = NULL;
+    struct job_states a, b;
+    assert_int_equal(job_states(one, &a), OK);
+    other = load_good(with(others));
+    assert_int_equal(job_states(other, &b), OK);
+    const int frame = job_states_differ(&a, &b);
+    assert_true(frame == 1001 || job_states_hold(&a, frame - 1, b.frame[frame - 1 - b.first]));
+    assert_true(job_states_hold(&a, 1001, a.job) && !job_states_hold(&a, 1001, a.job + 1));
+    job_states_free(&a);
+    job_states_free(&b);
+    job_destroy(&one);
+    job_destroy(&other);
+    return frame;
+}
+
+static void the_hash_of_a_frame_sees_what_came_before(void **state)
+{
+    (void)state;
+    static const char box[] = "box: {min_m: [0, 0, 6], max_m: [8, 8, 8]}";
+    static const struct {
+        const char *one, *other;
+        int frame;
+    } pairs[] = {
+        {"  - {frame: 1010, carve: {%s}}\n", "  - {frame: 1012, carve: {%s}}\n", 1010},
+        {"  - {frame: 1010, carve: {%s}}\n",
+         "  - {frame: 1010, carve: {%s}}\n  - {frame: 1050, carve: {%s}}\n", 1050},
+        {"  - {frame: 1010, set: {wind.speed_m_s: 4}}\n",
+         "  - {frame: 1010, set: {wind.speed_m_s: 4}}\n  - {frame: 1020, set: {wind.speed_m_s: 5}}\n", 1020},
+        {"  - {frame: 1010, set: {wind.speed_m_s: {1001: 4, 1040: 4, 1050: 5}}}\n",
+         "  - {frame: 1010, set: {wind.speed_m_s: {1001: 4, 1040: 4, 1050: 6}}}\n", 1041},
+        /* Constants count from the edit on that sets them; other constants than before count from the start. */
+        {"  - {frame: 1010, set: {rock.density_kg_m3: 2000}}\n  - {frame: 1020, set: {rock.density_kg_m3: 2300}}\n",
+         "  - {frame: 1010, set: {rock.density_kg_m3: 2300}}\n  - {frame: 1020, set: {rock.density_kg_m3: 2000}}\n",
+         1010},
+        {"  - {frame: 1010, set: {rock.density_kg_m3: 2000}}\n",
+         "  - {frame: 1010, set: {rock.density_kg_m3: 2100}}\n", 1001},
+        {"  - {frame: 1010, carve: {%s}}\n",
+         "  - {frame: 1010, carve: {%s}}\n  - {frame: 1200, carve: {%s}}\n", 1101},
+    };
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        char one[1000], other[1000];
+        snprintf(one, sizeof one, pairs[i].one, box, box);
+        snprintf(other, sizeof other, pairs[i].other, box, box);
+        const int frame = first_difference(one, other);
+        if (frame != pairs[i].frame)
+            fail_msg("pair %zu: frame %d, not %d", i, frame, pairs[i].frame);
+    }
+}
+
 static void the_resolved_job_has_the_same_edits(void **state)
 {
     (void)state;
@@ -245,6 +297,7 @@ int main(void)
         cmocka_unit_test(what_is_set_holds_from_its_frame_on),
         cmocka_unit_test(years_go_by_the_clock_of_each_frame),
         cmocka_unit_test(the_hash_sees_edits_and_not_how_they_are_written),
+        cmocka_unit_test(the_hash_of_a_frame_sees_what_came_before),
         cmocka_unit_test(the_resolved_job_has_the_same_edits),
         cmocka_unit_test(set_on_the_command_line_reaches_edits),
         cmocka_unit_test(marks_are_frames_and_ranges),

@@ -61,12 +61,12 @@ static void known_frames_are_not_read_again(void **state)
     assert_ok(atomic_file_write("rock.yaml", yaml, sizeof yaml - 1));
     assert_ok(job_load("rock.yaml", NULL, 0, &job));
     assert_ok(folder_prepare("out"));
-    assert_ok(stage_write(job, HASH, "out", &known));
+    assert_ok(stage_write(job, &(struct job_states){.job = HASH}, "out", &known));
     assert_int_equal(known.n, 0);
 
     add_frame(1001);
     add_frame(1003);
-    assert_ok(stage_write(job, HASH, "out", &known));
+    assert_ok(stage_write(job, &(struct job_states){.job = HASH}, "out", &known));
     assert_true(names(1001) && names(1003) && !names(1002));
 
     /* One between them; one that cannot be read now, and one that is gone. */
@@ -75,14 +75,14 @@ static void known_frames_are_not_read_again(void **state)
     damage(1003);
     assert_ok(folder_path(&path, "out", "rock", FILE_MANIFEST, 1001, NULL));
     assert_int_equal(unlink(path.text), 0);
-    assert_ok(stage_write(job, HASH, "out", &known));
+    assert_ok(stage_write(job, &(struct job_states){.job = HASH}, "out", &known));
     assert_int_equal(known.n, 3);
     assert_true(!names(1001) && names(1002) && names(1003) && names(1004));
 
     /* Without what was known, all are read. */
-    assert_ok(stage_write(job, HASH, "out", NULL));
+    assert_ok(stage_write(job, &(struct job_states){.job = HASH}, "out", NULL));
     assert_true(!names(1001) && names(1002) && !names(1003) && names(1004));
-    assert_ok(stage_write(job, HASH + 1, "out", NULL));
+    assert_ok(stage_write(job, &(struct job_states){.job = HASH + 1}, "out", NULL));
     assert_true(names(1004)); /* of another job: nothing is written */
     stage_frames_free(&known);
     job_destroy(&job);
