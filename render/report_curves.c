@@ -122,7 +122,7 @@ static void add_stress(const struct report *r, struct text *t)
     char title[160], low[48];
     double least = HUGE_VAL, most = -HUGE_VAL;
     for (size_t i = 0; i < r->job->n_strata; i++) {
-        const double at = curve_at(&r->job->strata[i].interlock_MPa, s->frame);
+        const double at = job_interlock(r->job, i, s->frame);
         least = fmin(least, at);
         most = fmax(most, at);
     }

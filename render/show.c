@@ -56,8 +56,8 @@ static struct show_range rates(const struct job *job)
 {
     double low = INFINITY, high = 0;
     for (size_t i = 0; i < job->n_strata; i++) {
-        double weak = curve_max(&job->strata[i].weak_m_per_kyr),
-               strong = curve_at(&job->strata[i].strong_m_per_kyr, job->frames.first);
+        double weak = curve_max(&job->strata[i].weak_m_per_kyr) * curve_max(&job->strata_scale.rates),
+               strong = job_strong(job, i, job->frames.first);
         high = fmax(high, fmax(weak, strong));
         if (strong > 0)
             low = fmin(low, strong);

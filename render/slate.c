@@ -261,7 +261,7 @@ static void mark_interlocking(const struct job *job, int frame, struct slate *s)
     s->mark[0] = INFINITY;
     s->mark[1] = -INFINITY;
     for (size_t i = 0; i < job->n_strata; i++) {
-        double at = curve_at(&job->strata[i].interlock_MPa, frame);
+        double at = job_interlock(job, i, frame);
         s->mark[0] = fmin(s->mark[0], at);
         s->mark[1] = fmax(s->mark[1], at);
     }

@@ -49,9 +49,9 @@ static status upload_layers(struct gpu *gpu, struct erosion *e, const struct job
     for (size_t i = 0; i < e->n_layers; i++) {
         const struct job_layer *l = &job->strata[i];
         const struct curve *own[] = {&l->deflation, &l->abrasion, &l->water, &l->threshold_Pa};
-        layer[8 * i + 0] = (float)curve_at(&l->weak_m_per_kyr, frame);
-        layer[8 * i + 1] = (float)curve_at(&l->strong_m_per_kyr, frame);
-        layer[8 * i + 2] = (float)(1e6 * curve_at(&l->interlock_MPa, frame));
+        layer[8 * i + 0] = (float)job_weak(job, i, frame);
+        layer[8 * i + 1] = (float)job_strong(job, i, frame);
+        layer[8 * i + 2] = (float)(1e6 * job_interlock(job, i, frame));
         for (size_t k = 0; k < 4; k++)
             layer[8 * i + 4 + k] = (float)curve_at(own[k], frame);
     }

@@ -127,8 +127,11 @@ done:
 
 static status check_paint(const struct yaml *map, const struct job_paint *p)
 {
-    if (!p->shape && !p->image && !p->mesh_attribute && !p->noise)
-        return yaml_fail(map, NULL, "gives no place to paint: add shape, image, mesh_attribute or noise");
+    const bool everywhere = !p->shape && !p->image && !p->mesh_attribute && !p->noise;
+    if (everywhere && p->erodibility == 1 && p->interlock == 1 && p->viability == 1 && p->vegetation == -1 &&
+        !p->inert)
+        return yaml_fail(map, NULL,
+                         "paints nothing: add erodibility, interlock, viability, vegetation or inert");
     if (p->falloff_m > 0 && !p->shape)
         return yaml_fail(place(map, "falloff_m"), NULL, "applies to a shape, and none is given");
     if (p->vegetation < 0 && p->vegetation != -1)

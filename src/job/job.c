@@ -241,6 +241,21 @@ bool job_keeps_exposed(const struct job *job)
     return any;
 }
 
+double job_weak(const struct job *job, size_t i, double frame)
+{
+    return curve_at(&job->strata[i].weak_m_per_kyr, frame) * curve_at(&job->strata_scale.rates, frame);
+}
+
+double job_strong(const struct job *job, size_t i, double frame)
+{
+    return curve_at(&job->strata[i].strong_m_per_kyr, frame) * curve_at(&job->strata_scale.rates, frame);
+}
+
+double job_interlock(const struct job *job, size_t i, double frame)
+{
+    return curve_at(&job->strata[i].interlock_MPa, frame) * curve_at(&job->strata_scale.interlock, frame);
+}
+
 size_t job_layer_at(const struct job *job, double z)
 {
     size_t layer = 0;

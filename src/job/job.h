@@ -206,6 +206,11 @@ bool job_writes(const struct job *job, enum job_files kind, int frame);
 /* Years that pass from frame `from` to frame `to` >= from. */
 double job_years(const struct job *job, int from, int to);
 
+/* Rates and interlocking stress of stratum i in a frame: those of the stratum times strata_scale. */
+double job_weak(const struct job *job, size_t i, double frame);
+double job_strong(const struct job *job, size_t i, double frame);
+double job_interlock(const struct job *job, size_t i, double frame);
+
 /* The index of the stratum at a height, m. */
 size_t job_layer_at(const struct job *job, double z);
 

@@ -115,7 +115,7 @@ static status make_rock(const struct goblins *g, const float *share, const float
                     continue;
                 const double at[3] = {(x + 0.5) * g->m.h, (y + 0.5) * g->m.h, (z + 0.5) * g->m.h};
                 const size_t layer = attitude_layer(g->m.job, at);
-                const double rate = curve_at(&g->m.job->strata[layer].weak_m_per_kyr, g->m.frame);
+                const double rate = job_weak(g->m.job, layer, g->m.frame);
                 for (int a = 0; a < 3; a++)
                     rock->P[4 * i + (size_t)a] = (float)at[a];
                 rock->id[i] = (uint32_t)v;
@@ -324,7 +324,7 @@ static double cycles(const struct job *job)
 {
     double most = 0;
     for (size_t i = 0; i < job->n_strata; i++)
-        most = fmax(most, curve_max(&job->strata[i].weak_m_per_kyr));
+        most = fmax(most, curve_max(&job->strata[i].weak_m_per_kyr) * curve_max(&job->strata_scale.rates));
     return (double)(job->frames.last - job->frames.first) *
            (1 + job->clock.years_per_frame / 1000 * most / job->domain.spacing_m * 2 /
                     fmax(job->goblins.quantum, 0.05));

@@ -131,7 +131,7 @@ static void fill_particle(struct terrain_view *v, const struct surface *s, const
     rock->phase[i] = solid ? 0 : 1;
     rock->rate_factor[i] = 1;
     rock->interlock_factor[i] = 1;
-    rock->erodibility[i] = (float)curve_at(&job->strata[layer].weak_m_per_kyr, job->frames.first);
+    rock->erodibility[i] = (float)job_weak(job, layer, job->frames.first);
 }
 
 /* Allocates the fields of n particles; fields that are 0 everywhere are not allocated. */

@@ -251,8 +251,10 @@ static status check_interlocking(struct context *v)
         if (bottom >= fmin(l->to_m, v->high[2]) || above <= 0)
             continue;
         typed |= l->interlock_MPa.n > 1 || l->interlock_MPa.value[0] != preset;
-        const double least = least_of(&l->interlock_MPa) / (weight_of_metre * above);
-        most = fmax(most, most_of(&l->interlock_MPa) / (weight_of_metre * above));
+        const double least =
+            least_of(&l->interlock_MPa) * least_of(&job->strata_scale.interlock) / (weight_of_metre * above);
+        most = fmax(most, most_of(&l->interlock_MPa) * most_of(&job->strata_scale.interlock) /
+                              (weight_of_metre * above));
         if (least < nearest) {
             nearest = least;
             which = i;
@@ -285,7 +287,7 @@ static status check_time(struct context *v)
     if (v->kyr <= 0 || job_model(job)->terrain || !job->n_strata)
         return OK;
     for (size_t i = 0; i < job->n_strata; i++) {
-        const double rate = most_of(&job->strata[i].weak_m_per_kyr);
+        const double rate = most_of(&job->strata[i].weak_m_per_kyr) * most_of(&job->strata_scale.rates);
         which = rate > most ? i : which;
         most = fmax(most, rate);
     }

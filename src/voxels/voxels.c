@@ -303,7 +303,7 @@ status voxels_rates(struct gpu *gpu, struct voxels *v, const struct job *job, in
     float(*layer)[4] = NULL;
     TRY(memory_alloc(job->n_strata, sizeof *layer, "the layers", &layer));
     for (size_t i = 0; i < job->n_strata; i++) {
-        double rate = curve_at(&job->strata[i].weak_m_per_kyr, frame) / v->h;
+        double rate = job_weak(job, i, frame) / v->h;
         layer[i][0] = (float)(rate * v->rate[i].slope);
         layer[i][1] = (float)(rate * v->rate[i].level);
     }

@@ -41,7 +41,7 @@ double wind_fastest(const struct job *job, int frame)
         const double plucked = curve_at(&l->deflation, frame), rubbed = curve_at(&l->abrasion, frame);
         const double all = (plucked < 0 ? curve_at(&job->wind.deflation.intensity, frame) : plucked) +
                            (rubbed < 0 ? abrasion(job, frame) : rubbed * pow(gale(job, frame), 2));
-        fastest = fmax(fastest, curve_at(&l->weak_m_per_kyr, frame) * all);
+        fastest = fmax(fastest, job_weak(job, i, frame) * all);
     }
     return fastest;
 }

@@ -239,7 +239,7 @@ static const struct {
     {"  - {frame: 1010, carve: {stroke: {radius_m: 1}}}\n", {"edits.0.carve.stroke: no point"}},
     {"  - {frame: 1010, carve: {stroke: {path_m: [[1, 2]], radius_m: 1}}}\n",
      {"path_m.0: a list of another length"}},
-    {"  - {frame: 1010, paint: [{}]}\n", {"edits.0.paint.0: gives no place to paint"}},
+    {"  - {frame: 1010, paint: [{}]}\n", {"edits.0.paint.0: paints nothing"}},
     {"  - {frame: 1010, paint: [{noise: {}, falloff_m: 1}]}\n",
      {"paint.0.falloff_m: applies to a shape, and none is given"}},
     {"  - {frame: 1010, paint: [{noise: {}, vegetation: -0.5}]}\n", {"paint.0.vegetation: negative"}},
