@@ -10,6 +10,7 @@
 #include "cli/plan_time.h"
 #include "farm/cost.h"
 #include "farm/describe.h"
+#include "run/groups.h"
 #include "run/memory.h"
 #include "scene/scene.h"
 #include "text/text.h"
@@ -50,6 +51,7 @@ static status describe_inputs(const struct job *job, struct text *t)
     if (!job_model(job)->terrain)
         TRY(scene_check(job, job->goblins.floats, &survey));
     log_silence(before);
+    groups_describe(job, &survey.size, t);
     if (survey.n_inputs)
         json_array(t, "inputs");
     for (size_t i = 0; i < survey.n_inputs; i++) {

@@ -41,7 +41,16 @@ void track_at(const struct curve *c, double frame, double out[3])
         out[a] = c->value[3 * b.low + a] + (c->value[3 * b.high + a] - c->value[3 * b.low + a]) * b.u;
 }
 
-/* No ease overshoots, so the maximum is at a key. */
+/* No ease overshoots, so the extremes are at keys. */
+double curve_min(const struct curve *c)
+{
+    double min = c->value[0];
+    for (size_t i = 1; i < c->n; i++)
+        if (c->value[i] < min)
+            min = c->value[i];
+    return min;
+}
+
 double curve_max(const struct curve *c)
 {
     double max = c->value[0];

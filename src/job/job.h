@@ -26,6 +26,7 @@ struct curve {
 };
 
 double curve_at(const struct curve *c, double frame);
+double curve_min(const struct curve *c);
 double curve_max(const struct curve *c);
 void track_at(const struct curve *c, double frame, double out[3]);
 

@@ -213,22 +213,6 @@ done:
 
 /* ---- stress and rates */
 
-static double least_of(const struct curve *c)
-{
-    double least = INFINITY;
-    for (size_t i = 0; i < c->n; i++)
-        least = fmin(least, c->value[i]);
-    return least;
-}
-
-static double most_of(const struct curve *c)
-{
-    double most = -INFINITY;
-    for (size_t i = 0; i < c->n; i++)
-        most = fmax(most, c->value[i]);
-    return most;
-}
-
 /* The foot of a column carries density * gravity * height. Arches and pillars form if the interlocking stress is within a factor of
  * a few of that, so that grains interlock in some places and not in others (Arenite 8). Advice is given only if no layer comes that
  * close; it names the closest one. */
@@ -251,9 +235,9 @@ static status check_interlocking(struct context *v)
         if (bottom >= fmin(l->to_m, v->high[2]) || above <= 0)
             continue;
         typed |= l->interlock_MPa.n > 1 || l->interlock_MPa.value[0] != preset;
-        const double least =
-            least_of(&l->interlock_MPa) * least_of(&job->strata_scale.interlock) / (weight_of_metre * above);
-        most = fmax(most, most_of(&l->interlock_MPa) * most_of(&job->strata_scale.interlock) /
+        const double least = curve_min(&l->interlock_MPa) * curve_min(&job->strata_scale.interlock) /
+                             (weight_of_metre * above);
+        most = fmax(most, curve_max(&l->interlock_MPa) * curve_max(&job->strata_scale.interlock) /
                               (weight_of_metre * above));
         if (least < nearest) {
             nearest = least;
@@ -287,7 +271,7 @@ static status check_time(struct context *v)
     if (v->kyr <= 0 || job_model(job)->terrain || !job->n_strata)
         return OK;
     for (size_t i = 0; i < job->n_strata; i++) {
-        const double rate = most_of(&job->strata[i].weak_m_per_kyr) * most_of(&job->strata_scale.rates);
+        const double rate = curve_max(&job->strata[i].weak_m_per_kyr) * curve_max(&job->strata_scale.rates);
         which = rate > most ? i : which;
         most = fmax(most, rate);
     }
@@ -452,19 +436,6 @@ done:
 
 /* ---- all */
 
-/* Bounds of the sampled points of the rock. */
-static void bound_rock(struct context *v)
-{
-    for (int a = 0; a < 3; a++) {
-        v->low[a] = INFINITY;
-        v->high[a] = -INFINITY;
-        for (size_t i = 0; i < v->survey.size.n_points; i++) {
-            v->low[a] = fmin(v->low[a], (double)v->survey.size.point[i][a]);
-            v->high[a] = fmax(v->high[a], (double)v->survey.size.point[i][a]);
-        }
-    }
-}
-
 static status collect(const struct job *job, bool log_inputs, bool run_follows, struct advice_list *out)
 {
     static status (*const checks[])(struct context * v) = {
@@ -479,7 +450,7 @@ static status collect(const struct job *job, bool log_inputs, bool run_follows, 
         TRY(scene_check(job, job->goblins.floats, &v.survey));
     if (log_inputs)
         TRY(scene_paint_check(job));
-    bound_rock(&v);
+    scene_bounds(&v.survey.size, v.low, v.high);
     for (size_t i = 0; i < sizeof checks / sizeof *checks; i++)
         if (v.survey.size.n_points > 0 || checks[i] == check_domain)
             TRY(checks[i](&v));

@@ -403,6 +403,18 @@ done:
     return st;
 }
 
+void scene_bounds(const struct scene_size *size, double low[3], double high[3])
+{
+    for (int a = 0; a < 3; a++) {
+        low[a] = INFINITY;
+        high[a] = -INFINITY;
+        for (size_t i = 0; i < size->n_points; i++) {
+            low[a] = fmin(low[a], (double)size->point[i][a]);
+            high[a] = fmax(high[a], (double)size->point[i][a]);
+        }
+    }
+}
+
 status scene_survey(const struct job *job, struct scene_survey *out)
 {
     status st = OK;

@@ -106,6 +106,9 @@ struct scene_size {
 /* Errors of files and shapes as in scene_sample(); an empty scene has 0 particles. */
 MUST_USE status scene_estimate(const struct job *job, struct scene_size *out);
 
+/* Bounds of the sampled points, m; low > high if there are none. */
+void scene_bounds(const struct scene_size *size, double low[3], double high[3]);
+
 /* A shape of the scene that comes from a file. */
 struct scene_input {
     const char *file;      /* belongs to the job */
