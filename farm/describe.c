@@ -96,8 +96,6 @@ status farm_describe(const struct farm *f, bool words, const char *device, struc
     uint64_t disk = 0;
     if (f->wedge[0].job->wedge.index)
         put_wedges(f, words, out);
-    if (!words)
-        json_integer(out, "format", FARM_FORMAT);
     json_array(out, "tasks");
     for (size_t i = 0; i < g->n; i++) {
         const struct farm_task *t = &g->task[i];

@@ -5,11 +5,7 @@
 #include "farm/farm.h"
 #include "text/text.h"
 
-/* The version of the format, the member "format": a farm that reads tasks should check it. It grows when the meaning of a member
- * changes, and stays when members are added. */
-enum { FARM_FORMAT = 1 };
-
-/* Adds members "wedges" (if there are any), "format" and "tasks" to the open JSON object. `words`: for people, flat rows and at most 100 of
+/* Adds members "wedges" (if there are any) and "tasks" to the open JSON object. `words`: for people, flat rows and at most 100 of
  * them. Otherwise each task has all that a farm needs to run it. `device`: for --device, or NULL. E_USAGE: a command is too long. */
 MUST_USE status farm_describe(const struct farm *f, bool words, const char *device, struct text *out);
 

@@ -231,6 +231,7 @@ status slurm_remember(const struct farm *f, char (*job)[SLURM_ID])
     TRY(memory_alloc(f->graph.n, sizeof *before, "the jobs", &before));
     TRY(read_ids(f, before, &there));
     json_object(&t, NULL);
+    json_integer(&t, "format", 1);
     json_array(&t, "tasks");
     for (size_t i = 0; i < f->graph.n; i++) {
         const char *id = *job[i] ? job[i] : before[i].id;

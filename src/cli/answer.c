@@ -188,6 +188,21 @@ done:
     return st;
 }
 
+void answer_begin(struct text *answer)
+{
+    json_object(answer, NULL);
+    json_integer(answer, "format", ANSWER_FORMAT);
+}
+
+/* Removes the member `format` from the answer. */
+static void drop_format(struct json *answer)
+{
+    if (answer->first && answer->first->key && strcmp(answer->first->key, "format") == 0) {
+        answer->first = answer->first->next;
+        answer->n--;
+    }
+}
+
 status answer_print(const struct text *answer, bool as_json)
 {
     struct json *json = NULL;
@@ -198,6 +213,7 @@ status answer_print(const struct text *answer, bool as_json)
         return OK;
     }
     TRY(json_read(NULL, answer->data, answer->size, &json));
+    drop_format(json);
     TRY(print_members(json, 0));
 done:
     json_free(&json);

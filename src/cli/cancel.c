@@ -18,7 +18,7 @@ status cli_cancel(int argc, char **argv)
     if (help)
         goto done;
     TRY(farm_open(operands.item[0], &farm));
-    json_object(&answer, NULL);
+    answer_begin(&answer);
     json_text(&answer, "folder", farm.root.text);
     TRY(farm_cancel(&farm, &answer));
     json_end_object(&answer);

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "cli/answer.h"
 #include "cli/cli.h"
 #include "job/job.h"
 #include "run/advice.h"
@@ -81,13 +82,15 @@ status cli_check(int argc, char **argv)
         goto done;
     f.path = operands.item[0];
     f.json = c.json;
-    if (f.json)
-        json_array(&f.json_text, NULL);
+    if (f.json) {
+        answer_begin(&f.json_text);
+        json_array(&f.json_text, "warnings");
+    }
     TRY(check_all(&f, &c));
     if (f.json) {
         json_end_array(&f.json_text);
-        TRY(text_status(&f.json_text));
-        printf("%s\n", f.json_text.data);
+        json_end_object(&f.json_text);
+        TRY(answer_print(&f.json_text, true));
     } else if (f.n == 0) {
         printf("%s: no problems found\n", f.path);
     }

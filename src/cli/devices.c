@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "cli/answer.h"
 #include "cli/cli.h"
 #include "gpu/gpu.h"
 #include "text/text.h"
@@ -21,7 +22,8 @@ static void print_text(const struct gpu_info *d, size_t n)
 static status print_json(const struct gpu_info *d, size_t n)
 {
     struct text t = {0};
-    json_array(&t, NULL);
+    answer_begin(&t);
+    json_array(&t, "devices");
     for (size_t i = 0; i < n; i++) {
         json_object(&t, NULL);
         json_integer(&t, "index", d[i].index);
@@ -35,9 +37,8 @@ static status print_json(const struct gpu_info *d, size_t n)
         json_end_object(&t);
     }
     json_end_array(&t);
-    status st = text_status(&t);
-    if (st == OK)
-        fputs(t.data, stdout);
+    json_end_object(&t);
+    const status st = answer_print(&t, true);
     text_free(&t);
     return st;
 }

@@ -118,7 +118,7 @@ status cli_inspect(int argc, char **argv)
                       &help));
     if (help)
         goto done;
-    json_object(&answer, NULL);
+    answer_begin(&answer);
     TRY(describe(operands.item[0], &answer));
     json_end_object(&answer);
     TRY(answer_print(&answer, c.json));

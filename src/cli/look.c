@@ -10,6 +10,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "cli/answer.h"
 #include "cli/cli.h"
 #include "look/live.h"
 #include "system/atomic_file.h"
@@ -155,7 +156,7 @@ static status print_json(const char *path, const struct look_made *m)
 {
     status st = OK;
     struct text t = {0};
-    json_object(&t, NULL);
+    answer_begin(&t);
     json_text(&t, "picture", path);
     json_text(&t, "name", m->name);
     json_integer(&t, "frame", m->frame);

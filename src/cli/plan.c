@@ -91,7 +91,7 @@ static status answer(struct farm *f, struct gpu *gpu, const struct plan_asked *a
     TRY(farm_graph(f));
     size_t n_checkpoints =
         (size_t)fmin((double)job->checkpoint.keep, ceil((double)n_frames / (double)job->checkpoint.every));
-    json_object(t, NULL);
+    answer_begin(t);
     json_text(t, "name", f->base->name);
     json_text(t, "model", job_model(job)->name);
     json_text(t, "frames", range_text(job->frames, frames));

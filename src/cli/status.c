@@ -157,7 +157,7 @@ static status answer_status(struct survey *s, bool words, struct text *out)
 {
     status st = OK;
     char text[48];
-    json_object(out, NULL);
+    answer_begin(out);
     json_text(out, "folder", s->root);
     json_text(out, "name", s->name);
     json_text(out, "frames", range_text(s->frames, text));
@@ -189,7 +189,7 @@ static bool begun(const char *root)
 /* A farm's folder that holds no frames, or holds them in folders of its wedges. */
 static status answer_farm(const char *root, bool words, struct text *out)
 {
-    json_object(out, NULL);
+    answer_begin(out);
     json_text(out, "folder", root);
     status st = farm_status(root, words, out);
     json_end_object(out);

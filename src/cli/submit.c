@@ -144,7 +144,7 @@ static status to_slurm(const struct submit_request *r, struct farm *f)
         TRY(path_join(&path, f->root.text, "log/farm.log"));
         TRY(log_open(path.text));
     }
-    json_object(&t, NULL);
+    answer_begin(&t);
     json_text(&t, "name", f->base->name);
     json_text(&t, "folder", f->root.text);
     TRY(slurm_submit(
@@ -209,7 +209,7 @@ done:
 static status describe_tasks(const struct submit_request *r, const struct farm *f, bool words, struct text *t)
 {
     status st = OK;
-    json_object(t, NULL);
+    answer_begin(t);
     json_text(t, "name", f->base->name);
     json_text(t, "folder", f->root.text);
     TRY(farm_describe(f, words, r->submission.device, t));

@@ -263,7 +263,7 @@ status cli_verify(int argc, char **argv)
     s.frames = c.frames;
     s.only_frames = c.frames.step > 0;
     if (s.json) {
-        json_object(&s.answer, NULL);
+        answer_begin(&s.answer);
         json_text(&s.answer, "folder", s.root);
         json_text(&s.answer, "name", s.name);
         json_array(&s.answer, "problems");

@@ -215,7 +215,6 @@ static status read_file(const char *path, struct text *out)
     for (int part = 0; part < n; part++)
         TRY(read_part(exr, part, source));
     if (out) {
-        json_text(out, "format", "OpenEXR");
         json_array(out, "parts");
         for (int part = 0; part < n; part++)
             TRY(describe_part(exr, part, source, out));

@@ -293,6 +293,7 @@ static status write_run(const struct provenance *p, const struct gpu *gpu, const
     status st = OK;
     struct text t = {0};
     json_object(&t, NULL);
+    json_integer(&t, "format", 1);
     json_text(&t, "name", job->name);
     if (*p->here.version)
         add_maker(&t, &p->here);

@@ -30,6 +30,7 @@ static void describe(const struct gpu *gpu, int first, int last, double started,
     if (gmtime_r(&now, &tm))
         strftime(ended, sizeof ended, "%Y-%m-%dT%H:%M:%SZ", &tm);
     json_object(t, NULL);
+    json_integer(t, "format", 1);
     json_text(t, "version", hoodoo_version);
     json_text(t, "commit", hoodoo_commit);
     json_text(t, "device", info->name);

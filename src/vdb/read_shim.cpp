@@ -218,7 +218,6 @@ try {
         return st;
     struct text out;
     describe_begin(q, &out);
-    json_text(&out, "format", "OpenVDB");
     json_text(&out, "up_axis", file.y_up ? "y" : "z");
     describe_metadata(*file.metadata, "metadata", &out);
     json_array(&out, "grids");

@@ -33,7 +33,7 @@ def check(job, *options):
     with open("job.json", "w") as file:
         json.dump(job, file, indent=1)
     code, said = hoodoo("check", "job.json", "--json", *options)
-    return code, json.loads(said) if said.lstrip().startswith("[") else said
+    return code, json.loads(said)["warnings"] if said.lstrip().startswith("{") else said
 
 
 # The edited key, its value, the key in the warning, and a part of its text.
