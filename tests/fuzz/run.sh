@@ -24,7 +24,7 @@ seeds() {
 fuzz() {
     mkdir -p "$found/new/$1" "$found/seed/$1" "$top/tests/fuzz/corpus/$1"
     for f in $(seeds "$1"); do cp "$f" "$found/seed/$1"; done
-    set -- "$1" -rss_limit_mb=2048 -timeout=10 -max_len=65536 "-artifact_prefix=$found/$1-" "-dict=$top/tests/fuzz/words.dict"
+    set -- "$1" -rss_limit_mb=2048 -timeout=60 -max_len=65536 "-artifact_prefix=$found/$1-" "-dict=$top/tests/fuzz/words.dict"
     LSAN_OPTIONS=suppressions=$top/tests/fuzz/lsan.supp:print_suppressions=0 FUZZ_FOLDER=$work "$build/tests/fuzz/$1" "${@:2}" "-max_total_time=$seconds" -print_final_stats=1 \
         "$found/new/$1" "$found/seed/$1" "$top/tests/fuzz/corpus/$1" >"$found/$1.log" 2>&1
     echo $? >"$found/$1.rc"
