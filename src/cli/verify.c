@@ -1,5 +1,6 @@
 /* hoodoo verify OUT: checks every file against its manifest or record and with the reader of its format. Succeeds only if every
- * frame of the job (or of --frames) exists and is undamaged, and so are all products made from them. */
+ * frame of the job (or of --frames) exists and is undamaged, and so are all products made from them; of a job with wedges, in every
+ * wedge. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,11 +8,14 @@
 
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/memory.h"
 #include "checkpoint/checkpoint.h"
 #include "cli/answer.h"
 #include "cli/cli.h"
 #include "cli/verify.h"
 #include "exr/exr.h"
+#include "farm/farm.h"
+#include "render/report_wedges.h"
 #include "run/branch.h"
 #include "vdb/vdb.h"
 
@@ -26,23 +30,26 @@ static void print_line(const char *line)
 
 void report_problem(struct search *s, bool missing, const char *path, const char *what)
 {
-    *(missing ? &s->n_missing : &s->n_damaged) += 1;
+    struct verdict *v = s->verdict;
+    *(missing ? &v->n_missing : &v->n_damaged) += 1;
+    s->n_problems++;
     const char *kind = missing ? "missing" : "damaged";
     /* Messages of the readers begin with the full path, which is redundant here. */
     size_t root = strlen(s->root), relative = strlen(path);
     if (strncmp(what, s->root, root) == 0 && what[root] == '/' &&
         strncmp(what + root + 1, path, relative) == 0 && strncmp(what + root + 1 + relative, ": ", 2) == 0)
         what += root + relative + 3;
-    if (s->json) {
-        json_object(&s->answer, NULL);
-        json_text(&s->answer, "kind", kind);
-        json_text(&s->answer, "file", path);
-        json_text(&s->answer, "what", what);
-        json_end_object(&s->answer);
+    char line[1400];
+    if (v->json) {
+        snprintf(line, sizeof line, "%s%s", s->prefix, path);
+        json_object(&v->answer, NULL);
+        json_text(&v->answer, "kind", kind);
+        json_text(&v->answer, "file", line);
+        json_text(&v->answer, "what", what);
+        json_end_object(&v->answer);
         return;
     }
-    char line[1400];
-    snprintf(line, sizeof line, "%s %s%s%s", kind, path, *what ? ": " : "", what);
+    snprintf(line, sizeof line, "%s %s%s%s%s", kind, s->prefix, path, *what ? ": " : "", what);
     print_line(line);
 }
 
@@ -59,7 +66,7 @@ static status verify_file(struct search *s, const struct manifest_file *f)
     char what[256] = "";
     uint64_t hash, size;
     status st = OK;
-    s->n_files++;
+    s->verdict->n_files++;
     if ((st = path_join(&path, s->root, f->path)) != OK)
         return st;
     if (access(path.text, F_OK) != 0) {
@@ -90,12 +97,12 @@ static status verify_frame(struct search *s, int frame)
     const char *relative = path.text + strlen(s->root) + 1;
     status st = OK;
     TRY(folder_path(&path, s->root, s->name, FILE_MANIFEST, frame, NULL));
-    s->n_files++;
+    s->verdict->n_files++;
     if (access(path.text, F_OK) != 0) {
         report_problem(s, true, relative, "the frame is not complete");
         goto done;
     }
-    s->n_frames++;
+    s->verdict->n_frames++;
     st = manifest_read(s->root, s->name, frame, &m);
     if (st == E_MEMORY)
         goto done;
@@ -113,8 +120,12 @@ static status verify_frame(struct search *s, int frame)
     const struct ledger *l = &m.ledger;
     if (l->start != l->rock + l->deposit + l->fallen + l->left)
         report_problem(s, false, relative, "its ledger does not add up");
-    for (size_t i = 0; i < m.n_files; i++)
+    TRY(memory_grow(&s->sound, &s->sound_capacity, s->n_sound + 1, sizeof *s->sound, "the frames"));
+    s->sound[s->n_sound++] = frame;
+    for (size_t i = 0; i < m.n_files; i++) {
+        TRY(product_list_add(&s->listed, m.file[i].path));
         TRY(verify_file(s, &m.file[i]));
+    }
 done:
     manifest_free(&m);
     return st;
@@ -179,8 +190,8 @@ static status verify_checkpoint(struct search *s, const char *path, const int *f
 {
     struct checkpoint c;
     status st = checkpoint_read_index(path, &c);
-    s->n_files++;
-    s->n_checkpoints++;
+    s->verdict->n_files++;
+    s->verdict->n_checkpoints++;
     if (st == E_MEMORY)
         return st;
     if (st == OK && (!frame || c.frame == *frame))
@@ -211,35 +222,123 @@ done:
     return st;
 }
 
-static status report(struct search *s)
+/* Searches one output folder. */
+static status verify_folder(struct search *s)
+{
+    status st = OK;
+    TRY(verify_job(s));
+    TRY(verify_frames(s));
+    if (!s->only_frames)
+        TRY(verify_checkpoints(s));
+    TRY(verify_products(s));
+    TRY(remake_commands(s));
+done:
+    search_free(s);
+    return st;
+}
+
+/* Searches the folder of each wedge, and the farm's own, which has products of all wedges. */
+static status verify_farm(struct verdict *v, const char *root, struct frame_range frames)
+{
+    status st = OK;
+    struct farm farm = {0};
+    struct search own = {.verdict = v, .root = root, .prefix = "", .only_frames = frames.step > 0};
+    TRY(farm_open(root, &farm));
+    for (size_t i = 0; i < farm.n_wedges; i++) {
+        struct path folder, prefix;
+        struct search s = {.verdict = v,
+                           .farm = root,
+                           .wedge = (int)farm.wedge[i].job->wedge.index,
+                           .frames = frames,
+                           .only_frames = frames.step > 0};
+        TRY(farm_root(&farm, s.wedge, &folder));
+        TRY(path_format(&prefix, "%s/", path_last(folder.text)));
+        s.root = folder.text;
+        s.prefix = prefix.text;
+        st = folder_open(s.root, s.name);
+        if (st == E_MEMORY)
+            goto done;
+        if (st == OK) {
+            TRY(verify_folder(&s));
+            continue;
+        }
+        const char *what = status_message();
+        TRY(path_join(&folder, s.root, "run.json"));
+        report_problem(&s, access(folder.text, F_OK) != 0, "run.json", what);
+        st = remake_commands(&s);
+        search_free(&s);
+        TRY(st);
+    }
+    if (!own.only_frames) {
+        snprintf(own.name, sizeof own.name, "%s", farm.base->name);
+        TRY(verify_products(&own));
+        TRY(remake_commands(&own));
+    }
+done:
+    search_free(&own);
+    farm_free(&farm);
+    return st;
+}
+
+/* ---- the answer */
+
+/* `"hoodoo run" and then "hoodoo mesh OUT --missing"` */
+static status sentence_of(const struct text *commands, struct text *out)
+{
+    for (const char *line = commands->data; line && *line;) {
+        const size_t n = strcspn(line, "\n");
+        text_add(out, "%s\"%.*s\"", out->size ? " and then " : "", (int)n, line);
+        line += n + (line[n] == '\n');
+    }
+    return text_status(out);
+}
+
+static status list_of(const struct text *commands, struct text *json)
+{
+    status st = OK;
+    struct text one = {0};
+    json_array(json, "commands");
+    for (const char *line = commands->data; line && *line;) {
+        const size_t n = strcspn(line, "\n");
+        text_add(&one, "%.*s", (int)n, line);
+        TRY(text_status(&one));
+        json_text(json, NULL, one.data);
+        text_free(&one);
+        line += n + (line[n] == '\n');
+    }
+    json_end_array(json);
+done:
+    text_free(&one);
+    return st;
+}
+
+static status report(struct verdict *v, const char *root)
 {
     status st = OK;
     struct text how = {0};
-    const size_t n_run = s->n_damaged + s->n_missing - s->n_others;
-    if (n_run)
-        TRY(remake_run(s, s->n_bad_checkpoints > 0));
-    TRY(remake_text(s, &how));
-    if (s->json) {
-        json_end_array(&s->answer);
-        TRY(remake_json(s));
-        json_integer(&s->answer, "frames", (int64_t)s->n_frames);
-        json_integer(&s->answer, "files", (int64_t)s->n_files);
-        json_integer(&s->answer, "products", (int64_t)s->n_products);
-        json_integer(&s->answer, "checkpoints", (int64_t)s->n_checkpoints);
-        json_integer(&s->answer, "damaged", (int64_t)s->n_damaged);
-        json_integer(&s->answer, "missing", (int64_t)s->n_missing);
-        json_end_object(&s->answer);
-        TRY(answer_print(&s->answer, true));
+    TRY(text_status(&v->commands));
+    if (v->json) {
+        json_end_array(&v->answer);
+        TRY(list_of(&v->commands, &v->answer));
+        json_integer(&v->answer, "frames", (int64_t)v->n_frames);
+        json_integer(&v->answer, "files", (int64_t)v->n_files);
+        json_integer(&v->answer, "products", (int64_t)v->n_products);
+        json_integer(&v->answer, "checkpoints", (int64_t)v->n_checkpoints);
+        json_integer(&v->answer, "damaged", (int64_t)v->n_damaged);
+        json_integer(&v->answer, "missing", (int64_t)v->n_missing);
+        json_end_object(&v->answer);
+        TRY(answer_print(&v->answer, true));
     } else {
         char line[200];
         snprintf(line, sizeof line,
                  "%zu frames, %zu files, %zu products, %zu checkpoints: %zu damaged, %zu missing",
-                 s->n_frames, s->n_files, s->n_products, s->n_checkpoints, s->n_damaged, s->n_missing);
+                 v->n_frames, v->n_files, v->n_products, v->n_checkpoints, v->n_damaged, v->n_missing);
         print_line(line);
     }
-    if (s->n_damaged + s->n_missing)
-        st = fail(E_INPUT, "%s: %zu of %zu files damaged, %zu missing; to make them again, run %s", s->root,
-                  s->n_damaged, s->n_files, s->n_missing, how.data);
+    TRY(sentence_of(&v->commands, &how));
+    if (v->n_damaged + v->n_missing)
+        st = fail(E_INPUT, "%s: %zu of %zu files damaged, %zu missing%s%s", root, v->n_damaged, v->n_files,
+                  v->n_missing, how.size ? "; to make them again, run " : "", how.size ? how.data : "");
 done:
     text_free(&how);
     return st;
@@ -250,34 +349,32 @@ status cli_verify(int argc, char **argv)
     status st = OK;
     struct common c = {0};
     struct arguments operands = {0};
-    struct search s = {0};
+    struct verdict v = {0};
     bool help;
     const struct option options[] = {OPTION_FRAMES(&c), OPTION_JSON(&c)};
     TRY(options_parse(&usage_verify, options, sizeof options / sizeof *options, argc, argv, &operands,
                       &help));
     if (help)
         goto done;
-    s.root = operands.item[0];
-    s.json = c.json;
-    TRY(folder_open(s.root, s.name));
-    s.frames = c.frames;
-    s.only_frames = c.frames.step > 0;
-    if (s.json) {
-        answer_begin(&s.answer);
-        json_text(&s.answer, "folder", s.root);
-        json_text(&s.answer, "name", s.name);
-        json_array(&s.answer, "problems");
+    const char *root = operands.item[0];
+    const bool wedges = report_has_wedges(root);
+    struct search s = {
+        .verdict = &v, .root = root, .prefix = "", .frames = c.frames, .only_frames = c.frames.step > 0};
+    v.json = c.json;
+    if (!wedges)
+        TRY(folder_open(root, s.name));
+    if (v.json) {
+        answer_begin(&v.answer);
+        json_text(&v.answer, "folder", root);
+        if (!wedges)
+            json_text(&v.answer, "name", s.name);
+        json_array(&v.answer, "problems");
     }
-    TRY(verify_job(&s));
-    TRY(verify_frames(&s));
-    if (!s.only_frames)
-        TRY(verify_checkpoints(&s));
-    TRY(verify_products(&s));
-    TRY(report(&s));
+    TRY(wedges ? verify_farm(&v, root, c.frames) : verify_folder(&s));
+    TRY(report(&v, root));
 done:
-    text_free(&s.answer);
-    job_states_free(&s.states);
-    remakes_free(&s);
+    text_free(&v.answer);
+    text_free(&v.commands);
     arguments_free(&operands);
     return st;
 }

@@ -1,7 +1,9 @@
 /* Checks products against their records, and collects the commands that make damaged ones again. */
+#include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/memory.h"
@@ -28,7 +30,7 @@ done:
     return st;
 }
 
-void remakes_free(struct search *s)
+void search_free(struct search *s)
 {
     for (size_t i = 0; i < s->n_remakes; i++) {
         for (size_t k = 0; k < s->remake[i].n_words; k++)
@@ -36,6 +38,12 @@ void remakes_free(struct search *s)
         free(s->remake[i].word);
     }
     free(s->remake);
+    free(s->sound);
+    product_list_free(&s->listed);
+    job_states_free(&s->states);
+    s->remake = NULL;
+    s->sound = NULL;
+    s->n_remakes = s->n_sound = 0;
 }
 
 static bool same_command(const struct remake *r, size_t n, const char *const *word, bool framed)
@@ -74,12 +82,14 @@ done:
     return st;
 }
 
-status remake_run(struct search *s, bool repair)
+/* The run makes the other problems' files. */
+static status remake_run(struct search *s)
 {
     static const char *const command[] = {"run", "--repair"};
     status st = OK;
     struct remake *r = NULL;
-    TRY(add_remake(s, repair ? 2 : 1, command, &r));
+    if (s->n_problems > s->n_others)
+        TRY(add_remake(s, s->n_bad_checkpoints ? 2 : 1, command, &r));
 done:
     return st;
 }
@@ -106,47 +116,36 @@ static void add_word(struct text *t, const char *word)
 
 static void add_command(const struct search *s, const struct remake *r, struct text *t)
 {
-    char frames[48];
+    char frames[48], words[PATH_BYTES + 64];
     text_add(t, "hoodoo");
     add_word(t, r->word[0]);
-    if (!is_run(r->word[0])) /* which takes a job */
+    if (!is_run(r->word[0])) { /* which takes a job */
         add_word(t, s->root);
+    } else if (s->farm) {
+        snprintf(words, sizeof words, "%s/farm/job.yaml", s->farm);
+        add_word(t, words);
+        snprintf(words, sizeof words, "--farm=%s", s->farm);
+        add_word(t, words);
+        text_add(t, " --wedge=%d", s->wedge);
+    }
     for (size_t i = 1; i < r->n_words; i++)
         add_word(t, r->word[i]);
     if (r->first != ALL_FRAMES)
         text_add(t, " --frames=%s", range_text((struct frame_range){r->first, r->last, 1}, frames));
 }
 
-status remake_text(const struct search *s, struct text *out)
+status remake_commands(struct search *s)
 {
-    size_t n = 0;
+    status st = OK;
+    TRY(remake_run(s));
     for (int k = 0; k <= 3; k++)
         for (size_t i = 0; i < s->n_remakes; i++)
             if (rank(&s->remake[i]) == k) {
-                text_add(out, n++ ? " and then \"" : "\"");
-                add_command(s, &s->remake[i], out);
-                text_add(out, "\"");
+                add_command(s, &s->remake[i], &s->verdict->commands);
+                text_add(&s->verdict->commands, "\n");
             }
-    return text_status(out);
-}
-
-status remake_json(struct search *s)
-{
-    status st = OK;
-    struct text t = {0};
-    json_array(&s->answer, "commands");
-    for (int k = 0; k <= 3; k++)
-        for (size_t i = 0; i < s->n_remakes; i++) {
-            if (rank(&s->remake[i]) != k)
-                continue;
-            add_command(s, &s->remake[i], &t);
-            TRY(text_status(&t));
-            json_text(&s->answer, NULL, t.data);
-            text_free(&t);
-        }
-    json_end_array(&s->answer);
+    TRY(text_status(&s->verdict->commands));
 done:
-    text_free(&t);
     return st;
 }
 
@@ -233,8 +232,8 @@ static status verify_product(struct search *s, const struct product_list *all, c
     status st = product_read(s->root, path, &p);
     if (st == E_MEMORY)
         return st;
-    s->n_files++;
-    s->n_products++;
+    s->verdict->n_files++;
+    s->verdict->n_products++;
     if (st != OK || p.n_words == 0) {
         char why[600];
         snprintf(why, sizeof why, "%s", st != OK ? status_message() : "the record names no command");
@@ -263,6 +262,99 @@ done:
     return st;
 }
 
+/* ---- files that nothing lists */
+
+static int in_order(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+static bool has(const struct product_list *sorted, const char *path)
+{
+    return sorted->n && bsearch(path, sorted->path, sorted->n, sizeof *sorted->path, in_order);
+}
+
+static bool is_sound(const struct search *s, int frame)
+{
+    for (size_t i = 0; i < s->n_sound; i++)
+        if (s->sound[i] == frame)
+            return true;
+    return false;
+}
+
+/* Files of the job's name beside the folders, in them, and all pictures and pages in report/. Other files are the user's own. */
+static bool is_ours(const struct search *s, const char *folder, const char *file)
+{
+    const size_t n = strlen(s->name);
+    if (strcmp(folder, "report/") == 0)
+        return strcmp(file, "index.html") == 0 || frame_in(file) != ALL_FRAMES ||
+               strncmp(file, "view.", 5) == 0;
+    return strncmp(file, s->name, n) == 0 && file[n] == '.';
+}
+
+/* The folders of the files that hoodoo writes; the first ones hold files of frames only, which manifests list. */
+enum { FRAME_FOLDERS = 5 };
+static const char *const stray_folders[] = {"points/", "volumes/", "wind/",      "stacks/", "rocks/", "aov/",
+                                            "mesh/",   "preview/", "turntable/", "report/", ""};
+
+/* Frames of the job without a sound manifest are reported already, and are made again with all their files. */
+static bool is_stray(const struct search *s, int frame)
+{
+    if (frame == ALL_FRAMES)
+        return !s->only_frames;
+    if (s->frames.step && !range_holds(s->frames, frame))
+        return !s->only_frames;
+    return is_sound(s, frame);
+}
+
+static status report_stray(struct search *s, const struct product_list *records, size_t folder,
+                           const char *path)
+{
+    const int frame = frame_in(path);
+    const bool outside = frame != ALL_FRAMES && s->frames.step && !range_holds(s->frames, frame);
+    s->verdict->n_files++;
+    report_problem(
+        s, false, path,
+        outside
+            ? "the job has no such frame, and nothing tells whether the file is whole; an earlier run may have left it"
+            : "neither a record nor a manifest lists it, so nothing tells whether it is whole; an earlier run may have left it");
+    if (!outside && folder >= FRAME_FOLDERS)
+        return guess_command(s, records, path);
+    s->n_others++; /* to be deleted */
+    return OK;
+}
+
+static status verify_strays(struct search *s, const struct product_list *records, size_t folder)
+{
+    status st = OK;
+    const char *name = stray_folders[folder];
+    struct path full, below;
+    struct product_list strays = {0};
+    TRY(path_join(&full, s->root, name));
+    DIR *d = opendir(full.text);
+    if (!d)
+        return OK; /* not made yet */
+    for (struct dirent *e; st == OK && (e = readdir(d));) {
+        struct stat info;
+        if (strstr(e->d_name, ".tmp-") || !is_ours(s, name, e->d_name))
+            continue;
+        st = path_format(&below, "%s%s", name, e->d_name);
+        if (st == OK)
+            st = path_join(&full, s->root, below.text);
+        if (st == OK && stat(full.text, &info) == 0 && S_ISREG(info.st_mode) && !has(records, below.text) &&
+            !has(&s->listed, below.text) && is_stray(s, frame_in(below.text)))
+            st = product_list_add(&strays, below.text);
+    }
+    closedir(d);
+    TRY(st);
+    product_list_sort(&strays);
+    for (size_t i = 0; i < strays.n; i++)
+        TRY(report_stray(s, records, folder, strays.path[i]));
+done:
+    product_list_free(&strays);
+    return st;
+}
+
 status verify_products(struct search *s)
 {
     status st = OK;
@@ -270,6 +362,9 @@ status verify_products(struct search *s)
     TRY(product_list(s->root, &list));
     for (size_t i = 0; i < list.n; i++)
         TRY(verify_product(s, &list, list.path[i]));
+    product_list_sort(&s->listed);
+    for (size_t i = 0; i < sizeof stray_folders / sizeof *stray_folders; i++)
+        TRY(verify_strays(s, &list, i));
 done:
     product_list_free(&list);
     return st;

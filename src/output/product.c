@@ -233,6 +233,15 @@ done:
     return st;
 }
 
+status product_list_add(struct product_list *list, const char *path)
+{
+    const status st =
+        memory_grow(&list->path, &list->capacity, list->n + 1, sizeof *list->path, "the products");
+    if (st == OK)
+        snprintf(list->path[list->n++], sizeof *list->path, "%s", path);
+    return st;
+}
+
 static status add_folder(void *user, const char *folder, const char *below)
 {
     struct product_list *list = user;
@@ -245,9 +254,10 @@ static status add_folder(void *user, const char *folder, const char *below)
         const size_t n = strlen(e->d_name);
         if (n <= m || strcmp(e->d_name + n - m, ENDING) != 0 || strlen(below) + n >= sizeof *list->path)
             continue;
-        st = memory_grow(&list->path, &list->capacity, list->n + 1, sizeof *list->path, "the products");
-        if (st == OK)
-            snprintf(list->path[list->n++], sizeof *list->path, "%s%.*s", below, (int)(n - m), e->d_name);
+        char path[sizeof *list->path];
+        snprintf(path, sizeof path, "%s", below);
+        snprintf(path + strlen(below), sizeof path - strlen(below), "%.*s", (int)(n - m), e->d_name);
+        st = product_list_add(list, path);
     }
     closedir(d);
     return st;
@@ -258,14 +268,19 @@ static int in_order(const void *a, const void *b)
     return strcmp(a, b);
 }
 
+void product_list_sort(struct product_list *list)
+{
+    if (list->n)
+        qsort(list->path, list->n, sizeof *list->path, in_order);
+}
+
 status product_list(const char *root, struct product_list *out)
 {
     *out = (struct product_list){0};
     const status st = each_folder(root, add_folder, out);
     if (st != OK)
         product_list_free(out);
-    else if (out->n)
-        qsort(out->path, out->n, sizeof *out->path, in_order);
+    product_list_sort(out);
     return st;
 }
 

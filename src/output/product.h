@@ -68,6 +68,8 @@ struct product_list {
     char (*path)[512];
 };
 MUST_USE status product_list(const char *root, struct product_list *out);
+MUST_USE status product_list_add(struct product_list *list, const char *path);
+void product_list_sort(struct product_list *list);
 void product_list_free(struct product_list *list);
 
 /* The path of the record of `path`, relative to the output folder. */

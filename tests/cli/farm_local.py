@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 
-from script import HOODOO, TOP, finish, hoodoo, of_a_run, ok, tree
+from script import HOODOO, TOP, ask, finish, hoodoo, of_a_run, ok, tree
 
 PATIENCE = 180
 
@@ -50,6 +50,22 @@ ok(code == 0 and "started" not in said, "the same command again has nothing to d
 code, said = hoodoo("status", "two", "--json")
 status = json.loads(said)
 ok(code == 0 and status["tasks_done"] == status["task_count"] and [w["done"] for w in status["wedges"]] == [12, 12], "status says so", said)
+code, said = hoodoo("verify", "two", "--json")
+found = json.loads(said[:said.rindex("}") + 1])
+ok(code == 0 and found["frames"] == 24 and found["products"] > 20, "verify reads every wedge and what is made of all", said[-600:])
+with open("two/w0002/mesh/twelve_w0002.1003.ply", "r+b") as f:
+    f.truncate(100)
+os.remove("two/w0001/frames/twelve_w0001.1002.json")
+os.remove("two/records/twelve.wedges.png.json")
+code, said = hoodoo("verify", "two", "--json")
+found = json.loads(said[:said.rindex("}") + 1])
+named = {problem["file"] for problem in found["problems"]}
+made = [ask("sh", "-c", '"$HOODOO"' + command[len("hoodoo"):]) for command in found["commands"] if "sheet" not in command]
+ok(code == 3 and {"w0002/mesh/twelve_w0002.1003.ply", "w0001/frames/twelve_w0001.1002.json", "twelve.wedges.png"} <= named and
+   all(code == 0 for code, _ in made), "names what is damaged in a wedge, and the commands that make it again", found, made)
+code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--workers", "2", "--out", "two")
+code, said = hoodoo("verify", "two")
+ok(code == 0, "and submit makes the sheet across wedges again", said[-600:])
 code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--out", "two", "--set", "wind.abrasion=0.9")
 ok(code == 7 and "holds another job" in said and "w0001" in said, "another job is refused the folder before anything starts", code, said)
 

@@ -137,8 +137,27 @@ else:
 if thorough:
     healed("records cut or flipped", any_of(cut_half, flip), one_of_each(records, least=2))
 healed("job.yaml and records flipped", flip, ["job.yaml"] + [f"records/{path}.json" for path in ("run.json", "made.usda", "mesh/made.1001.ply")])
+
+# Nothing tells what a file without a record is.
+alone = ["made.usda", "mesh/made.1002.ply", "preview/made.1001.png", "turntable/made.1002.001.png", "report/frame.1001.jpg"]
+damaged += len(alone)
+for path in alone:
+    os.remove(f"out/records/{path}.json")
+with open("out/preview/notes.txt", "w") as file:
+    file.write("a user's own file")
+code, said = verify()
+named = {problem["file"] for problem in said["problems"]}
+made = [shell(command) for command in said["commands"]]
+ok(code == 3 and named == set(alone) and all(code == 0 for code, _ in made) and verify()[0] == 0,
+   "files whose record is lost are named and made again; a user's own file is not", code, named ^ set(alone), made, verify())
 code, said = hoodoo("run", "made.json", "--out", "out", "--progress", "none", "--resume", "never", "--set", "seed=4")
 code, said = verify()
-ok(code == 0 and said["products"] < 10, "another run in this folder forgets what was made of the one before", code, said)
+named = {problem["file"] for problem in said["problems"]}
+ok(code == 3 and "mesh/made.1001.ply" in named and "preview/made.1002.png" in named and not named & {"made.usda", "run.json", "job.yaml"},
+   "what an earlier run in this folder left is named", code, named)
+for path in named:
+    os.remove(os.path.join("out", path))
+code, said = verify()
+ok(code == 0 and said["products"] < 10, "and once it is gone, all is well", code, said)
 fault("products and their records cut, flipped or gone", damaged, "named by `verify`, whose commands make them again with the same bytes")
 finish()
