@@ -190,6 +190,11 @@ static status guess_command(struct search *s, const struct product_list *all, co
                  {"preview/", 2, {"preview", "--only=stills"}},
                  {"turntable/", 3, {"preview", "--only=views", "--turntable"}},
                  {"report/", 1, {"report"}}};
+    static const struct {
+        const char *ending, *word[2];
+    } of_all[] = {{".wedges.png", {"preview", "--only=wedges"}},
+                  {".png", {"preview", "--only=sheet"}},
+                  {".mp4", {"preview", "--only=video"}}};
     status st = OK;
     struct product p = {0};
     const int frame = frame_in(path);
@@ -213,11 +218,9 @@ static status guess_command(struct search *s, const struct product_list *all, co
             return add_product_command(s, guess[i].n, guess[i].word,
                                        strcmp(guess[i].begin, "report/") == 0 ? ALL_FRAMES : frame, path);
         }
-    if (strstr(path, ".png") || strstr(path, ".mp4")) {
-        static const char *const sheet[] = {"preview", "--only=sheet"}, *const video[] = {"preview",
-                                                                                          "--only=video"};
-        TRY(add_product_command(s, 2, strstr(path, ".png") ? sheet : video, ALL_FRAMES, path));
-    }
+    for (size_t i = 0; i < sizeof of_all / sizeof *of_all; i++)
+        if (strstr(path, of_all[i].ending))
+            return add_product_command(s, 2, of_all[i].word, ALL_FRAMES, path);
 done:
     product_free(&p);
     return st;

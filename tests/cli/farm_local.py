@@ -60,12 +60,11 @@ os.remove("two/records/twelve.wedges.png.json")
 code, said = hoodoo("verify", "two", "--json")
 found = json.loads(said[:said.rindex("}") + 1])
 named = {problem["file"] for problem in found["problems"]}
-made = [ask("sh", "-c", '"$HOODOO"' + command[len("hoodoo"):]) for command in found["commands"] if "sheet" not in command]
+made = [ask("sh", "-c", '"$HOODOO"' + command[len("hoodoo"):]) for command in found["commands"]]
 ok(code == 3 and {"w0002/mesh/twelve_w0002.1003.ply", "w0001/frames/twelve_w0001.1002.json", "twelve.wedges.png"} <= named and
    all(code == 0 for code, _ in made), "names what is damaged in a wedge, and the commands that make it again", found, made)
-code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--workers", "2", "--out", "two")
 code, said = hoodoo("verify", "two")
-ok(code == 0, "and submit makes the sheet across wedges again", said[-600:])
+ok(code == 0, "after them, all is well", said[-600:])
 code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--out", "two", "--set", "wind.abrasion=0.9")
 ok(code == 7 and "holds another job" in said and "w0001" in said, "another job is refused the folder before anything starts", code, said)
 
