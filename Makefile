@@ -217,7 +217,7 @@ test-peers: $(BUILD)/hoodoo $(BUILD)/$(BUNDLE).tar.zst $(BUILD)/.deps-peers $(BU
 test-long: $(BUILD)/hoodoo $(BUILD)/$(BUNDLE).tar.zst $(BUILD)/.deps-long $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) long
 
-FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/killed.py restart/full_disk.sh
+FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/killed.py restart/full_disk.sh restart/faults.py
 ## faults: run the fault campaigns and write their table into tests/README.md
 faults: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/physics/test_numbers
 	$(Q)HOODOO_FAULTS=write sh tests/run.sh $(BUILD) $(FAULTS)

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/log.h"
 #include "base/memory.h"
@@ -33,14 +34,23 @@ struct stage {
 
 /* ---- frames */
 
-/* Reports a frame that is not listed. A run does not fail because an earlier file was damaged; at the end all manifests are read
- * again. */
-static void left_out(const struct stage *s, int frame, const char *why)
+/* What cannot be read is left out while the run goes on, since the stage is written again, and at the end it is an error: the stage would
+ * lack something, and no later command would notice. */
+static status left_out(const struct stage *s, const char *what, const char *why)
 {
     if (s->last)
-        log_warn("frame %d is not in %s.usda: %s", frame, s->job->name, why);
-    else
-        log_info("frame %d is not in %s.usda yet: %s", frame, s->job->name, why);
+        return fail(E_OUTPUT, "%s/%s.usda: %s would be missing: %s; run the same command again", s->root,
+                    s->job->name, what, why);
+    log_info("%s.usda lacks %s so far: %s", s->job->name, what, why);
+    return OK;
+}
+
+static status frame_left_out(const struct stage *s, int frame)
+{
+    char what[40], why[600];
+    snprintf(what, sizeof what, "frame %d", frame);
+    snprintf(why, sizeof why, "%s", status_message());
+    return range_holds(s->job->frames, frame) ? left_out(s, what, why) : OK;
 }
 
 /* *sound: the frame is done and belongs to this job. */
@@ -53,14 +63,13 @@ static status read_frame(const struct stage *s, const struct job_states *states,
     *sound = false;
     st = manifest_read(s->root, s->job->name, number, &m);
     if (st != OK && st != E_MEMORY) {
-        left_out(s, number, status_message());
-        st = OK;
+        st = frame_left_out(s, number);
         goto done;
     }
     TRY(st);
     TRY(manifest_check(s->root, &m, false, &bad));
     if (*bad)
-        left_out(s, number, status_message());
+        TRY(frame_left_out(s, number));
     *sound = !*bad && (!states || job_states_hold(states, number, m.job_hash)) &&
              range_holds(s->job->frames, number);
     *out = (struct stage_frame){.number = number,
@@ -120,6 +129,34 @@ done:
     return st;
 }
 
+/* *current: the mesh has a record and is made from the frame as it is now. One without a record is being made, and its task writes the
+ * stage, too. */
+static status find_mesh(const struct stage *s, const char *path, bool *current)
+{
+    status st = OK;
+    struct product product = {0};
+    struct path record, full;
+    char why[600];
+    *current = false;
+    TRY(product_record(&record, path));
+    TRY(path_join(&full, s->root, record.text));
+    if (access(full.text, F_OK) != 0)
+        goto done;
+    st = product_read(s->root, path, &product);
+    if (st != OK && st != E_MEMORY) {
+        snprintf(why, sizeof why, "%s", status_message());
+        st = left_out(s, path, why);
+        goto done;
+    }
+    TRY(st);
+    st = product_check(s->root, s->job->name, &product, false);
+    *current = st == OK;
+    st = st == E_MEMORY ? st : OK;
+done:
+    product_free(&product);
+    return st;
+}
+
 /* Meshes are products that are made after the frames; those made from the listed frames are listed. */
 static status list_meshes(struct stage *s, const struct stage_frames *known)
 {
@@ -128,16 +165,17 @@ static status list_meshes(struct stage *s, const struct stage_frames *known)
     int *existing = NULL;
     size_t n, k = 0;
     st = folder_list(s->root, s->job->name, FILE_MESH_USD, &existing, &n);
-    if (st == E_INPUT) { /* a run must not fail because its mesh folder cannot be read */
-        log_info("%s.usda has no meshes: %s", s->job->name, status_message());
-        st = OK;
+    if (st == E_INPUT) {
+        char why[600];
+        snprintf(why, sizeof why, "%s", status_message());
+        st = left_out(s, "the meshes", why);
         n = 0;
     }
     TRY(st);
     TRY(memory_alloc(n, sizeof *s->meshes, "frame numbers", &s->meshes));
     for (size_t i = 0; i < n; i++) {
         struct path path;
-        struct product product = {0};
+        bool current = true;
         while (k < known->n && known->frame[k].number < existing[i])
             k++;
         if (k == known->n || known->frame[k].number != existing[i])
@@ -145,16 +183,10 @@ static status list_meshes(struct stage *s, const struct stage_frames *known)
         /* Records are read only at the end: reading all of them at every checkpoint would be quadratic over a run. */
         if (s->last) {
             TRY(folder_name(&path, s->job->name, FILE_MESH_USD, existing[i], NULL));
-            st = product_read(s->root, path.text, &product);
-            if (st == OK)
-                st = product_check(s->root, s->job->name, &product, false);
-            product_free(&product);
+            TRY(find_mesh(s, path.text, &current));
         }
-        if (st == E_MEMORY)
-            goto done;
-        if (st == OK)
+        if (current)
             s->meshes[q->n_meshes++] = existing[i];
-        st = OK;
     }
     meshes_prim(s->job, &q->mesh);
     q->meshes_frame = s->meshes;
@@ -220,10 +252,10 @@ static status find_fields(struct stage *s)
     st = vdb_describe_lattices(path.text, &t);
     if (st == OK)
         st = json_read(path.text, t.data, t.size, &json);
-    /* A run does not fail because an earlier file was damaged; `hoodoo verify` reports it. */
     if (st != OK && st != E_MEMORY) {
-        log_warn("%s.usda has no volumes: %s", s->job->name, status_message());
-        st = OK;
+        char why[600];
+        snprintf(why, sizeof why, "%s", status_message());
+        st = left_out(s, "the volumes", why);
         goto done;
     }
     TRY(st);
