@@ -108,18 +108,24 @@ done:
     return st;
 }
 
-/* *done: whether the product root/`made` has the size in its record and was made from the existing frame. A product that is made
- * from another product, `from`, must also be no older than that; NULL: it is made from a frame. */
-static status product_current(const char *root, const char *name, const char *made, const struct path *from,
+/* A picture on a sheet: the folder of its wedge, its path there, and its path in the folder of the sheet. */
+struct shown {
+    struct path root, path, listed;
+};
+
+/* *done: whether the product root/`made` has the size in its record and was made from the existing frame, or from the picture `shows` as its
+ * record has it now. */
+static status product_current(const char *root, const char *name, const char *made, const struct shown *shows,
                               bool *done)
 {
-    struct path path;
-    struct product p;
+    struct product p, picture = {0};
     status st = product_read(root, made, &p);
     if (st == OK)
         st = product_check(root, name, &p, false);
-    *done = st == OK &&
-            (!from || (path_join(&path, root, made) == OK && modified(path.text) >= modified(from->text)));
+    if (st == OK && shows)
+        st = product_read(shows->root.text, shows->path.text, &picture);
+    *done = st == OK && (!shows || product_shows(&p, shows->listed.text, picture.file.hash));
+    product_free(&picture);
     product_free(&p);
     return st == E_MEMORY ? st : OK;
 }
@@ -131,13 +137,16 @@ static status frame_done(const struct farm *f, const struct farm_task *t, int fr
     const struct farm_kind_info *kind = &farm_kinds[t->kind];
     const struct job *job = farm_job(f, t);
     const size_t n = kind->parts ? kind->parts(job) : 1;
-    struct path root, made, from;
+    struct path root, made;
+    struct shown still;
     TRY(farm_root(f, t->wedge, &root));
-    TRY(folder_path(&from, root.text, job->name, kind->from, frame, NULL));
+    still.root = root;
+    TRY(folder_name(&still.path, job->name, kind->from, frame, NULL));
+    still.listed = still.path;
     for (size_t i = 0; i < n && *done; i++) {
         const char *part = kind->part ? kind->part(job, i) : t->show;
         TRY(folder_name(&made, job->name, kind->makes, frame, part));
-        TRY(product_current(root.text, job->name, made.text, kind->from == FILE_VOLUMES ? NULL : &from,
+        TRY(product_current(root.text, job->name, made.text, kind->from == FILE_VOLUMES ? NULL : &still,
                             done));
     }
 done:
@@ -164,13 +173,17 @@ static status across_done(const struct farm *f, const struct farm_task *t, bool 
 {
     status st = OK;
     const struct farm_kind_info *kind = &farm_kinds[t->kind];
-    struct path root, made, from;
+    struct path made;
+    struct shown still;
+    char number[FRAME_TEXT];
     TRY(folder_name(&made, f->base->name, kind->makes, 0, NULL));
     for (size_t i = 0; i < f->n_wedges && *done; i++) {
         const struct job *job = f->wedge[i].job;
-        TRY(farm_root(f, (int)job->wedge.index, &root));
-        TRY(folder_path(&from, root.text, job->name, kind->from, job->frames.last, NULL));
-        TRY(product_current(f->root.text, job->name, made.text, &from, done));
+        const int wedge = (int)job->wedge.index;
+        TRY(farm_root(f, wedge, &still.root));
+        TRY(folder_name(&still.path, job->name, kind->from, job->frames.last, NULL));
+        TRY(path_join(&still.listed, wedge_text(wedge, number), still.path.text));
+        TRY(product_current(f->root.text, job->name, made.text, &still, done));
     }
 done:
     return st;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "output/folder.h"
 #include "render/png.h"
@@ -95,16 +96,27 @@ struct tile {
 
 /* A mosaic of pictures, some with a line of text. oiiotool takes pictures and operations on them in order:
  * IN --text ... IN --text ... --mosaic. */
-static status mosaic(struct preview *p, const struct recipe *recipe, const struct path *path,
+static status mosaic(struct preview *p, struct recipe *recipe, const struct path *path,
                      const struct tile *tile, size_t n)
 {
     enum { EACH = 4 };
     status st = OK;
     struct sheet sheet = {.recipe = recipe};
+    struct shown_product *shows = NULL;
+    struct path picture;
+    uint64_t size;
     const char **argv = NULL;
     char shape[48], text_option[256];
     size_t k = 0, columns = (size_t)ceil(sqrt((double)n));
     TRY(memory_alloc(EACH * n + 8, sizeof *argv, "the contact sheet", &argv));
+    TRY(memory_alloc(n, sizeof *shows, "the contact sheet", &shows));
+    for (size_t i = 0; i < n; i++) {
+        shows[i].path = tile[i].picture.text;
+        TRY(path_join(&picture, p->root, shows[i].path));
+        TRY(hash_file(picture.text, &shows[i].hash, &size));
+    }
+    recipe->shows = shows;
+    recipe->n_shows = n;
     sheet.path = *path;
     TRY(atomic_file_temporary(path->text, "", &sheet.temporary));
     snprintf(text_option, sizeof text_option, "--text:x=10:y=26:size=18:color=1,1,1,1:shadow=2:font=%s",
@@ -125,6 +137,9 @@ static status mosaic(struct preview *p, const struct recipe *recipe, const struc
     TRY(children_run(&p->children, argv, "the contact sheet", sheet_done, &sheet));
     TRY(children_wait(&p->children));
 done:
+    recipe->shows = NULL;
+    recipe->n_shows = 0;
+    free(shows);
     free(argv);
     return st;
 }

@@ -59,6 +59,16 @@ static status write_record(const struct recipe *r, const char *path, uint64_t ha
     for (size_t i = 0; i < r->n_words; i++)
         json_text(&t, NULL, r->word[i]);
     json_end_array(&t);
+    if (r->n_shows)
+        json_array(&t, "shows");
+    for (size_t i = 0; i < r->n_shows; i++) {
+        json_object(&t, NULL);
+        json_text(&t, "path", r->shows[i].path);
+        sealed_add_hash(&t, "xxh3", r->shows[i].hash);
+        json_end_object(&t);
+    }
+    if (r->n_shows)
+        json_end_array(&t);
     TRY(sealed_write(to.text, &t));
 done:
     text_free(&t);
@@ -137,6 +147,7 @@ static bool to_product(const struct json *json, const char *path, struct product
         return false;
     snprintf(out->file.path, sizeof out->file.path, "%s", own);
     out->frame = ALL_FRAMES;
+    out->shows = json_member(json, "shows");
     return json_to_uint64(json_member(json, "size"), &out->file.size) &&
            sealed_to_hash(json_member(json, "xxh3"), &out->file.hash) &&
            sealed_to_hash(json_member(json, "source_xxh3"), &out->source) &&
@@ -175,6 +186,18 @@ status product_check(const char *root, const char *name, const struct product *p
     return source == p->source ? OK
                                : fail(E_INPUT, "%s/%s: it was made from frame %d before that was changed",
                                       root, p->file.path, p->frame);
+}
+
+bool product_shows(const struct product *p, const char *path, uint64_t hash)
+{
+    const bool list = p->shows && p->shows->kind == JSON_ARRAY;
+    for (const struct json *item = list ? p->shows->first : NULL; item; item = item->next) {
+        const char *shown = json_to_text(json_member(item, "path"));
+        uint64_t then;
+        if (shown && strcmp(shown, path) == 0)
+            return sealed_to_hash(json_member(item, "xxh3"), &then) && then == hash;
+    }
+    return false;
 }
 
 static bool same_words(const struct recipe *r, const struct product *p)

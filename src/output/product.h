@@ -18,6 +18,12 @@
 /* ALL_FRAMES: the frame number of products of the whole sequence. */
 enum { ALL_FRAMES = INT_MIN, PRODUCT_WORDS = 64 };
 
+/* A product that another one shows, such as a still on a contact sheet: its path relative to the output folder, and its hash. */
+struct shown_product {
+    const char *path;
+    uint64_t hash;
+};
+
 /* How a product is made. */
 struct recipe {
     const char *root; /* the output folder */
@@ -27,6 +33,8 @@ struct recipe {
     int frame;      /* or ALL_FRAMES */
     uint64_t
         source; /* manifest_source() of the frame, or another hash of what it is made from; 0: not known */
+    const struct shown_product *shows;
+    size_t n_shows;
 };
 
 /* Fills in the frame and its source. The source is 0 if the frame has no sound manifest. `name`: the job's name. E_MEMORY. */
@@ -51,6 +59,7 @@ struct product {
     uint64_t source;           /* 0: not known */
     size_t n_words;
     const char *word[PRODUCT_WORDS]; /* strings owned by `json` */
+    const struct json *shows;        /* owned by `json`; product_shows() */
     struct json *json;               /* owned; product_free() */
 };
 
@@ -61,6 +70,9 @@ void product_free(struct product *product);
 /* E_INPUT, with the reason, unless the file matches its record and was made from the frame as it is now. If the frame has no sound
  * manifest, the source is not compared. */
 MUST_USE status product_check(const char *root, const char *name, const struct product *product, bool deep);
+
+/* Was this product made from the file `path` when that had this hash? */
+bool product_shows(const struct product *product, const char *path, uint64_t hash);
 
 /* The paths of all products that have a record, sorted. */
 struct product_list {

@@ -50,6 +50,22 @@ ok(code == 0 and "started" not in said, "the same command again has nothing to d
 code, said = hoodoo("status", "two", "--json")
 status = json.loads(said)
 ok(code == 0 and status["tasks_done"] == status["task_count"] and [w["done"] for w in status["wedges"]] == [12, 12], "status says so", said)
+
+# Sheets are made again when a still is another one, not when it is younger.
+def sheets_to_make():
+    code, said = hoodoo("status", "two", "--json")
+    return sorted(t["task"] for t in json.loads(said)["tasks"] if t["state"] != "done" and t["task"] != "end")
+
+
+still = "two/w0002/preview/twelve_w0002.1012.png"
+os.utime(still, (time.time() + 9999, time.time() + 9999))
+ok(sheets_to_make() == [], "a still that was only copied leaves its sheets as they are", sheets_to_make())
+hoodoo("preview", "two/w0002", "--frames", "1012", "--only", "stills", "--resolution", "128x64")
+os.utime(still, (1e9, 1e9))
+ok(sheets_to_make() == ["w0002.sheet", "wedges"], "sheets that show an earlier still are made again", sheets_to_make())
+code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--workers", "2", "--out", "two")
+ok(code == 0 and sheets_to_make() == [], "and are current then", said)
+
 code, said = hoodoo("verify", "two", "--json")
 found = json.loads(said[:said.rindex("}") + 1])
 ok(code == 0 and found["frames"] == 24 and found["products"] > 20, "verify reads every wedge and what is made of all", said[-600:])
