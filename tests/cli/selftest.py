@@ -35,7 +35,7 @@ found = json.loads(said)
 checks = {(c["group"], c["name"]): c for c in found["checks"]}
 ok(found["format"] == 1 and found["ok"] and found["quick"] and all(c["ok"] for c in found["checks"]), "every check is ok", [c for c in found["checks"] if not c["ok"]])
 ok(took < SECONDS / 2, "in its time", took)
-for model in ("arenite", "arenite in seconds", "goblins", "arches"):
+for model in ("arenite", "arenite in seconds", "arenite, slow", "arenite, blocks", "goblins", "arches"):
     for what in ("as recorded", "run again", "resumed", "kernel variants"):
         ok((model, what) in checks, f"{model}: {what}", sorted(checks))
 ok({n for g, n in checks if g.startswith("kernels")} == {"scan", "sort", "compaction", "gather", "reduce", "pointer doubling"}, "kernels against plain C", sorted(checks))
