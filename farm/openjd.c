@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/visible.h"
 #include "farm/command.h"
 #include "farm/needs.h"
 
@@ -107,7 +108,7 @@ static status put_parameters(const struct writer *w)
     const struct farm *f = w->farm;
     struct text *t = w->out, frames = {0};
     const struct job *job = f->wedge[0].job;
-    char wedges[32];
+    char wedges[32], delay[16];
     json_array(t, "parameterDefinitions");
     put_parameter(t, "JobFile", "PATH", "farm/job.yaml", "The job as it was submitted");
     json_text(t, "objectType", "FILE");
@@ -121,6 +122,10 @@ static status put_parameters(const struct writer *w)
     json_end_object(t);
     put_parameter(t, "Device", "STRING", plain_or(w->device ? w->device : "auto", "auto"),
                   "auto, cpu, an index, uuid:HEX or pci:ADDRESS");
+    json_end_object(t);
+    snprintf(delay, sizeof delay, "%d", VISIBLE_DELAY_S);
+    put_parameter(t, "DiskDelay", "INT", delay,
+                  "Seconds for which a worker may not see yet what another has written");
     json_end_object(t);
     if (job->wedge.index) {
         if (f->n_wedges == 1)
@@ -147,6 +152,18 @@ static status put_parameters(const struct writer *w)
     status st = text_status(&frames);
     text_free(&frames);
     return st;
+}
+
+static void put_environment(struct text *t)
+{
+    json_array(t, "jobEnvironments");
+    json_object(t, NULL);
+    json_text(t, "name", "Disk");
+    json_object(t, "variables");
+    json_text(t, "HOODOO_DISK_DELAY", "{{Param.DiskDelay}}");
+    json_end_object(t);
+    json_end_object(t);
+    json_end_array(t);
 }
 
 /* ---- steps */
@@ -447,6 +464,7 @@ status openjd_template(const struct farm *f, const char *device, struct text *t)
     snprintf(name, sizeof name, "hoodoo %s", f->base->name);
     json_text(t, "name", name);
     TRY(put_parameters(&w));
+    put_environment(t);
     TRY(put_steps(&w));
     json_end_object(t);
     TRY(text_status(t));

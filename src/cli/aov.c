@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "cli/await.h"
 #include "cli/cli.h"
 #include "exr/exr.h"
 #include "field/field.h"
@@ -314,7 +315,7 @@ status cli_aov(int argc, char **argv)
     if (help)
         goto done;
     TRY(wedge_folder(operands.item[0], wedge, &s.root));
-    TRY(folder_open(s.root.text, s.name));
+    TRY(frames_folder(s.root.text, c.frames, s.name));
     folder_sweep(s.root.text);
     TRY(path_join(&path, s.root.text, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &s.job));

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "cli/await.h"
 #include "cli/cli.h"
 #include "frame/meshes.h"
 #include "frame/stage.h"
@@ -79,7 +80,7 @@ status cli_mesh(int argc, char **argv)
         st = fail(E_USAGE, "--smooth %d: must be 0 to 100", meshes.smooth);
         goto done;
     }
-    TRY(folder_open(root.text, name));
+    TRY(frames_folder(root.text, c.frames, name));
     folder_sweep(root.text);
     TRY(path_join(&path, root.text, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));

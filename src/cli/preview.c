@@ -8,6 +8,7 @@
 #include "base/cores.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "cli/await.h"
 #include "cli/cli.h"
 #include "output/product.h"
 #include "render/picture.h"
@@ -127,6 +128,8 @@ static status stills(struct preview *p, int *frames, size_t n, int only)
     TRY(children_wait(&p->children));
     if (only == ONLY_STILLS)
         goto done;
+    if (only == ONLY_SHEET)
+        await_stills(p);
     TRY(keep_those_with_stills(p, frames, &n));
     if (n == 0)
         st =
@@ -158,6 +161,8 @@ static status turntable(struct preview *p, const struct wanted *w, const int *fr
         TRY(picture_orbit(p, frames[n - 1], w->views, w->which));
     if (w->only == ONLY_VIEWS)
         goto done;
+    if (w->only == ONLY_VIDEO)
+        await_views(p, frames[n - 1], w->views);
     TRY(turntable_video(p, frames[n - 1], w->views));
     /* A sheet of stills is more informative than one of views and is not replaced by it. */
     TRY(folder_name(&path, p->job->name, FILE_SHEET, 0, picture_part(p)));
@@ -210,6 +215,7 @@ static status wedges(struct preview *p)
     folder_sweep(p->root);
     TRY(make_folder(p->root, "log"));
     children_begin(&p->children, p->root, "log/preview.log", PICTURE_PACKAGES, 1);
+    await_wedges(p->root, all, n);
     TRY(turntable_wedges(p, all, n));
 done:
     children_end(&p->children);
@@ -276,7 +282,7 @@ status cli_preview(int argc, char **argv)
         st = wedges(&p);
         goto done;
     }
-    TRY(folder_open(p.root, name));
+    TRY(frames_folder(p.root, w.common.frames, name));
     TRY(path_join(&path, p.root, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));
     p.job = job;
