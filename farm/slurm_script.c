@@ -43,7 +43,9 @@ done:
     return st;
 }
 
-/* Slurm signals only the batch script: USR1 before the time limit (--signal=B:), TERM to cancel, preempt or requeue. After TERM
+/* A job whose nodes are all excluded would be pending for ever, so it fails.
+ *
+ * Slurm signals only the batch script: USR1 before the time limit (--signal=B:), TERM to cancel, preempt or requeue. After TERM
  * Slurm decides what comes next, otherwise the script does. A signal interrupts `wait`, which is then started again.
  *
  * A requeue ends the script by TERM, so it ignores signals from there on. The job is pending then, which is when Slurm lets its
@@ -55,6 +57,15 @@ static const char body[] =
     "exclude() {\n"
     "    note \"\\\"excluded\\\", \\\"node\\\": \\\"$node\\\"\"\n"
     "    bad=$(awk -F'\"' '/\"submitted\"/ { s = \"\" } /\"excluded\"/ { s = s (s == \"\" ? \"\" : \",\") $8 } END { print s }' \"$tries\")\n"
+    "}\n"
+    "none_left() {\n"
+    "    own=$(scontrol show job \"$id\" | sed -n 's/.*ExcNodeList=\\([^ ]*\\).*/\\1/p' | sed '/(null)/d')\n"
+    "    out=,$bad,$(scontrol show hostnames \"$own\" | tr '\\n' ,)\n"
+    "    all=$(sinfo --noheader --Node --format=%N --partition=\"$SLURM_JOB_PARTITION\")\n"
+    "    [ -n \"$all\" ] || return 1\n"
+    "    for n in $all; do case $out in *,\"$n\",*) ;; *) return 1 ;; esac; done\n"
+    "    note '\"stranded\"'\n"
+    "    say \"failed: exit $rc; every node of partition $SLURM_JOB_PARTITION is excluded ($bad could not run it)\"\n"
     "}\n"
     "id=${SLURM_ARRAY_JOB_ID:+${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID}\n"
     "id=${id:-$SLURM_JOB_ID}\n"
@@ -90,6 +101,7 @@ static const char body[] =
     "    n=$(awk '/\"submitted\"/ { n = 0 } /\"excluded\"/ { n++ } END { print n + 0 }' \"$tries\")\n"
     "    [ -n \"$bad\" ] && [ \"$n\" -lt \"$retries\" ] || { say \"failed: exit 7; not tried again, as that cannot help\"; exit 7; }\n"
     "    exclude\n"
+    "    ! none_left || exit 7\n"
     "    say \"exit 7: another device, driver or build than that of the frames; queued again without $bad\"\n"
     "    ;;\n"
     "2 | 8)\n"
@@ -98,6 +110,7 @@ static const char body[] =
     "    ;;\n"
     "126 | 127)\n"
     "    exclude\n"
+    "    ! none_left || exit \"$rc\"\n"
     "    say \"exit $rc: this node cannot run $1; queued again without $bad\"\n"
     "    ;;\n"
     "*)\n"
@@ -110,7 +123,6 @@ static const char body[] =
     "trap '' TERM INT USR1\n"
     "scontrol requeue \"$id\" || say \"scontrol could not requeue: left to RequeueExit=85\"\n"
     "if [ -n \"$bad\" ]; then\n"
-    "    own=$(scontrol show job \"$id\" | sed -n 's/.*ExcNodeList=\\([^ ]*\\).*/\\1/p' | sed '/(null)/d')\n"
     "    scontrol update JobId=\"$id\" ExcNodeList=\"$bad${own:+,$own}\" || say \"scontrol could not exclude $bad\"\n"
     "fi\n"
     "exit 85\n";

@@ -58,12 +58,14 @@ static void put_wedges(const struct farm *f, struct text *out)
 static void state_of(const struct slurm_job *job, const struct farm_tries *tries, bool local, char out[32],
                      const char **reason)
 {
-    *reason = "";
+    static const char *const stranded =
+        "no node of its partition can run it: install hoodoo there, or set farm.binary or --partition, then retry";
+    *reason = tries->stranded ? stranded : "";
     if (job && *job->id && *job->state) {
         snprintf(out, 32, "%s", job->state);
         for (char *c = out; *c; c++)
             *c = (char)tolower((unsigned char)*c);
-        if (strcmp(job->reason, "None") != 0)
+        if (!tries->stranded && strcmp(job->reason, "None") != 0)
             *reason = job->reason;
         return;
     }

@@ -45,6 +45,8 @@ static void count(const struct json *line, struct farm_tries *out, double *began
     } else if (strcmp(event, "excluded") == 0 && node) {
         const size_t n = strlen(out->excluded);
         snprintf(out->excluded + n, sizeof out->excluded - n, "%s%s", n ? "," : "", node);
+    } else if (strcmp(event, "stranded") == 0) {
+        out->stranded = true;
     } else if (strcmp(event, "cancelled") == 0) {
         out->cancelled = true;
     }

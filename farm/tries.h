@@ -3,6 +3,7 @@
  *     {"event": "submitted"}
  *     {"event": "start", "node": "n12", "job": "1234_5", "time": 1764512345}
  *     {"event": "end", "exit": 4, "seconds": 12}
+ *     {"event": "stranded"}                        no node of its partition is left that is not excluded
  *     {"event": "excluded", "node": "n12"}         the node cannot run hoodoo (exit 126 or 127)
  *     {"event": "cancelled"}
  *
@@ -21,6 +22,7 @@ struct farm_tries {
     int exit_code;      /* of the last end; -1: none */
     double seconds;     /* of the last try; of one without an end, up to now by this machine's clock */
     char node[128];     /* of the last start */
+    bool stranded;      /* no node is left that is not excluded */
     char excluded[512]; /* nodes with commas between */
 };
 

@@ -122,4 +122,19 @@ with OneNode(requeue_exit=False, nodes=("a", "b", "c"), wrapped={"a": broken, "b
     ok(read("hook.log") == "failed 3/6 with: a space\ndone 6/6 with: a space\n", "the hook is called once for the end", read("hook.log"))
     mails = read("mail.log").splitlines()
     ok(len(mails) == 2 and all("base.end" in m or ".end" in m for m in mails), "one mail for each submission that ended", mails)
+
+# Where no node can run hoodoo, the job fails instead of being pending for ever; one that the user excluded is not waited for.
+os.mkdir("stranded")
+os.chdir("stranded")
+with OneNode(requeue_exit=False, nodes=("a", "b", "c"), wrapped={"a": broken, "b": bare}) as slurm:
+    out = os.path.abspath("out")
+    code, said = hoodoo("submit", "../job.yaml", "--to", "slurm", "--device", "cpu", "--out", out, "--", "--exclude=c")
+    ok(code == 0, "a job for nodes that cannot run hoodoo", said)
+    slurm.wait_for(lambda: not queued(slurm), "an empty queue", 300)
+    t, behind = task(out, "sim.1001-1004"), task(out, "sim.1005-1008")
+    log = read(out + "/log/farm/sim.1001-1004.log")
+    ok(t["exit"] in ("126", "127") and t["tries"] == 2 and sorted(t["excluded_nodes"].split(",")) == ["a", "b"] and t["reason"].startswith("no node of its partition can run it"),
+       "status says that no node is left", t)
+    ok("exit 12" in log and "every node of partition farm is excluded (" in log and "(a,b could not" in log.replace("b,a", "a,b"), "and so does the log", log)
+    ok(behind["tries"] == 0 and behind["state"] == "cancelled", "and what waits for it does not start", behind)
 finish()
