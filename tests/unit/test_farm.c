@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/random.h"
 #include "farm/command.h"
@@ -306,12 +307,6 @@ static void kinds_say_what_is_needed(void **state)
 
 /* ---- what is done, as files tell */
 
-static void set_time(const char *path, int64_t seconds)
-{
-    const struct timespec times[2] = {{seconds, 0}, {seconds, 0}};
-    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
-}
-
 /* A frame's manifest, whose volumes have this hash. */
 static void put_frame(const char *root, int frame, uint64_t hash)
 {
@@ -324,20 +319,25 @@ static void put_frame(const char *root, int frame, uint64_t hash)
     assert_ok(manifest_write(root, "sample", &m));
 }
 
-/* Made of a frame, or of ALL_FRAMES. */
-static void put_product(const char *root, const char *name, int frame, int64_t seconds)
+static void put_product(const char *root, const char *name, int frame, const char *text)
 {
-    char path[600];
-    struct recipe recipe = {.root = root, .frame = ALL_FRAMES};
-    if (frame != ALL_FRAMES)
-        assert_ok(recipe_of_frame(&recipe, "sample", frame));
-    assert_ok(product_write(&recipe, name, "made", 4));
-    snprintf(path, sizeof path, "%s/%s", root, name);
-    set_time(path, seconds);
+    struct recipe recipe = {.root = root};
+    assert_ok(recipe_of_frame(&recipe, "sample", frame));
+    assert_ok(product_write(&recipe, name, text, strlen(text)));
+}
+
+/* Of the stills of both frames, as put_product() writes them with this text. */
+static void put_sheet(const char *root, const char *text)
+{
+    const uint64_t hash = hash_bytes(text, strlen(text));
+    const struct shown_product shows[] = {{"preview/sample.0007.png", hash},
+                                          {"preview/sample.0008.png", hash}};
+    const struct recipe recipe = {.root = root, .frame = ALL_FRAMES, .shows = shows, .n_shows = 2};
+    assert_ok(product_write(&recipe, "sample.contact.png", "sheet", 5));
 }
 
 /* By kind, a file that its task makes and the one that is made of, in a job of frames 0007 and 0008. */
-static void tasks_are_done_when_their_files_are_there_and_new(void **state)
+static void tasks_are_done_when_their_files_are_there_and_current(void **state)
 {
     (void)state;
     static const struct {
@@ -385,9 +385,9 @@ static void tasks_are_done_when_their_files_are_there_and_new(void **state)
         put_frame(root, 7, 1);
         put_frame(root, 8, 1);
         for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-            put_product(root, all[i], strstr(all[i], "0007") ? 7 : 8, 2000);
-        put_product(root, "sample.contact.png", ALL_FRAMES, 3000);
-        put_product(root, "sample.turntable.mp4", 8, 3000);
+            put_product(root, all[i], strstr(all[i], "0007") ? 7 : 8, "made");
+        put_sheet(root, "made");
+        put_product(root, "sample.turntable.mp4", 8, "made");
         for (int what = 0; what < 4; what++) {
             char path[300];
             snprintf(path, sizeof path, "%s/%s", root, cases[c].made);
@@ -395,7 +395,7 @@ static void tasks_are_done_when_their_files_are_there_and_new(void **state)
                 if (strncmp(cases[c].from, "volumes", 7) == 0)
                     put_frame(root, strstr(cases[c].from, "0007") ? 7 : 8, 2);
                 else
-                    put_product(root, cases[c].from, 7, 5000);
+                    put_product(root, cases[c].from, 7, "anew");
             }
             if (what == 2) { /* it again, of what is there */
                 put_frame(root, 7, 1);
@@ -537,7 +537,7 @@ int main(void)
         cmocka_unit_test(every_value_is_shown),
         cmocka_unit_test(tasks_stand_behind_what_they_wait_for),
         cmocka_unit_test(kinds_say_what_is_needed),
-        cmocka_unit_test(tasks_are_done_when_their_files_are_there_and_new),
+        cmocka_unit_test(tasks_are_done_when_their_files_are_there_and_current),
         cmocka_unit_test(longer_jobs_take_longer),
         cmocka_unit_test(long_frames_are_told_earlier),
         cmocka_unit_test(a_shell_takes_quoted_words_as_they_are),
