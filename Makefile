@@ -6,7 +6,7 @@ PACKAGES = build-essential pkg-config glslang-dev spirv-tools libvulkan-dev mesa
 TEST_PACKAGES = procps libcmocka-dev vulkan-validationlayers libopenvdb-tools openexr python3-openvdb python3-openimageio python3-numpy python3-scipy \
 	libcgal-dev libeigen3-dev gdal-bin
 LONG_PACKAGES = libcgal-demo debootstrap bindfs slurmctld slurmd slurm-client munge
-PEER_PACKAGES = blender chromium slurmctld slurmd slurm-client munge python3-venv bindfs
+PEER_PACKAGES = lintian blender chromium slurmctld slurmd slurm-client munge python3-venv bindfs
 BENCH_PACKAGES = python3-petsc4py-real python3-venv
 BENCH_WHEELS = taichi==1.7.4 fastscapelib==0.3.0 pyamg==5.4.1 'numpy<2'
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0
@@ -309,6 +309,10 @@ $(BUILD)/$(BUNDLE).tar.zst: $(BUILD)/hoodoo $(addprefix $(BUILD)/bundle/,hoodoo-
 	$(Q)strip $(addprefix $(STAGE)/lib/programs/,$(LAUNCHED)) $(STAGE)/libexec/hoodoo/hoodoo-vdb.so
 	$(Q)/usr/bin/python3 farm/bundle/collect.py $(STAGE) $@
 
+## deb: pack what `make install` installs as build/hoodoo_VERSION-1_ARCHITECTURE.deb, a package for this release of Debian
+deb: $(BUILD)/hoodoo
+	$(Q)sh farm/bundle/deb.sh $(BUILD) $(VERSION)
+
 ## clean: remove all build folders (out/ stays)
 clean:
 	rm -rf build build-asan build-tsan
@@ -317,7 +321,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-long deps-dev deps-peers deps-bench demo test test-later test-peers test-long faults bench bench-compare reference gallery format lint test-asan test-tsan test-sanitized fuzz fuzz-built install bundle clean help
+.PHONY: all deps deps-test deps-long deps-dev deps-peers deps-bench demo test test-later test-peers test-long faults bench bench-compare reference gallery format lint test-asan test-tsan test-sanitized fuzz fuzz-built install bundle deb clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -type f -name '*.d' 2>/dev/null)

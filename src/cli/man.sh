@@ -35,7 +35,13 @@ default of
 .B \-\-device
 .TP
 .B HOODOO_CACHE
-folder for compiled shaders and the states of hoodoo look
+folder for compiled shaders and the states of hoodoo look; default: ~/.cache/hoodoo
+.TP
+.B HOODOO_TMP
+folder for temporary files of hoodoo selftest; default: that of TMPDIR, or /tmp
+.TP
+.B HOODOO_DISK_DELAY
+seconds after which a shared disk shows what another machine wrote
 .TP
 .B HOODOO_LIBEXEC
 folder of the helper programs and libraries for other file formats

@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "job/job.h"
 #include "system/atomic_file.h"
+#include "system/cache.h"
 
 status selftest_stop(const struct selftest *t)
 {
@@ -67,12 +68,13 @@ done:
 static status make_folder(struct path *out)
 {
     status st = OK;
-    const char *parent = getenv("TMPDIR");
-    TRY(path_join(out, parent && *parent ? parent : "/tmp", "hoodoo-selftest.XXXXXX"));
+    struct path parent;
+    TRY(temporary_folder(&parent));
+    TRY(path_join(out, parent.text, "hoodoo-selftest.XXXXXX"));
     if (!mkdtemp(out->text)) {
-        st =
-            fail(E_OUTPUT, "%s: the temporary folder cannot be created: %s (set TMPDIR to use another place)",
-                 out->text, strerror(errno));
+        st = fail(E_OUTPUT,
+                  "%s: the temporary folder cannot be created: %s (set HOODOO_TMP to use another place)",
+                  out->text, strerror(errno));
         out->text[0] = '\0';
     }
 done:

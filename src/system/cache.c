@@ -15,3 +15,14 @@ bool cache_folder(struct path *out)
     }
     return false;
 }
+
+status temporary_folder(struct path *out)
+{
+    static const char *const variables[] = {"HOODOO_TMP", "TMPDIR"};
+    for (size_t i = 0; i < sizeof variables / sizeof *variables; i++) {
+        const char *value = getenv(variables[i]);
+        if (value && *value)
+            return path_format(out, "%s", value);
+    }
+    return path_format(out, "/tmp");
+}

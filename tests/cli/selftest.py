@@ -56,7 +56,7 @@ for words, more in ((("--device", "99"), {}), ((), {"HOODOO_DEVICE": "99"}), (("
     code, said, errors = selftest("--quick", *words, **more)
     ok(code == 6 and not said and "devices here" in errors and errors.count("\n") == 1, f"{words} {more}: there is no such device", code, said, errors)
 ok(selftest("--device", "first")[0] == 2, "a device that cannot be one is wrong usage")
-code, said, errors = selftest("--quick", TMPDIR="/nowhere")
+code, said, errors = selftest("--quick", HOODOO_TMP="/nowhere")
 ok(code == 4 and "/nowhere" in errors, "no place for temporary files", code, errors)
 nothing_left("after a refusal")
 
