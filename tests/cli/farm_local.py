@@ -7,7 +7,7 @@ import signal
 import subprocess
 import time
 
-from script import HOODOO, TOP, ask, finish, hoodoo, of_a_run, ok, tree
+from script import HOODOO, TOP, ask, clear_meshes, finish, hoodoo, obstruct_meshes, of_a_run, ok, tree
 
 PATIENCE = 180
 
@@ -85,12 +85,11 @@ code, said = hoodoo("submit", "wedges.yaml", "--to", "local", "--out", "two", "-
 ok(code == 7 and "holds another job" in said and "w0001" in said, "another job is refused the folder before anything starts", code, said)
 
 # A temporary failure, a permanent one, and the tasks that depend on it.
-os.makedirs("fails")
-open("fails/mesh", "w").close()
+obstruct_meshes("fails", "twelve", range(1001, 1013))
 code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "1", "--out", "fails")
-ok(code == 4 and said.count("it will be retried") >= 1 and "failed permanently" in said and "Not a directory" in said and
+ok(code == 4 and said.count("it will be retried") >= 1 and "failed permanently" in said and "Is a directory" in said and
    "sim.1011-1012: done" in said and "\r" not in said, "a task that keeps failing is tried twice; the rest is done; the log says why", code, said)
-os.remove("fails/mesh")
+clear_meshes("fails")
 code, said = hoodoo("submit", "plain.yaml", "--to", "local", "--workers", "1", "--out", "fails")
 ok(code == 0 and "sim." not in "".join(l for l in said.splitlines() if "started" in l) and len(os.listdir("fails/mesh")) == 3 * 12 + 1,
    "with its cause gone the same command does what is left", code, said)

@@ -7,7 +7,7 @@ import sys
 import time
 
 sys.dont_write_bytecode = True
-from script import HOODOO, finish, hoodoo, ok
+from script import HOODOO, clear_meshes, finish, hoodoo, obstruct_meshes, ok
 
 TINY = """hoodoo: 1
 name: tiny
@@ -38,18 +38,17 @@ with open("long.yaml", "w") as f:
     f.write(TINY.format(last=4000, block=2000))
 
 # A failure: what status says, and retry.
-os.makedirs("out")
-open("out/mesh", "w").close()
+obstruct_meshes("out", "tiny", range(1, 5))
 code, said = hoodoo("submit", "job.yaml", "--to", "local", "--workers", "1", "--out", "out")
 ok(code == 4 and read("hook.log") == "failed 2/4\n", "a job that fails ends with its hook, told so", code, said, read("hook.log"))
 t = status("out")["mesh.1-2"]
 ok(t["state"] == "failed" and t["tries"] == 2 and t["exit"] == "4" and t["meaning"] == "output cannot be written" and t["node"] == os.uname().nodename and
    t["log"] == "log/farm/mesh.1-2.log", "status has state, tries, exit code, meaning, node and log", t)
 log = read("out/log/farm/mesh.1-2.log")
-ok(log.count("exit 4 after") == 2 and "try 2, worker 0" in log and log.count("Not a directory") >= 2, "its log has both tries and what they wrote", log)
+ok(log.count("exit 4 after") == 2 and "try 2, worker 0" in log and log.count("Is a directory") >= 2, "its log has both tries and what they wrote", log)
 code, said = hoodoo("status", "out")
 ok(code == 0 and "4: output cannot be written" in said, "for people too", said)
-os.remove("out/mesh")
+clear_meshes("out")
 for name, what in (("mesh.1-3", "did you mean mesh.1-2"), ("sim.1-2", "is done, so there is nothing to retry"), ("end", "waits for mesh.1-2, which is not done")):
     code, said = hoodoo("retry", "out", name)
     ok(code == 2 and what in said, f"retry {name}: {what}", said)

@@ -40,6 +40,18 @@ def hoodoo(*words, **more):
     return ask(HOODOO, *words, **more)
 
 
+def obstruct_meshes(root, name, frames):
+    """Folders in the place of meshes, which then cannot be written, also by root."""
+    for frame in frames:
+        os.makedirs(f"{root}/mesh/{name}.{frame:04d}.obj")
+
+
+def clear_meshes(root):
+    for name in os.listdir(root + "/mesh"):
+        if os.path.isdir(f"{root}/mesh/{name}"):
+            os.rmdir(f"{root}/mesh/{name}")
+
+
 def cut_half(path):
     os.truncate(path, os.path.getsize(path) // 2)
 

@@ -13,7 +13,7 @@ sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "lib"))
 from one_node import OneNode
-from script import HOODOO, TOP, finish, of_a_run, ok, tree
+from script import HOODOO, TOP, clear_meshes, finish, obstruct_meshes, of_a_run, ok, tree
 
 os.environ["LP_NUM_THREADS"] = "1"
 
@@ -70,24 +70,23 @@ def job_id(out, task):
         return re.search(r'"task": "%s",\s*"job": "([0-9_]+)"' % re.escape(task), f.read())[1]
 
 
-def mend(tries, obstacle):
+def mend(tries, root):
     """Takes the obstacle away once a try has failed."""
     while not os.path.exists(tries) or '"exit": 4' not in open(tries).read():
         time.sleep(0.05)
-    os.remove(obstacle)
+    clear_meshes(root)
 
 
 def whole_job():
     write_job("job.yaml", wedges=True)
     with OneNode(requeue_exit=False) as slurm:
         out = os.path.abspath("out dir %j $(touch pwned)")
-        os.makedirs(out + "/w0001")
-        open(out + "/w0001/mesh", "w").close()  # a file where the first meshes want a folder: they fail
+        obstruct_meshes(out + "/w0001", "twelve_w0001", [1001])  # the first meshes fail
         done = hoodoo("submit", "job.yaml", "--to", "slurm", "--device", "cpu", "--out", out)
         if not ok(done.returncode == 0, "a job of two wedges is submitted", done.stdout):
             return
         log = f"{out}/log/farm/w0001.mesh.1001-1002.log"
-        mender = threading.Thread(target=mend, args=(log.replace(".log", ".jsonl"), out + "/w0001/mesh"), daemon=True)
+        mender = threading.Thread(target=mend, args=(log.replace(".log", ".jsonl"), out + "/w0001"), daemon=True)
         mender.start()
         again = hoodoo("submit", "job.yaml", "--to", "slurm", "--device", "cpu", "--out", out)
         ok(again.returncode == 0 and re.search(r"queued already +40", again.stdout), "submitting again submits nothing twice", again.stdout)

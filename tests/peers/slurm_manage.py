@@ -13,7 +13,7 @@ sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "lib"))
 from one_node import OneNode
-from script import HOODOO, TOP, finish, hoodoo, ok
+from script import HOODOO, TOP, clear_meshes, finish, hoodoo, obstruct_meshes, ok
 
 os.environ["LP_NUM_THREADS"] = "1"
 os.environ["HOODOO_DISK_DELAY"] = "2"
@@ -96,9 +96,9 @@ with OneNode(requeue_exit=False, nodes=("a", "b", "c"), wrapped={"a": broken, "b
     code, said = hoodoo("cancel", out, "--json")
     ok(code == 0 and json.loads(said)["cancelled"] == [], "there is nothing left to cancel", said)
 
-    # One task and those behind it; the meshes fail, for a file is in the place of their folder.
+    # One task and those behind it; the meshes fail, for folders are in the place of their files.
     before = frames(out)
-    write(out + "/mesh", "")
+    obstruct_meshes(out, "twelve", range(1001, 1013))
     code, said = hoodoo("retry", out, "sim.1005-1008", "--json")
     ok(code == 2 and "waits for sim.1001-1004" in said, "a task whose prerequisites are missing is not retried", said)
     code, said = hoodoo("retry", out, "sim.1001-1004", "--json")
@@ -110,7 +110,7 @@ with OneNode(requeue_exit=False, nodes=("a", "b", "c"), wrapped={"a": broken, "b
     t = task(out, "mesh.1001-1004")
     ok(frames(out) == 12 and t["tries"] == 2 + len([n for n in t["excluded_nodes"].split(",") if n]) and t["exit"] == "4" and t["meaning"] == "output cannot be written" and t["node"], "tasks that fail are tried twice", t)
     ok(read("hook.log") == "failed 3/6 with: a space\n", "the hook is told of the failure, once", read("hook.log"))
-    os.remove(out + "/mesh")
+    clear_meshes(out)
     code, said = hoodoo("retry", out)
     ok(code == 0 and len(re.findall(r"job [0-9]+", said)) == 4, "retry without a task submits what is missing", said)
     slurm.wait_for(lambda: not queued(slurm), "an empty queue", 300)
