@@ -18,18 +18,18 @@ static bool holds_keys(const struct job_key *key)
     return key->type == KEY_SUB || key->type == KEY_MAYBE || key->type == KEY_LIST || key->type == KEY_MAP;
 }
 
-/* Calls `key` once for each key, with its path ("strata.N.to_m", "scene.box.min_m"). A section that is used in several places is
- * visited at the first one only. */
+/* Calls `key` for each key, with its path ("strata.N.to_m", "scene.box.min_m"). */
 struct visit {
     void (*key)(void *user, const char *path, const struct job_key *key);
     void *user;
+    bool everywhere; /* visits a section in all places where it is used, not only in the first */
     bool seen[JOB_SECTIONS];
 };
 
 static void visit_section(struct visit *v, enum job_section_id section, const char *path)
 {
     const struct job_section *s = &job_sections[section];
-    if (v->seen[section])
+    if (v->seen[section] && !v->everywhere)
         return;
     v->seen[section] = true;
     for (size_t i = 0; i < s->n; i++) {
@@ -236,7 +236,7 @@ static void list_key(void *user, const char *path, const struct job_key *key)
 
 status job_keys_list(struct text *out)
 {
-    struct visit v = {.key = list_key, .user = out};
+    struct visit v = {.key = list_key, .user = out, .everywhere = true};
     visit_all(&v);
     return text_status(out);
 }

@@ -35,6 +35,10 @@ schema = json.loads(said)
 ok(code == 0 and schema["$defs"]["wind"]["additionalProperties"] is False and schema["$defs"]["box"]["required"] == ["min_m", "max_m"], "a JSON Schema")
 ok(said == open(os.path.join(TOP, "jobs/schema.json")).read(), "jobs/schema.json is that")
 
+code, listed = hoodoo("keys", "--list")
+paths = listed.split()
+ok(code == 0 and len(paths) == len(set(paths)) and {"arches.piles.rock_m", "edits.N.paint.N.erodibility", "edits.N.frame", "farm.finish.cpus", "scene.box.min_m"} <= set(paths),
+   "every key is listed, in each section that has it", len(paths))
 code, listed = hoodoo("new", "--list")
 examples = [line for line in listed.splitlines() if line and not line.startswith(" ")]
 ok(code == 0 and {"demo", "butte", "canyon", "arches_cave", "goblin_cube"} <= set(examples), "examples are listed", listed)
