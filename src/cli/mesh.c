@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "base/log.h"
 #include "cli/await.h"
 #include "cli/cli.h"
 #include "frame/meshes.h"
@@ -121,6 +122,8 @@ status cli_mesh(int argc, char **argv)
         st = fail(E_INPUT, "%s: no volumes of the requested frames; run the job first", root.text);
     else if (n_found)
         st = list_in_stage(job, root.text);
+    if (st == OK && n_found)
+        log_info("meshes of %zu frames are in %s/mesh", n_found, root.text);
 done:
     progress_end(&progress);
     free(frames);

@@ -298,7 +298,9 @@ status cli_preview(int argc, char **argv)
     if (w.range && strcmp(w.range, "data") == 0)
         TRY(picture_data_range(&p, w.turntable ? frames + n - 1 : frames, w.turntable ? 1 : n, &p.range));
     TRY(w.turntable ? turntable(&p, &w, frames, n) : stills(&p, frames, n, w.only));
-    progress_note(&progress, 1, 1, w.turntable ? "turntable made" : "pictures made");
+    progress_note(&progress, n, n, w.turntable ? "turntable made" : "pictures made");
+    log_info("%s are in %s/%s", w.turntable ? "the views" : "the stills", p.root,
+             w.turntable ? "turntable" : "preview");
 done:
     progress_end(&progress);
     children_end(&p.children);

@@ -29,6 +29,12 @@ static void show_frame(void *user, int frame, double volume_share, int iteration
     progress_frame(&s->progress, frame, volume_share, note);
 }
 
+static void show_stage(void *user, int frame, const char *name)
+{
+    struct shown *s = user;
+    progress_stage(&s->progress, frame, name);
+}
+
 /* Replaces the job by one of its wedges. */
 static status load_wedge(const char *path, const struct common *c, int wedge, struct job **job)
 {
@@ -105,6 +111,7 @@ status cli_run(int argc, char **argv)
                                            .change = change,
                                            .begin = show_begin,
                                            .frame = show_frame,
+                                           .stage = show_stage,
                                            .stop = stop_requested,
                                            .user = &shown}));
 done:

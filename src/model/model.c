@@ -195,7 +195,15 @@ static status stage_ended(void *user, const char *stage, const char *next)
     }
     if (m->type->watch)
         m->type->watch(m, &list);
+    if (m->stage && next)
+        m->stage(m->stage_user, m->frame, next);
     return numbers_check(m->gpu, m->found, &list, m->frame);
+}
+
+void model_on_stage(struct model *m, void (*begun)(void *user, int frame, const char *name), void *user)
+{
+    m->stage = begun;
+    m->stage_user = user;
 }
 
 status model_create(struct gpu *gpu, const struct job *job, const struct checkpoint *from, struct model **out)

@@ -55,6 +55,9 @@ void model_stream(struct model *model);
  * level ground around the rock, opaque and with the rock's shadow; their other layers do not. Free with frame_free(). */
 MUST_USE status model_pictures(struct model *model, struct frame *out);
 
+/* Sets a function that is called when a stage of a frame begins; NULL: none. */
+void model_on_stage(struct model *m, void (*begun)(void *user, int frame, const char *name), void *user);
+
 /* Saves the state as sections that *out owns; free with checkpoint_free(). The caller fills in job_hash and maker. */
 MUST_USE status model_save(struct model *model, struct checkpoint *out);
 

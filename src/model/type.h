@@ -31,9 +31,11 @@ struct model {
     struct aov aov;     /* only if the job has pictures */
     bool only_pictures; /* see model_pictures() */
     const struct particles
-        *shown;               /* the rock as particles; NULL while the device does not have it in that form */
-    struct particles made;    /* of a frame, by models whose state is not particles; until model_release() */
-    bool streams;             /* see model_stream() */
+        *shown;            /* the rock as particles; NULL while the device does not have it in that form */
+    struct particles made; /* of a frame, by models whose state is not particles; until model_release() */
+    bool streams;          /* see model_stream() */
+    void (*stage)(void *user, int frame, const char *name); /* see model_on_stage() */
+    void *stage_user;
     struct gpu_buffer *found; /* numbers.h */
 };
 

@@ -404,6 +404,7 @@ static status begin(struct run *r)
                  range_count(r->frames));
     TRY(model_create(r->gpu, r->job, found ? &c : NULL, &r->model));
     r->start_frame = model_frame(r->model);
+    model_on_stage(r->model, r->options->stage, r->options->user);
     if (r->pace == PACE_STREAM)
         model_stream(r->model);
     /* Only now, so that a job whose scene is refused does not claim the folder. */

@@ -39,6 +39,7 @@ struct run_options {
     /* Callbacks for progress and stopping; each may be NULL. */
     void (*begin)(void *user, struct frame_range frames, size_t done);
     void (*frame)(void *user, int frame, double volume_share, int stress_iterations);
+    void (*stage)(void *user, int frame, const char *name); /* a stage of a frame begins */
     bool (*stop)(void);
     void *user;
 };

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,19 +41,53 @@ static int terminal_width(void)
     return 80;
 }
 
-static void draw(const struct progress *p)
+/* Adds a part to the bar's line if all of it fits. */
+static void add_part(char *line, size_t width, const char *format, ...) PRINTF_LIKE(3, 4);
+static void add_part(char *line, size_t width, const char *format, ...)
 {
-    char line[512], meter[21];
-    /* One column less than the width, because a full line wraps on some terminals. */
-    int width = terminal_width() - 1;
-    size_t filled = p->total ? p->done * (sizeof meter - 1) / p->total : 0;
-    memset(meter, '.', sizeof meter - 1);
+    char part[400];
+    const size_t n = strlen(line);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(part, sizeof part, format, arguments);
+    va_end(arguments);
+    if (n + strlen(part) <= width)
+        strcpy(line + n, part);
+}
+
+/* A meter, and the parts that fit, the most important first. */
+static void draw(struct progress *p)
+{
+    enum { LONGEST = 300, METER = 20 };
+    char line[LONGEST + 1] = "", left[32];
+    const int columns = terminal_width() - 1; /* because a full line wraps on some terminals */
+    const size_t width = (size_t)(columns < 0 ? 0 : columns < LONGEST ? columns : LONGEST);
+    const size_t cells = width < 60 ? METER / 2 : METER, filled = p->total ? p->done * cells / p->total : 0;
+    char meter[METER + 1] = "";
+    memset(meter, '.', cells);
     memset(meter, '#', filled);
-    meter[sizeof meter - 1] = '\0';
-    snprintf(line, sizeof line, "%s%s%s%s%s%s", width > 100 ? "[" : "", width > 100 ? meter : "",
-             width > 100 ? "] " : "", p->line, *p->stage ? " | " : "", p->stage);
-    fprintf(stderr, "\r%.*s\033[K", width > 0 ? width : 0, line);
+    add_part(line, width, "[%s] ", meter);
+    add_part(line, width, "%zu/%zu", p->done, p->total);
+    if (p->notes) {
+        snprintf(line + strlen(line), sizeof line - strlen(line), ", %.*s",
+                 (int)(width > strlen(line) + 2 ? width - strlen(line) - 2 : 0), p->line);
+    } else {
+        if (p->seconds_per_frame > 0)
+            add_part(line, width, ", %s to go",
+                     duration_text((double)(p->total - p->done) * p->seconds_per_frame, left));
+        if (*p->stage)
+            add_part(line, width, ", %s", p->stage);
+        if (p->share >= 0 && p->frame_done)
+            add_part(line, width, ", %.1f%% left", 100 * p->share);
+        if (p->seconds_per_frame > 0)
+            add_part(line, width, ", %.3g frames/s", 1 / p->seconds_per_frame);
+        if (*p->note)
+            add_part(line, width, ", %s", p->note);
+    }
+    line[width] = '\0';
+    fprintf(stderr, "\r%s\033[K", line);
     fflush(stderr);
+    p->drawn_s = clock_seconds();
 }
 
 static void step_aside(bool before)
@@ -72,7 +107,14 @@ static void step_aside(bool before)
     }
 }
 
-/* ---- the line that all styles share */
+/* ---- the line that the other styles share */
+
+static void printable(char *text)
+{
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = ' ';
+}
 
 static void compose(struct progress *p, const char *note)
 {
@@ -89,9 +131,7 @@ static void compose(struct progress *p, const char *note)
     if (note && *note && n > 0 && (size_t)n < size)
         snprintf(p->line + n, size - (size_t)n, ", %s", note);
     /* Farm managers interpret lines of stdout, so a note must not be able to start a new line. */
-    for (char *c = p->line; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = ' ';
+    printable(p->line);
 }
 
 static void print_openjd(struct progress *p)
@@ -145,7 +185,7 @@ void progress_begin(struct progress *p, enum progress_style style, struct frame_
 
 void progress_begin_notes(struct progress *p, enum progress_style style)
 {
-    *p = (struct progress){.share = 1};
+    *p = (struct progress){.share = 1, .notes = true};
     attach(p, style);
 }
 
@@ -154,8 +194,11 @@ void progress_stage(struct progress *p, int frame, const char *stage)
     if (p->style != PROGRESS_BAR)
         return;
     pthread_mutex_lock(&lock);
+    /* Stages of small scenes take less time than drawing. */
+    const bool now = !*p->stage || clock_seconds() - p->drawn_s > 0.1;
     snprintf(p->stage, sizeof p->stage, "%d %s", frame, stage);
-    draw(p);
+    if (now)
+        draw(p);
     pthread_mutex_unlock(&lock);
 }
 
@@ -170,8 +213,11 @@ void progress_frame(struct progress *p, int frame, double volume_share, const ch
     p->frame = frame;
     p->share = volume_share;
     p->done += p->done < p->total;
+    p->frame_done = true;
     p->stage[0] = '\0';
     compose(p, note);
+    snprintf(p->note, sizeof p->note, "%s", note ? note : "");
+    printable(p->note);
     pthread_mutex_unlock(&lock);
     show(p);
 }

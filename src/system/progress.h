@@ -1,6 +1,6 @@
 /* Progress of a run, shown on a terminal, in a log, or to an OpenJD worker.
  *
- *   bar      one line on stderr that is redrawn; log lines scroll above it
+ *   bar      one line on stderr that is redrawn: a meter, time to go, stage, and more where the terminal is wide; log lines scroll above it
  *   plain    one log line per frame
  *   openjd   flushed lines on stdout: "openjd_progress: 12.5", which never decreases, and "openjd_status: ..."
  *   none     nothing
@@ -13,6 +13,7 @@
 #ifndef HOODOO_PROGRESS_H
 #define HOODOO_PROGRESS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/choice.h"
@@ -31,7 +32,10 @@ struct progress {
     double share;                     /* share of the rock's volume that is left, 0..1; negative: unknown */
     double last_s, seconds_per_frame; /* seconds_per_frame is smoothed; 0 until the first frame */
     double percent_reported;
-    char stage[48], line[320];
+    double drawn_s; /* when the bar was drawn last */
+    bool notes;     /* progress_note() gives the text */
+    bool frame_done;
+    char stage[48], note[64], line[320];
 };
 
 /* Begins, with `done` of the frames already complete. */
