@@ -1,10 +1,12 @@
 #include "farm/slurm.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/log.h"
 #include "base/memory.h"
@@ -278,6 +280,21 @@ done:
     return st;
 }
 
+/* Programs that are not on this machine. A node may have them all the same, and a prologue's container has a disk of its own. */
+static void warn_of_programs(const struct farm *f)
+{
+    const char *last = "";
+    for (int k = 0; k < FARM_KINDS; k++) {
+        const struct command_head head = command_head(f->base, (enum farm_kind)k, f->hoodoo.text);
+        if (head.n_prologue || !strchr(head.hoodoo, '/') || strcmp(head.hoodoo, last) == 0 ||
+            access(head.hoodoo, X_OK) == 0)
+            continue;
+        log_warn("%s: %s; nodes that cannot run it are excluded, and tasks fail if no node is left",
+                 head.hoodoo, strerror(errno));
+        last = head.hoodoo;
+    }
+}
+
 status slurm_submit(const struct farm *f, const struct slurm_options *o, struct text *out)
 {
     status st = OK;
@@ -297,6 +314,7 @@ status slurm_submit(const struct farm *f, const struct slurm_options *o, struct 
         TRY(slurm_active(f, job));
     }
     TRY(find_work(f, o, job, todo, out));
+    warn_of_programs(f);
     json_array(out, o->dry_run ? "would_submit" : "submitted");
     for (size_t i = 0; i < g->n; i += todo[i] ? b->n : 1) {
         if (!todo[i])

@@ -88,6 +88,11 @@ for verb in ("cancel", "retry"):
 code, said = hoodoo("cancel", ".")
 ok(code == 3 and "not made by hoodoo submit" in said, "and of what was never submitted", said)
 
+# A program that is not here is remarked on, and one in a container is not.
+for sets, count in ((("farm.binary=/nowhere/hoodoo",), 1), (("farm.binary=/nowhere/hoodoo", "farm.prologue=[apptainer, exec, image]"), 0)):
+    code, said = hoodoo("submit", "job.yaml", "--to", "slurm", "--out", "nowhere", "--dry-run", *(w for s in sets for w in ("--set", s)))
+    ok(code == 0 and said.count("/nowhere/hoodoo: No such file or directory; nodes that cannot run it are excluded") == count, f"submit with {' and '.join(sets)}", code, said[:800])
+
 # A million frames: ranges stay ranges, whatever frames have volumes.
 for every, still, expected in ((1, 1, "1-1000000"), (3, 7, "1-1000000:21")):
     sets = ("--set", "frames=1-1000000", "--set", "farm.block_frames=20000", "--set", f"output.vdb.every={every}", "--set", f"farm.still_every={still}", "--set", "farm.chunk_frames=1000")

@@ -27,8 +27,8 @@ for settings in "" VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT; 
     check "$kind validation: the layer was in place" grep -q "Inserted device layer \"$layer\"" log
     check "$kind validation: not one complaint" sh -c '! grep -qE "$1" log' - "$complaints"
     validated "$HOODOO" run "$job" --frames 1001-1002 --out "$kind-flow" --set wind.flow.solver=sph --set wind.flow.spacing_m=2 \
-        --set wind.flow.flushes=0.1 --set erosion.max_step=1
-    check "$kind validation: the run with flowing wind succeeds" [ $? = 0 ]
+        --set wind.flow.flushes=0.1 --set erosion.max_step=1 --set rain.m_per_yr=0.4 --set rain.erosion=2
+    check "$kind validation: the run with flowing wind and water succeeds" [ $? = 0 ]
     check "$kind validation: not one complaint about the flow" sh -c '! grep -qE "$1" log' - "$complaints"
     validated "$HOODOO" run "$HOODOO_TOP/tests/gpu/falling.yaml" --frames 1001-1003 --out "$kind-falling"
     check "$kind validation: the run of falling rock succeeds" [ $? = 0 ]
