@@ -349,7 +349,8 @@ status cli_aov(int argc, char **argv)
         TRY(render_frame(&s, frames[i]));
         progress_frame(&progress, frames[i], -1, "");
     }
-    log_info("pictures of %zu frames are in %s/aov", n, s.root.text);
+    if (progress.style == PROGRESS_BAR)
+        log_info("pictures of %zu frames are in %s/aov", n, s.root.text);
 done:
     progress_end(&progress);
     finish(&s);

@@ -122,7 +122,7 @@ status cli_mesh(int argc, char **argv)
         st = fail(E_INPUT, "%s: no volumes of the requested frames; run the job first", root.text);
     else if (n_found)
         st = list_in_stage(job, root.text);
-    if (st == OK && n_found)
+    if (st == OK && n_found && progress.style == PROGRESS_BAR)
         log_info("meshes of %zu frames are in %s/mesh", n_found, root.text);
 done:
     progress_end(&progress);

@@ -299,8 +299,9 @@ status cli_preview(int argc, char **argv)
         TRY(picture_data_range(&p, w.turntable ? frames + n - 1 : frames, w.turntable ? 1 : n, &p.range));
     TRY(w.turntable ? turntable(&p, &w, frames, n) : stills(&p, frames, n, w.only));
     progress_note(&progress, n, n, w.turntable ? "turntable made" : "pictures made");
-    log_info("%s are in %s/%s", w.turntable ? "the views" : "the stills", p.root,
-             w.turntable ? "turntable" : "preview");
+    if (progress.style == PROGRESS_BAR)
+        log_info("%s are in %s/%s", w.turntable ? "the views" : "the stills", p.root,
+                 w.turntable ? "turntable" : "preview");
 done:
     progress_end(&progress);
     children_end(&p.children);
