@@ -13,6 +13,7 @@
 #include "cli/answer.h"
 #include "cli/cli.h"
 #include "look/live.h"
+#include "run/branch.h"
 #include "system/atomic_file.h"
 #include "system/progress.h"
 #include "system/signals.h"
@@ -261,6 +262,7 @@ static status apply_options(struct looking *l, int quality, int show, double sec
 {
     struct sketch_options *s = &l->options.sketch;
     s->path = l->job;
+    s->from = l->common.from;
     s->sets = l->common.sets.item;
     s->n_sets = l->common.sets.n;
     s->width = qualities[quality].width;
@@ -317,6 +319,7 @@ status cli_look(int argc, char **argv)
         {"port", "N", OPTION_INT, &port, "port of the page (default: any free one)"},
         {"out", "PNG", OPTION_TEXT, &l.out, "the picture's file (default: NAME.look.png)"},
         OPTION_WEDGE(&l.options.sketch.wedge),
+        OPTION_FROM(&l.common),
         OPTION_DEVICE(&l.common),
         OPTION_SET(&l.common),
         OPTION_PROGRESS(&l.common),
@@ -325,6 +328,8 @@ status cli_look(int argc, char **argv)
     if (help)
         goto done;
     l.job = operands.item[0];
+    if (l.common.from)
+        TRY(arguments_add(&l.common.sets, BRANCH_SET));
     TRY(apply_options(&l, quality, show, seconds, spacing));
     TRY(path_folder(&l.folder, l.out ? l.out : ""));
     l.options.folder = l.folder.text;

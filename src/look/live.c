@@ -70,7 +70,7 @@ static void give_job(struct live *l, struct serve_answer *out)
     struct job *job = NULL;
     struct text t = {0};
     const bool hushed = log_silence(true);
-    const status st = job_load(s->path, s->sets, s->n_sets, &job);
+    const status st = sketch_read_job(s, &job);
     log_silence(hushed);
     json_object(&t, NULL);
     json_integer(&t, "saves", l->saves);

@@ -78,7 +78,9 @@ static status load_latest_state(struct look *l, const struct sketch *s, const ui
     for (size_t at = n; !*out;) {
         at = states_find(&l->states, hash, at, &c);
         made->found = at < n;
-        st = model_create(l->gpu, s->job, made->found ? &c : NULL, out);
+        if (!made->found && *s->job->from)
+            TRY(checkpoint_read(s->job->from, &c));
+        st = model_create(l->gpu, s->job, made->found || *s->job->from ? &c : NULL, out);
         checkpoint_free(&c);
         if (st != E_CHECKPOINT || !made->found)
             break;

@@ -10,6 +10,7 @@
 #include "model/model.h"
 #include "render/view.h"
 #include "run/advice.h"
+#include "run/branch.h"
 #include "text/text.h"
 
 /* Seconds on two cores: per frame at least, and per particle and step. */
@@ -166,7 +167,7 @@ static status set_spacing(const struct job *job, const struct sketch_options *o,
     e.steps *= (double)frames / fmax(job->frames.last - job->frames.first, 1);
     if (o->spacing_m > 0)
         factor = o->spacing_m / own;
-    else if (isfinite(o->seconds))
+    else if (isfinite(o->seconds) && !*job->from)
         factor = choose_factor(&e, frames, o->seconds, o->gpu);
     out->own_spacing_m = own;
     out->own_particles = e.n_particles;
@@ -195,8 +196,13 @@ static status load(const struct sketch_options *o, const char *const *sets, size
         *out = base;
         base = NULL;
     }
+    if (o->from)
+        TRY(branch_from(*out, o->from, ""));
+    TRY(branch_prepare(*out, ""));
 done:
     job_destroy(&base);
+    if (st != OK)
+        job_destroy(out);
     return st;
 }
 
@@ -213,27 +219,30 @@ static void set_pictures(const struct sketch_options *o, const char *camera, str
     text_add(sets_more(s), "output.up=z");
 }
 
+status sketch_read_job(const struct sketch_options *o, struct job **out)
+{
+    return load(o, o->sets, o->n_sets, out);
+}
+
 status sketch_load(const struct sketch_options *o, struct sketch *out)
 {
     status st = OK;
     struct job *job = NULL;
     struct sets sets = {0};
     char camera[72];
+    bool hushed;
     *out = (struct sketch){0};
     TRY(load(o, o->sets, o->n_sets, &job));
-    if (*job->from) {
-        st = fail(
-            E_USAGE,
-            "from: a look begins with the job's first frame, not with another run's checkpoint; --set from= leaves it out");
-        goto done;
-    }
     TRY(choose_frame(job, o->frame, &out->frame));
     TRY(sets_begin(o, &sets));
     TRY(set_camera(job, o, &sets, camera));
     TRY(set_spacing(job, o, &sets, out));
     set_pictures(o, camera, &sets);
     TRY(sets_ready(&sets));
-    TRY(load(o, sets.word, sets.n, &out->job));
+    hushed = log_silence(true); /* it has been said */
+    st = load(o, sets.word, sets.n, &out->job);
+    log_silence(hushed);
+    TRY(st);
     for (size_t i = 0; i < out->job->n_cameras; i++)
         if (strcmp(out->job->cameras[i].name, camera) == 0)
             out->camera = &out->job->cameras[i];

@@ -4,6 +4,7 @@
  *            smallest of a few factors with which the frames take about `seconds`, as long as at least LOOK_LEAST particles remain. The
  *            time per particle and step was measured with lavapipe on two cores; GPUs are assumed to be LOOK_GPU times as fast. This
  *            estimate affects nothing but the time.
+ * Branches   A job that begins with a checkpoint keeps that checkpoint's spacing.
  * Air        The spacing of flowing air is raised to a sixth of the longest side of the domain, since the flow would take most of the time.
  * Pictures   One of the job's cameras (the first, or a named one), or a camera that sees the domain from a direction. The picture has the
  *            shape of the camera and is at most `width` pixels wide.
@@ -24,6 +25,7 @@ struct sketch_options {
     const char *const *sets; /* [n_sets] arguments of --set */
     size_t n_sets;
     int wedge;         /* 0: the job itself */
+    const char *from;  /* OUT@FRAME: begin with that checkpoint; NULL: as the job says */
     const char *frame; /* NULL: the last */
     const char *
         camera; /* a name, or "AZIMUTH,ELEVATION" in degrees; NULL: the job's first, or one that sees the domain */
@@ -46,8 +48,12 @@ struct sketch {
     size_t own_particles; /* estimate for the job as written */
 };
 
-/* Release *out with sketch_free(). E_USAGE: no such camera or frame, or the job begins with another run's checkpoint. Other errors as
- * job_load(). */
+/* The job as written, or its wedge, ready to begin with a checkpoint. Release *out with job_destroy(). Errors as job_load() and
+ * branch_from(). */
+MUST_USE status sketch_read_job(const struct sketch_options *options, struct job **out);
+
+/* Release *out with sketch_free(). E_USAGE: no such camera or frame. Other errors as
+ * job_load() and branch_from(). */
 MUST_USE status sketch_load(const struct sketch_options *options, struct sketch *out);
 void sketch_free(struct sketch *s);
 

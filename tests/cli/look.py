@@ -119,6 +119,16 @@ code, made = look("goblin.yaml")
 ok(code == 0, "goblins: a look", made)
 changed("goblin.yaml", made["frame"], "goblins: the same from the start")
 
+# A look begins with another run's checkpoint; the picture is that of a look at the branch.
+write(EDITS)
+code, said = hoodoo("run", "edits.yaml", "--out", "branch", "--progress", "none", "--set", "checkpoint.mark=[1007]", "--frames", "1001-1007")
+code, made = look("edits.yaml", "--from", "branch@1007", "--frame", "1008", "--out", "branch.png", cache="branched")
+ok(code == 0 and made["from_frame"] == 1007 and made["spacing_m"] == 0.5, "--from: begins with the other run's checkpoint", made)
+_, straight = look("edits.yaml", "--frame", "1008", "--out", "straight.png")
+ok(open("branch.png", "rb").read() == open("straight.png", "rb").read(), "--from: and shows its rock")
+code, made = look("edits.yaml", "--from", "branch@1007", "--out", "branch.png", cache="branched")
+ok(code == 0 and made["from_frame"] == 1008 and made["state_found"], "--from: states are cached too", made)
+
 # ---- options of the picture
 
 write(EDITS)
@@ -145,7 +155,9 @@ WRONG = [
     (("--show", "deposit"), 2, "not available in look"),
     (("--spacing", "9"), 2, ""),
     (("--out", "nowhere/here.png"), 4, "nowhere/here.png"),
-    (("--set", "from=elsewhere.ckpt"), 2, "begins with the job's first frame"),
+    (("--set", "from=elsewhere.ckpt"), 7, "elsewhere.ckpt"),
+    (("--from", "branch@1009"), 7, "its checkpoints are of frames"),
+    (("--from", "branch@1007", "--spacing", "1"), 7, "domain"),
     (("--device", "99"), 6, "99"),
 ]
 for words, want, sentence in WRONG:
