@@ -95,7 +95,7 @@ struct gpu {
 };
 
 /* Bytes of a half of the staging buffer, and of the largest upload that is recorded with its data, which waits for nothing. */
-enum { STAGING_BYTES = 16 << 20, UPDATE_BYTES = 4096 };
+enum { STAGING_BYTES = 4 << 20, UPDATE_BYTES = 4096 };
 
 const char *vk_result_text(VkResult result);
 
