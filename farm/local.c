@@ -135,7 +135,7 @@ static void log_line(const struct local *l, size_t task, const char *format, ...
     va_list list;
     if (farm_log_path(l->farm, t, &path) != OK || !(file = fopen(path.text, "ae")))
         return;
-    strftime(now, sizeof now, "%Y-%m-%dT%H:%M:%S", localtime_r(&seconds, &tm));
+    strftime(now, sizeof now, "%Y-%m-%dT%H:%M:%S%z", localtime_r(&seconds, &tm));
     fprintf(file, "%s hoodoo farm: %s: ", now, t->name);
     va_start(list, format);
     vfprintf(file, format, list);

@@ -52,7 +52,7 @@ static void write_line(bool to_stderr, const char *prefix, const char *format, v
     time_t now = time(NULL);
     struct tm tm;
     if (localtime_r(&now, &tm))
-        strftime(stamp, sizeof stamp, "%Y-%m-%dT%H:%M:%S", &tm);
+        strftime(stamp, sizeof stamp, "%Y-%m-%dT%H:%M:%S%z", &tm);
     pthread_mutex_lock(&lock);
     if (file)
         fprintf(file, "%s %s%s\n", stamp, prefix, line);

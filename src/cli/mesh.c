@@ -12,6 +12,7 @@
 #include "output/folder.h"
 #include "system/atomic_file.h"
 #include "system/progress.h"
+#include "system/signals.h"
 #include "text/text.h"
 
 /* Lists the meshes in the USD stage, and repeats this as long as other tasks add meshes, so that the last task lists them all. Where the
@@ -85,6 +86,7 @@ status cli_mesh(int argc, char **argv)
     folder_sweep(root.text);
     TRY(path_join(&path, root.text, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));
+    signals_install();
     TRY(path_join(&path, root.text, "mesh"));
     TRY(folder_make(path.text));
     TRY(folder_frames(root.text, job->name, &frames, &n));
@@ -110,6 +112,11 @@ status cli_mesh(int argc, char **argv)
         if (access(path.text, R_OK) != 0)
             continue;
         n_found++;
+        if (stop_requested()) {
+            st = fail(STOPPED, "stopped before frame %d; to continue, run the same command with --missing",
+                      frames[i]);
+            goto done;
+        }
         if (missing)
             TRY(meshes_done(&meshes, frames[i], &done));
         if (done)

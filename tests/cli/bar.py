@@ -5,11 +5,15 @@ import json
 import os
 import pty
 import re
+import shutil
+import signal
 import struct
+import subprocess
 import sys
 import termios
+import time
 
-from script import HOODOO, finish, ok
+from script import HOODOO, finish, hoodoo, ok
 
 sys.dont_write_bytecode = True
 JOB = {
@@ -55,4 +59,19 @@ for columns in (80, 44):
     ok(f"frames 1-4 are in {out}" in said, "the run says where its files are", said)
     code, bar, said = on_terminal(columns, "mesh", out)
     ok(code == 0 and any("2/4, mesh of frame 2" in line for line in bar) and f"meshes of 4 frames are in {out}/mesh" in said, "so does mesh, which counts", bar, said)
+
+with open("out80/log/run.log") as file:
+    ok(all(re.match(r"\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d[+-]\d{4} ", line) for line in file), "times in the log have their zone")
+
+# Meshes stop as runs do, and are continued.
+shutil.rmtree("out80/mesh")
+child = subprocess.Popen([HOODOO, "mesh", "out80"], stderr=subprocess.PIPE, text=True)
+until = time.time() + 60
+while not os.path.isdir("out80/mesh") and time.time() < until:
+    time.sleep(0.001)
+child.send_signal(signal.SIGTERM)
+said = child.communicate()[1]
+ok(child.returncode == 85 and "with --missing" in said, "mesh stops at a signal: 85", child.returncode, said)
+code, said = hoodoo("mesh", "out80", "--missing")
+ok(code == 0 and sorted(os.listdir("out80/mesh")) == sorted(os.listdir("out44/mesh")), "and is continued", said, os.listdir("out80/mesh"))
 finish()
