@@ -11,6 +11,7 @@ BENCH_PACKAGES = python3-petsc4py-real python3-venv
 BENCH_WHEELS = taichi==1.7.4 fastscapelib==0.3.0 pyamg==5.4.1 'numpy<2'
 PEER_WHEELS = usd-core==26.11 numpy==2.2.6 trimesh==4.6.8 plyfile==1.1 check-jsonschema==0.39.0
 DEV_PACKAGES = clang clang-format libclang-rt-14-dev libomp-dev codespell
+TIDY_PACKAGES = clang-tidy cppcheck
 
 # As many jobs as cores, unless -j is given. A recursive make shares the jobs of the first one.
 ifeq ($(MAKELEVEL),0)
@@ -217,9 +218,9 @@ test-peers: $(BUILD)/hoodoo $(BUILD)/$(BUNDLE).tar.zst $(BUILD)/.deps-peers $(BU
 test-long: $(BUILD)/hoodoo $(BUILD)/$(BUNDLE).tar.zst $(BUILD)/.deps-long $(TEST_BIN)
 	$(Q)sh tests/run.sh $(BUILD) long
 
-FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/killed.py restart/full_disk.sh restart/faults.py
+FAULTS = physics/test_numbers restart/products.py restart/repair.py restart/killed.py restart/full_disk.sh restart/faults.py restart/readers.py restart/test_checkpoint_state
 ## faults: run the fault campaigns and write their table into tests/README.md
-faults: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/physics/test_numbers
+faults: $(BUILD)/hoodoo $(BUILD)/.deps-test $(BUILD)/tests/physics/test_numbers $(BUILD)/tests/restart/test_checkpoint_state
 	$(Q)HOODOO_FAULTS=write sh tests/run.sh $(BUILD) $(FAULTS)
 
 ## bench: measure speed beside plain C and other programs, in one run; BENCH='--only water' for some (tests/bench/run.py -h)
@@ -245,6 +246,10 @@ format:
 ## lint: warnings of both compilers, layout, headers that compile alone, folder boundaries, prose
 lint: $(BUILD)/hoodoo $(BUILD)/.deps-dev $(BUILD)/gen/gpu/kernels.h
 	$(Q)sh tests/run.sh $(BUILD) lint.sh
+
+## tidy: clang-tidy and cppcheck on all C (minutes)
+tidy: $(BUILD)/hoodoo $(BUILD)/.deps-dev
+	$(Q)sh tests/deps.sh $(TIDY_PACKAGES) && sh tests/tidy.sh
 
 # Sanitizer builds instrument the C only and share shaders and C++ with the ordinary build: half of the C++ is templates of
 # OpenVDB, which take minutes to compile with checks, and the thread sanitizer cannot see synchronisation inside libraries
@@ -321,7 +326,7 @@ clean:
 help:
 	@sed -n 's/^## \([a-z-]*\): /\1\t/p' Makefile | expand -t 14
 
-.PHONY: all deps deps-test deps-long deps-dev deps-peers deps-bench demo test test-later test-peers test-long faults bench bench-compare reference gallery format lint test-asan test-tsan test-sanitized fuzz fuzz-built install bundle deb clean help
+.PHONY: all deps deps-test deps-long deps-dev deps-peers deps-bench demo test test-later test-peers test-long faults bench bench-compare reference gallery format lint tidy test-asan test-tsan test-sanitized fuzz fuzz-built install bundle deb clean help
 .DEFAULT_GOAL = all
 .DELETE_ON_ERROR:
 -include $(shell find $(BUILD) -type f -name '*.d' 2>/dev/null)

@@ -100,7 +100,7 @@ static const char *fill(const char *at, const struct scope *scope, struct text *
             continue;
         }
         const struct json *value = out ? find(scope, tag.name) : NULL;
-        const bool list = tag.kind == '#' && is_there(value) && value->kind == JSON_ARRAY;
+        const bool list = tag.kind == '#' && value && value->kind == JSON_ARRAY && value->first;
         const char *next = NULL;
         for (const struct json *item = list ? value->first : NULL; item; item = item->next)
             next = fill(at, &(struct scope){item, scope}, out);

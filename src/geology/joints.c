@@ -50,13 +50,14 @@ static status find(struct joint_plan *s, const double pivot[3], double low, doub
     double at = s->job->spacing_m * chance(s->seed, 0, 0, PHASE);
     while (at > low && i > -MOST_JOINTS)
         at -= spacing_of(s, i--);
-    for (; at < high; at += spacing_of(s, ++i)) {
+    while (at < high) {
         if (i > MOST_JOINTS || i == -MOST_JOINTS)
             return fail(E_USAGE,
                         "joints: more than %d joints %g m apart lie between the origin and the domain",
                         (int)MOST_JOINTS, s->job->spacing_m);
         if (at >= low)
             TRY(add(s, pivot, i, at));
+        at += spacing_of(s, ++i);
     }
 done:
     return st;

@@ -44,3 +44,15 @@ for settings in "" VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT; 
 done
 check "synchronisation validation: a missing barrier is a reason" grep -q SYNC-HAZARD-WRITE-AFTER-WRITE log
 check "the layer changes no bytes" diff -r -x log core synchronisation
+# Best practices. Buffers of the smallest jobs are small, each has its own memory, and command buffers are reset one by one, since three are in
+# use in turn; the loader asks for device properties without a count. (long/gpu_assisted.sh has the checks that are compiled into kernels.)
+known='small-allocation|small-dedicated-allocation|CreateCommandPool-command-buffer-reset|DevLimit-(MissingQueryCount|CountMismatch)'
+printf 'khronos_validation.%s\n' 'debug_action = VK_DBG_LAYER_ACTION_LOG_MSG' 'report_flags = error,warn,perf' 'log_filename = stdout' \
+    'enables = VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT' >vk_layer_settings.txt
+for file in "$job" "$HOODOO_TOP/tests/gpu/falling.yaml"; do
+    name=$(basename "$file" .yaml)
+    VK_LAYER_SETTINGS_PATH=$PWD VK_INSTANCE_LAYERS=$layer VK_LOADER_DEBUG=layer "$HOODOO" run "$file" --frames 1001 --device cpu \
+        --out "best-$name" --progress none >log 2>&1
+    check "best practices, $name: the run succeeds under the layer" sh -c '[ $1 = 0 ] && grep -q "Inserted device layer" log' - $?
+    check "best practices, $name: nothing but what is known" sh -c '! grep -E "$1" log | grep -vE "$2" | grep -q .' - "$complaints" "$known"
+done

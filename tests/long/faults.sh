@@ -7,4 +7,4 @@ mkdir -p products numbers calls killed
 (cd products && /usr/bin/python3 "$HOODOO_TOP/tests/restart/products.py")
 (cd numbers && "$(dirname "$HOODOO")/tests/physics/test_numbers")
 (cd calls && FAULTS=all /usr/bin/python3 "$HOODOO_TOP/tests/restart/faults.py")
-(cd killed && /usr/bin/python3 "$HOODOO_TOP/tests/restart/killed.py" 330)
+(cd killed && /usr/bin/python3 "$HOODOO_TOP/tests/restart/killed.py" 200)

@@ -10,6 +10,7 @@ import time
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib"))
+import script
 from twelve import *
 
 SEED = int(os.environ.get("SEED", "1"))
@@ -97,7 +98,46 @@ for i in range(MOMENTS):
             break
     ok(bad == "", f"killed after {', '.join(f'{s:.3f}' for s in seconds)} s (seed {SEED}): frames that count are whole", bad)
     go_on("and run again, the same bytes")
-fault("runs killed by SIGKILL: after frames, in writes, at random moments", (LAST - FIRST + 1 if LONG else 4) + 5 + 3 * MOMENTS,
+
+# A small run of another model, killed again and again before it is let to its end.
+with open("small.yaml", "w") as file:
+    file.write("""hoodoo: 1
+name: small
+model: goblins
+frames: 1-4
+clock: {years_per_frame: 300}
+domain: {size_m: [4, 4, 5], spacing_m: 0.5}
+scene: {cylinder: {from_m: [2, 2, 0], to_m: [2, 2, 4.5], radius_m: 1.5}}
+strata: [{weak_m_per_kyr: 0.2}]
+checkpoint: {every: 2, keep: 9}
+""")
+
+
+def small(out):
+    return [HOODOO, "run", "small.yaml", "--device", "cpu", "--out", out, "--progress", "none"]
+
+
+def files(out):
+    return script.tree(out, lambda path: not path.startswith("log/"))
+
+
+start = time.monotonic()
+script.ask(*small("small_whole"))
+length = time.monotonic() - start
+whole, bad, small_kills = files("small_whole"), [], 0
+for i in range(140 if LONG else 14):
+    shutil.rmtree("small", ignore_errors=True)
+    for s in [moments.uniform(0, length) for _ in range(3)]:
+        child = subprocess.Popen(small("small"), stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL)
+        time.sleep(s)
+        child.kill()
+        child.wait(PATIENCE)
+        small_kills += 1
+    code, said = script.ask(*small("small"))
+    if code != 0 or files("small") != whole:
+        bad.append(f"{i}: exit {code}: {said[-300:]}")
+ok(not bad, f"a small run killed {small_kills} times, three times before each end: the same bytes", "\n".join(bad))
+fault("runs killed by SIGKILL: after frames, in writes, at random moments", (LAST - FIRST + 1 if LONG else 4) + 5 + 3 * MOMENTS + small_kills,
       "every frame with a manifest is whole; the same command ends with the same bytes")
 print(f"# {killed} of {3 * MOMENTS} runs were killed before their end, {temporary} while they wrote a file")
 finish()

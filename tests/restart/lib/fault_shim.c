@@ -1,5 +1,5 @@
 /* A library for LD_PRELOAD under which one call fails, once: the FAULT_AT-th (from 1) to the function FAULT_CALL, with the error number
- * FAULT_ERROR. Calls about files count only if the file's path contains FAULT_UNDER; calls of Vulkan fail for lack of device memory. With
+ * FAULT_ERROR. Calls about files count only if the file's path contains FAULT_UNDER; calls of Vulkan fail for lack of device memory, submissions and waits because the device is lost. With
  * FAULT_NOTES=FILE the numbers of calls are written to FILE at the end, and which file the failed one was about. */
 #include <dirent.h>
 #include <dlfcn.h>
@@ -22,7 +22,7 @@
 #define CALLS(X)                                                                                             \
     X(open) X(fopen) X(read) X(pread) X(write) X(pwrite) X(writev) X(fsync) X(rename) X(link) X(mkdir) X(unlink) X(close)      \
     X(ftruncate) X(fallocate) X(mmap) X(opendir) X(stat) X(access) X(vkAllocateMemory) X(vkCreateBuffer)             \
-    X(vkCreateComputePipelines) X(vkCreateDescriptorPool) X(vkAllocateCommandBuffers) X(vkMapMemory)
+    X(vkCreateComputePipelines) X(vkCreateDescriptorPool) X(vkAllocateCommandBuffers) X(vkMapMemory) X(vkQueueSubmit) X(vkWaitForFences)
 /* clang-format on */
 #define NAME(name) CALL_##name,
 enum call { CALLS(NAME) N_CALLS };
@@ -158,10 +158,12 @@ int close(int fd)
 /* ---- Vulkan */
 
 #define DEVICE(name, parameters, arguments)                                                                  \
+    FAILING(name, VK_ERROR_OUT_OF_DEVICE_MEMORY, parameters, arguments)
+#define FAILING(name, result, parameters, arguments)                                                         \
     VKAPI_ATTR VkResult VKAPI_CALL name parameters                                                           \
     {                                                                                                        \
         REAL(name)                                                                                           \
-        return fails(CALL_##name, under, -1) ? VK_ERROR_OUT_OF_DEVICE_MEMORY : real arguments;               \
+        return fails(CALL_##name, under, -1) ? result : real arguments;                                      \
     }
 DEVICE(vkAllocateMemory,
        (VkDevice d, const VkMemoryAllocateInfo *i, const VkAllocationCallbacks *a, VkDeviceMemory *m),
@@ -180,3 +182,7 @@ DEVICE(vkAllocateCommandBuffers, (VkDevice d, const VkCommandBufferAllocateInfo 
 DEVICE(vkMapMemory,
        (VkDevice d, VkDeviceMemory m, VkDeviceSize from, VkDeviceSize n, VkMemoryMapFlags f, void **to),
        (d, m, from, n, f, to))
+FAILING(vkQueueSubmit, VK_ERROR_DEVICE_LOST, (VkQueue q, uint32_t n, const VkSubmitInfo *i, VkFence f),
+        (q, n, i, f))
+FAILING(vkWaitForFences, VK_ERROR_DEVICE_LOST,
+        (VkDevice d, uint32_t n, const VkFence *f, VkBool32 all, uint64_t timeout), (d, n, f, all, timeout))
