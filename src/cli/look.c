@@ -220,7 +220,6 @@ static status watch_loop(struct looking *l, struct look *look)
             log_error(status_message());
         else if (st != STOPPED)
             TRY(st);
-        st = OK;
         while (!has_changed(l)) {
             if (stop_requested())
                 return OK;

@@ -1,5 +1,6 @@
 #include "frame/stage.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,23 +35,29 @@ struct stage {
 
 /* ---- frames */
 
-/* What cannot be read is left out while the run goes on, since the stage is written again, and at the end it is an error: the stage would
- * lack something, and no later command would notice. */
-static status left_out(const struct stage *s, const char *what, const char *why)
+/* Reports what is left out. While the run goes on, the stage is written again. */
+static void left_out(const struct stage *s, const char *what, const char *why)
 {
     if (s->last)
-        return fail(E_OUTPUT, "%s/%s.usda: %s would be missing: %s; run the same command again", s->root,
-                    s->job->name, what, why);
-    log_info("%s.usda lacks %s so far: %s", s->job->name, what, why);
-    return OK;
+        log_warn("%s is not in %s.usda: %s", what, s->job->name, why);
+    else
+        log_info("%s is not in %s.usda yet: %s", what, s->job->name, why);
 }
 
-static status frame_left_out(const struct stage *s, int frame)
+static void frame_left_out(const struct stage *s, int frame)
 {
     char what[40], why[600];
     snprintf(what, sizeof what, "frame %d", frame);
     snprintf(why, sizeof why, "%s", status_message());
-    return range_holds(s->job->frames, frame) ? left_out(s, what, why) : OK;
+    if (range_holds(s->job->frames, frame))
+        left_out(s, what, why);
+}
+
+/* Reads the manifest of a frame. *bad, unless "": the problem of its files. */
+static status read_manifest(const struct stage *s, int number, struct manifest *m, const char **bad)
+{
+    status st = manifest_read(s->root, s->job->name, number, m);
+    return st == OK ? manifest_check(s->root, m, false, bad) : st;
 }
 
 /* *sound: the frame is done and belongs to this job. */
@@ -61,15 +68,23 @@ static status read_frame(const struct stage *s, const struct job_states *states,
     const char *bad = "";
     struct manifest m = {0};
     *sound = false;
-    st = manifest_read(s->root, s->job->name, number, &m);
-    if (st != OK && st != E_MEMORY) {
-        st = frame_left_out(s, number);
+    st = read_manifest(s, number, &m, &bad);
+    if (s->last && st != E_MEMORY &&
+        (st != OK || *bad)) { /* a disk may fail once, and nothing looks again after this */
+        manifest_free(&m);
+        m = (struct manifest){0};
+        bad = "";
+        st = read_manifest(s, number, &m, &bad);
+    }
+    if (st != E_MEMORY && (st != OK || *bad))
+        frame_left_out(s, number);
+    if (st == E_INPUT && s->last && range_holds(s->job->frames, number))
+        goto done; /* it would be missing from the sequence, and the run would say that all is done */
+    if (st == E_INPUT) {
+        st = OK;
         goto done;
     }
     TRY(st);
-    TRY(manifest_check(s->root, &m, false, &bad));
-    if (*bad)
-        TRY(frame_left_out(s, number));
     *sound = !*bad && (!states || job_states_hold(states, number, m.job_hash)) &&
              range_holds(s->job->frames, number);
     *out = (struct stage_frame){.number = number,
@@ -140,12 +155,15 @@ static status find_mesh(const struct stage *s, const char *path, bool *current)
     *current = false;
     TRY(product_record(&record, path));
     TRY(path_join(&full, s->root, record.text));
-    if (access(full.text, F_OK) != 0)
+    if (access(full.text, F_OK) != 0 && errno == ENOENT)
         goto done;
     st = product_read(s->root, path, &product);
-    if (st != OK && st != E_MEMORY) {
+    if (st == E_INPUT)
+        st = product_read(s->root, path, &product);
+    if (st == E_INPUT) {
         snprintf(why, sizeof why, "%s", status_message());
-        st = left_out(s, path, why);
+        left_out(s, path, why);
+        st = OK;
         goto done;
     }
     TRY(st);
@@ -165,10 +183,13 @@ static status list_meshes(struct stage *s, const struct stage_frames *known)
     int *existing = NULL;
     size_t n, k = 0;
     st = folder_list(s->root, s->job->name, FILE_MESH_USD, &existing, &n);
-    if (st == E_INPUT) {
+    if (st == E_INPUT && s->last)
+        st = folder_list(s->root, s->job->name, FILE_MESH_USD, &existing, &n);
+    if (st == E_INPUT) { /* a run must not fail because its mesh folder cannot be read */
         char why[600];
         snprintf(why, sizeof why, "%s", status_message());
-        st = left_out(s, "the meshes", why);
+        left_out(s, "the sequence of meshes", why);
+        st = OK;
         n = 0;
     }
     TRY(st);
@@ -252,10 +273,17 @@ static status find_fields(struct stage *s)
     st = vdb_describe_lattices(path.text, &t);
     if (st == OK)
         st = json_read(path.text, t.data, t.size, &json);
+    if (st == E_INPUT) {
+        text_free(&t);
+        st = vdb_describe_lattices(path.text, &t);
+        if (st == OK)
+            st = json_read(path.text, t.data, t.size, &json);
+    }
     if (st != OK && st != E_MEMORY) {
         char why[600];
         snprintf(why, sizeof why, "%s", status_message());
-        st = left_out(s, "the volumes", why);
+        left_out(s, "the sequence of volumes", why);
+        st = OK;
         goto done;
     }
     TRY(st);

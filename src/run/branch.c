@@ -91,7 +91,6 @@ status branch_from(struct job *job, const char *text, const char *root)
         if (!own_copy(job, root, frame, &path))
             return fail(st, "--from %.200s: %s", text, message);
         log_info("%s; using this folder's own copy of that checkpoint", message);
-        st = OK;
     }
     whole = realpath(path.text, NULL);
     if (!whole)
