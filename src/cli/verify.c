@@ -15,7 +15,7 @@
 #include "cli/verify.h"
 #include "exr/exr.h"
 #include "farm/farm.h"
-#include "render/report_wedges.h"
+#include "farm/status.h"
 #include "run/branch.h"
 #include "vdb/vdb.h"
 
@@ -320,6 +320,7 @@ static status report(struct verdict *v, const char *root)
     if (v->json) {
         json_end_array(&v->answer);
         TRY(list_of(&v->commands, &v->answer));
+        json_text(&v->answer, "checked", "contents");
         json_integer(&v->answer, "frames", (int64_t)v->n_frames);
         json_integer(&v->answer, "files", (int64_t)v->n_files);
         json_integer(&v->answer, "products", (int64_t)v->n_products);
@@ -330,9 +331,10 @@ static status report(struct verdict *v, const char *root)
         TRY(answer_print(&v->answer, true));
     } else {
         char line[200];
-        snprintf(line, sizeof line,
-                 "%zu frames, %zu files, %zu products, %zu checkpoints: %zu damaged, %zu missing",
-                 v->n_frames, v->n_files, v->n_products, v->n_checkpoints, v->n_damaged, v->n_missing);
+        snprintf(
+            line, sizeof line,
+            "%zu frames, %zu files, %zu products, %zu checkpoints, whose contents were read: %zu damaged, %zu missing",
+            v->n_frames, v->n_files, v->n_products, v->n_checkpoints, v->n_damaged, v->n_missing);
         print_line(line);
     }
     TRY(sentence_of(&v->commands, &how));
@@ -357,7 +359,8 @@ status cli_verify(int argc, char **argv)
     if (help)
         goto done;
     const char *root = operands.item[0];
-    const bool wedges = report_has_wedges(root);
+    bool wedges = false;
+    TRY(farm_has_wedges(root, &wedges));
     struct search s = {
         .verdict = &v, .root = root, .prefix = "", .frames = c.frames, .only_frames = c.frames.step > 0};
     v.json = c.json;
