@@ -277,22 +277,35 @@ static bool has(const struct product_list *sorted, const char *path)
     return sorted->n && bsearch(path, sorted->path, sorted->n, sizeof *sorted->path, in_order);
 }
 
-static bool is_sound(const struct search *s, int frame)
+static int by_number(const void *a, const void *b)
 {
-    for (size_t i = 0; i < s->n_sound; i++)
-        if (s->sound[i] == frame)
-            return true;
-    return false;
+    const int x = *(const int *)a, y = *(const int *)b;
+    return (x > y) - (x < y);
 }
 
-/* Files of the job's name beside the folders, in them, and all pictures and pages in report/. Other files are the user's own. */
+static bool is_sound(const struct search *s, int frame)
+{
+    return s->n_sound && bsearch(&frame, s->sound, s->n_sound, sizeof frame, by_number);
+}
+
+/* Files with the job's name and an ending that hoodoo writes, and in report/ its pictures and page. Other files are the user's own. */
 static bool is_ours(const struct search *s, const char *folder, const char *file)
 {
-    const size_t n = strlen(s->name);
+    static const char *const endings[] = {".usda", ".png",  ".mp4", /* beside the folders only these */
+                                          ".vdb",  ".usdc", ".exr", ".stacks",
+                                          ".ply",  ".obj",  ".mtl", ".pov"};
+    const size_t n = strlen(s->name), n_endings = *folder ? sizeof endings / sizeof *endings : 3;
+    const char *dot = strrchr(file, '.');
     if (strcmp(folder, "report/") == 0)
-        return strcmp(file, "index.html") == 0 || frame_in(file) != ALL_FRAMES ||
-               strncmp(file, "view.", 5) == 0;
-    return strncmp(file, s->name, n) == 0 && file[n] == '.';
+        return strcmp(file, "index.html") == 0 ||
+               (dot && strcmp(dot, ".jpg") == 0 &&
+                (frame_in(file) != ALL_FRAMES || strncmp(file, "view.", 5) == 0));
+    if (!dot || strncmp(file, s->name, n) != 0 || file[n] != '.')
+        return false;
+    for (size_t i = 0; i < n_endings; i++)
+        if (strcmp(dot, endings[i]) == 0)
+            return true;
+    return false;
 }
 
 /* The folders of the files that hoodoo writes; the first ones hold files of frames only, which manifests list. */
@@ -366,6 +379,8 @@ status verify_products(struct search *s)
     for (size_t i = 0; i < list.n; i++)
         TRY(verify_product(s, &list, list.path[i]));
     product_list_sort(&s->listed);
+    if (s->n_sound)
+        qsort(s->sound, s->n_sound, sizeof *s->sound, by_number);
     for (size_t i = 0; i < sizeof stray_folders / sizeof *stray_folders; i++)
         TRY(verify_strays(s, &list, i));
 done:

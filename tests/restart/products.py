@@ -143,13 +143,14 @@ alone = ["made.usda", "mesh/made.1002.ply", "preview/made.1001.png", "turntable/
 damaged += len(alone)
 for path in alone:
     os.remove(f"out/records/{path}.json")
-with open("out/preview/notes.txt", "w") as file:
-    file.write("a user's own file")
+for path in ("preview/notes.txt", "made.blend", "report/made.txt", "mesh/made.1001.abc"):
+    with open("out/" + path, "w") as file:
+        file.write("a user's own file")
 code, said = verify()
 named = {problem["file"] for problem in said["problems"]}
 made = [shell(command) for command in said["commands"]]
 ok(code == 3 and named == set(alone) and all(code == 0 for code, _ in made) and verify()[0] == 0,
-   "files whose record is lost are named and made again; a user's own file is not", code, named ^ set(alone), made, verify())
+   "files whose record is lost are named and made again; a user's own files are not", code, named ^ set(alone), made, verify())
 code, said = hoodoo("run", "made.json", "--out", "out", "--progress", "none", "--resume", "never", "--set", "seed=4")
 code, said = verify()
 named = {problem["file"] for problem in said["problems"]}
