@@ -79,9 +79,13 @@ static void known_frames_are_not_read_again(void **state)
     assert_int_equal(known.n, 3);
     assert_true(!names(1001) && names(1002) && names(1003) && names(1004));
 
-    /* Without what was known, all are read. */
+    /* Without what was known, all are read; a frame that cannot be read would be missing from the sequence. */
+    assert_int_equal(stage_write(job, &(struct job_states){.job = HASH}, "out", NULL), E_INPUT);
+    assert_non_null(strstr(status_message(), "rock.1003.json"));
+    assert_true(names(1003));
+    add_frame(1003);
     assert_ok(stage_write(job, &(struct job_states){.job = HASH}, "out", NULL));
-    assert_true(!names(1001) && names(1002) && !names(1003) && names(1004));
+    assert_true(!names(1001) && names(1002) && names(1003) && names(1004));
     assert_ok(stage_write(job, &(struct job_states){.job = HASH + 1}, "out", NULL));
     assert_true(names(1004)); /* of another job: nothing is written */
     stage_frames_free(&known);
