@@ -19,10 +19,11 @@ struct stage_frames {
 };
 void stage_frames_free(struct stage_frames *frames);
 
-/* Writes the stage from the manifests in `root` and the job's cameras, sun and sky. Frames that `states` (job_states()) does
- * not hold are left out; NULL: all belong to the job. While no frame is done, nothing is written. `known` holds the frames found by the previous call, whose manifests are not read again, and is
- * updated; without it, each checkpoint of a run would read all manifests. NULL: all manifests and the records of meshes are read.
- * E_INPUT, at the end: the manifest of one of the job's frames cannot be read, also not once more. E_OUTPUT: the file cannot be written. */
+/* Writes the stage from the manifests in `root` and the job's cameras, sun and sky. Frames that `states` (job_states()) does not hold are
+ * left out; NULL: all belong to the job. While no frame is done, nothing is written. `known` holds the frames found by the previous
+ * call, whose manifests are not read again, and is updated; without it, each checkpoint of a run would read all manifests. NULL: this is
+ * the last stage; all manifests and the records of meshes are read, and what cannot be read once is read again. E_INPUT, then: the
+ * manifest of one of the job's frames cannot be read. E_OUTPUT: the file cannot be written. */
 MUST_USE status stage_write(const struct job *job, const struct job_states *states, const char *root,
                             struct stage_frames *known);
 
