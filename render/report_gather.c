@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "checkpoint/checkpoint.h"
 #include "render/report.h"
+#include "run/owner.h"
 #include "system/atomic_file.h"
 #include "vdb/vdb.h"
 
@@ -77,7 +78,7 @@ static void find_sources(struct report *r)
             find_field_picture(r, &r->frame[i]);
 }
 
-static status add_frame(struct report *r, int frame)
+static status add_frame(struct report *r, const struct job_states *states, int frame)
 {
     const char *bad = "";
     struct report_frame *f = &r->frame[r->n_frames++];
@@ -86,6 +87,8 @@ static status add_frame(struct report *r, int frame)
         st = manifest_check(r->root, &f->manifest, false, &bad);
     if (st == E_MEMORY)
         return st;
+    if (st == OK && !*bad && states->n && !job_states_hold(states, frame, f->manifest.job_hash))
+        st = fail(E_INPUT, "it belongs to another job");
     f->damaged = st != OK || *bad;
     if (f->damaged)
         snprintf(f->what, sizeof f->what, "%.500s", status_message());
@@ -103,14 +106,26 @@ static status find_frames(struct report *r)
     status st = OK;
     int *frames = NULL;
     size_t n;
+    struct job_states states = {0};
+    bool edited;
+    char why[600];
+    st = owner_states(r->root, &states, &edited, why);
+    if (st == E_INPUT) {
+        snprintf(why, sizeof why, "%.590s", status_message());
+        st = OK;
+    }
+    TRY(st);
+    if (*why)
+        report_note(r, "%s.", why);
     TRY(folder_frames(r->root, r->name, &frames, &n));
     TRY(memory_alloc(n, sizeof *r->frame, "the frames", &r->frame));
     for (size_t i = 0; i < n; i++)
         if (range_holds(r->frames, frames[i]))
-            TRY(add_frame(r, frames[i]));
+            TRY(add_frame(r, &states, frames[i]));
     r->n_missing = range_count(r->frames) - r->n_frames;
     find_sources(r);
 done:
+    job_states_free(&states);
     free(frames);
     return st;
 }

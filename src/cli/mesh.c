@@ -10,27 +10,26 @@
 #include "frame/stage.h"
 #include "job/job.h"
 #include "output/folder.h"
+#include "run/owner.h"
 #include "system/atomic_file.h"
 #include "system/progress.h"
 #include "system/signals.h"
 #include "text/text.h"
 
 /* Lists the meshes in the USD stage, and repeats this as long as other tasks add meshes, so that the last task lists them all. Where the
- * job's input files are missing, frames of another job cannot be told from its own. */
+ * frames of another job cannot be told from its own, all are listed. */
 static status list_in_stage(const struct job *job, const char *root)
 {
     status st = OK;
     struct job_states states = {0};
     size_t before, n = 0;
-    st = job_states(job, &states);
-    const bool known = st == OK;
-    if (st == E_INPUT)
-        st = OK;
-    TRY(st);
+    bool edited;
+    char why[600];
+    TRY(owner_states(root, &states, &edited, why));
     do {
         int *frames = NULL;
         before = n;
-        TRY(stage_write(job, known ? &states : NULL, root, NULL));
+        TRY(stage_write(job, states.n ? &states : NULL, root, NULL));
         TRY(folder_list(root, job->name, FILE_MESH_USD, &frames, &n));
         free(frames);
     } while (n != before);
@@ -86,6 +85,7 @@ status cli_mesh(int argc, char **argv)
     folder_sweep(root.text);
     TRY(path_join(&path, root.text, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));
+    TRY(owner_check_frames(root.text, job->name, c.frames));
     signals_install();
     TRY(path_join(&path, root.text, "mesh"));
     TRY(folder_make(path.text));

@@ -13,6 +13,7 @@
 #include "output/product.h"
 #include "render/picture.h"
 #include "render/turntable.h"
+#include "run/owner.h"
 #include "system/atomic_file.h"
 #include "system/progress.h"
 #include "system/signals.h"
@@ -286,6 +287,7 @@ status cli_preview(int argc, char **argv)
     TRY(path_join(&path, p.root, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));
     p.job = job;
+    TRY(owner_check_frames(p.root, job->name, w.common.frames));
     TRY(check(&w, &p));
     TRY(volume_frames(p.root, p.job->name, w.common.frames, &frames, &n));
     folder_sweep(p.root);

@@ -17,6 +17,7 @@
 #include "farm/farm.h"
 #include "farm/status.h"
 #include "run/branch.h"
+#include "run/owner.h"
 #include "vdb/vdb.h"
 
 static void print_line(const char *line)
@@ -138,8 +139,8 @@ static status verify_job(struct search *s)
     status st = OK;
     struct path path;
     struct job *job = NULL;
-    uint64_t made;
-    TRY(folder_job_hash(s->root, &made));
+    bool edited;
+    char why[600];
     TRY(path_join(&path, s->root, "job.yaml"));
     st = job_load(path.text, NULL, 0, &job);
     if (st != OK && st != E_MEMORY) {
@@ -152,16 +153,12 @@ static status verify_job(struct search *s)
     if (!s->only_frames)
         s->frames = job->frames;
     TRY(job_files_hash(job, &s->files_hash));
-    st = branch_prepare_own(job, s->root);
-    if (st == OK)
-        st = job_states(job, &s->states);
-    if (st == E_INPUT) {
-        log_info("%s cannot be compared with the job of the frames: %s", path.text, status_message());
-        st = OK;
-    } else if (st == OK && s->states.job != made) {
+    TRY(owner_states(s->root, &s->states, &edited, why));
+    if (edited) {
         report_problem(s, false, "job.yaml", "it is not the job of the frames");
         s->bad_job = true;
-        job_states_free(&s->states); /* not those of the frames */
+    } else if (*why) {
+        log_info("%s", why);
     }
 done:
     job_destroy(&job);

@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "checkpoint/checkpoint.h"
 #include "output/product.h"
+#include "run/branch.h"
 
 /* *frame: the first that differs. A last frame may have files that it would not have as one of many (output.vdb.every); it is then made
  * again. */
@@ -87,6 +88,70 @@ status owner_check_files(const char *root, const struct job *theirs, const struc
     st = owner_refuse_mixed(root, (struct frame_range){frames[0], frames[n - 1], 1}, key);
 done:
     free(frames);
+    return st;
+}
+
+/* ---- frames of other jobs */
+
+status owner_states(const char *root, struct job_states *out, bool *edited, char why[600])
+{
+    status st = OK;
+    struct path path;
+    struct job *job = NULL;
+    uint64_t made;
+    *out = (struct job_states){0};
+    *edited = false;
+    why[0] = '\0';
+    TRY(folder_job_hash(root, &made));
+    TRY(path_join(&path, root, "job.yaml"));
+    TRY(job_load(path.text, NULL, 0, &job));
+    st = branch_prepare_own(job, root);
+    if (st == OK)
+        st = job_states(job, out);
+    if (st == E_INPUT) {
+        snprintf(why, 600, "%.180s cannot be compared with the job of the frames: %.350s", path.text,
+                 status_message());
+        job_states_free(out);
+        st = OK;
+    } else if (st == OK && out->job != made) {
+        snprintf(why, 600, "%.500s is not the job of the frames", path.text);
+        *edited = true;
+        job_states_free(out);
+    }
+done:
+    job_destroy(&job);
+    return st;
+}
+
+status owner_check_frames(const char *root, const char *name, struct frame_range frames)
+{
+    status st = OK;
+    struct job_states states = {0};
+    int *there = NULL;
+    size_t n = 0;
+    bool edited;
+    char why[600];
+    TRY(owner_states(root, &states, &edited, why));
+    if (edited)
+        log_warn("%s; the next hoodoo run rewrites it", why);
+    if (states.n)
+        TRY(folder_frames(root, name, &there, &n));
+    for (size_t i = 0; i < n; i++) {
+        struct manifest m = {0};
+        if (frames.step && !range_holds(frames, there[i]))
+            continue;
+        st = manifest_read(root, name, there[i], &m);
+        if (st == OK && !job_states_hold(&states, there[i], m.job_hash))
+            st = fail(E_INPUT, "%s: frame %d belongs to another job; hoodoo run makes it again", root,
+                      there[i]);
+        else if (st == E_INPUT)
+            st = OK; /* `verify` and `run` report damage */
+        manifest_free(&m);
+        TRY(st);
+    }
+done:
+    free(there);
+    job_states_free(&states);
     return st;
 }
 

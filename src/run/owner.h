@@ -35,6 +35,15 @@ status owner_refuse_mixed(const char *root, struct frame_range frames, const cha
 MUST_USE status owner_change(const char *root, const char *path, const struct job *theirs,
                              const struct job *job, const struct job_states *ours, struct change *out);
 
+/* The states of the job in the folder's job.yaml, by which frames of other jobs are told from its own. out->n is 0 if they cannot be told: then
+ * *why is the reason, as text: an input file of the job is missing, or *edited: job.yaml is not the job that made the frames. Free with
+ * job_states_free(). E_INPUT: job.yaml or run.json cannot be read. */
+MUST_USE status owner_states(const char *root, struct job_states *out, bool *edited, char why[600]);
+
+/* For verbs that read frames: warns if job.yaml is not the job of the frames. E_INPUT: a frame in `frames` (step 0: any) belongs to another
+ * job. */
+MUST_USE status owner_check_frames(const char *root, const char *name, struct frame_range frames);
+
 /* Removes manifests, files and checkpoints from frame `first` on. */
 MUST_USE status owner_discard(const char *root, const char *name, int first);
 

@@ -1,10 +1,12 @@
 """Files that are flipped, truncated or removed are made again by `run`, checkpoints by `run --repair`, and no others; the folder is then the
 same, byte for byte."""
 
+import glob
 import json
 import os
 import random
 import shutil
+import subprocess
 import sys
 
 sys.dont_write_bytecode = True
@@ -115,6 +117,31 @@ damaged_provenance("job.yaml is lost", "job.yaml", os.remove)
 damaged_provenance("job.yaml was edited", "job.yaml", edit)
 damaged_provenance("run.json is lost", "run.json", os.remove)
 damaged_provenance("run.json is cut", "run.json", lambda path: os.truncate(path, 10))
+
+# A frame of another job among one's own, and a job.yaml that was edited: every verb that reads frames names them.
+shutil.rmtree("other", ignore_errors=True)
+code, said = run("other", "--frames", "1001-1003", "--set", "seed=99")
+ok(code == 0, "another job", said)
+for folder in ("points", "volumes", "aov", "frames"):
+    for path in glob.glob(f"other/{folder}/twelve.1002.*"):
+        shutil.copy(path, os.path.join("out", folder))
+verbs = [["mesh", "out", "--frames=1002"], ["preview", "out", "--frames=1002", "--preset=draft", "--resolution=64x36", "--only=stills"],
+         ["report", "out", "--no-pictures"]]
+answers = [subprocess.run([HOODOO, *words], capture_output=True, text=True) for words in verbs]
+with open("out/report/index.html") as file:
+    page = file.read()
+ok([a.returncode for a in answers[:2]] == [3, 3] and all("1002 belongs to another job" in a.stderr for a in answers[:2]) and
+   "belongs to another job" in page, "mesh, preview and report name a frame of another job", answers)
+code, said = run("out")
+for path in ("out/report", "out/records/report"):
+    shutil.rmtree(path)
+ok(code == 0 and truth.differences("out") == "", "run makes it again", code, truth.differences("out"), said)
+edit("out/job.yaml")
+answers = [subprocess.run([HOODOO, *words], capture_output=True, text=True) for words in verbs]
+with open("out/report/index.html") as file:
+    page = file.read()
+ok(all("job.yaml is not the job of the frames" in a.stderr for a in answers[:2]) and "job.yaml is not the job of the frames" in page,
+   "and a job.yaml that is not the frames' job", answers)
 fault("files of frames, checkpoints, job.yaml and run.json cut, flipped, edited or gone", damaged,
       "named by `verify`; `run` makes exactly these again with the same bytes")
 finish()
