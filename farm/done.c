@@ -1,4 +1,4 @@
-/* Which tasks of a farm are done, and how fast its frames are made, from the files that exist. */
+/* Which tasks of a farm are done, from the files that exist. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,45 +8,6 @@
 #include "checkpoint/checkpoint.h"
 #include "farm/farm.h"
 #include "output/product.h"
-
-static double modified(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 ? (double)info.st_mtim.tv_sec + 1e-9 * (double)info.st_mtim.tv_nsec : 0;
-}
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-double farm_frame_seconds(const char *root, const char *name)
-{
-    enum { RECENT = 50, LEAST = 3 };
-    struct path path;
-    int *frames = NULL;
-    size_t n = 0, k = 0;
-    double *at = NULL, each = 0;
-    if (folder_frames(root, name, &frames, &n) != OK || n < LEAST ||
-        memory_alloc(n, sizeof *at, "the frames' times", &at) != OK)
-        goto done;
-    for (size_t i = 0; i < n; i++)
-        if (folder_path(&path, root, name, FILE_MANIFEST, frames[i], NULL) == OK)
-            at[k++] = modified(path.text);
-    qsort(at, k, sizeof *at, ascending);
-    size_t first = k > RECENT ? k - RECENT : 0;
-    for (size_t i = first; i + 1 < k; i++)
-        at[i] = at[i + 1] - at[i];
-    if (k > first + 1) {
-        qsort(at + first, k - first - 1, sizeof *at, ascending);
-        each = at[first + (k - first - 1) / 2];
-    }
-done:
-    free(frames);
-    free(at);
-    return each;
-}
 
 int farm_notice_seconds(const struct farm_wedge *wedge, size_t n_wedges, int least, int most)
 {

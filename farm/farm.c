@@ -13,6 +13,7 @@
 #include "output/folder.h"
 #include "run/branch.h"
 #include "run/owner.h"
+#include "run/timing.h"
 #include "system/atomic_file.h"
 #include "system/beside.h"
 #include "text/nearest.h"
@@ -127,7 +128,7 @@ status farm_measure(struct farm *f)
     struct path root;
     for (size_t i = 0; i < f->n_wedges; i++) {
         TRY(farm_root(f, (int)f->wedge[i].job->wedge.index, &root));
-        f->wedge[i].frame_seconds = farm_frame_seconds(root.text, f->wedge[i].job->name);
+        f->wedge[i].frame_seconds = timing_frame_seconds(root.text);
     }
 done:
     return st;

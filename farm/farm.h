@@ -57,9 +57,6 @@ MUST_USE status farm_freeze(struct farm *f);
 /* Sets frame_seconds of each wedge from the frames in its folder; 0 where there are too few. */
 MUST_USE status farm_measure(struct farm *f);
 
-/* The median time between a folder's recent frames, in seconds; 0 if there are too few to tell. */
-double farm_frame_seconds(const char *root, const char *name);
-
 /* How many seconds before its end a scheduler must notify a task, so that it can finish its frame and save: two of the
  * wedges' longest frames and a minute, between `least` and `most`. */
 int farm_notice_seconds(const struct farm_wedge *wedge, size_t n_wedges, int least, int most);

@@ -1,4 +1,5 @@
-/* hoodoo status OUT: reports the frames of an output folder and their rate, from manifests, sizes and times alone. */
+/* hoodoo status OUT: reports the frames of an output folder, from manifests and sizes alone, and their rate, from its log. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/stat.h>
@@ -12,9 +13,9 @@
 #include "farm/end.h"
 #include "farm/status.h"
 #include "output/folder.h"
+#include "run/timing.h"
 
 enum { STATE_MISSING, STATE_DONE, STATE_DAMAGED, N_STATES };
-enum { RECENT = 20 /* number of frames that the rate is averaged over */ };
 
 struct survey {
     const char *root;
@@ -22,7 +23,7 @@ struct survey {
     struct frame_range frames;
     unsigned char *state; /* [range_count(frames)] */
     char (*bad)[512];     /* [n[STATE_DAMAGED]]: the problem of each damaged frame, in order of frames */
-    double *written;      /* [n[STATE_DONE]]: times at which manifests were written, s */
+    double written;       /* when the newest manifest was written, s */
     size_t n[N_STATES], bad_capacity;
 };
 
@@ -52,7 +53,7 @@ static status survey_frame(struct survey *s, int frame, size_t i)
         TRY(memory_grow(&s->bad, &s->bad_capacity, k + 1, sizeof *s->bad, "the damaged frames"));
         snprintf(s->bad[k], sizeof s->bad[k], "%s", status_message());
     } else {
-        s->written[s->n[STATE_DONE]] = modified(s, frame);
+        s->written = fmax(s->written, modified(s, frame));
     }
     s->n[s->state[i]]++;
 done:
@@ -67,7 +68,6 @@ static status survey_frames(struct survey *s)
     size_t n_there, total = range_count(s->frames);
     TRY(folder_frames(s->root, s->name, &there, &n_there));
     TRY(memory_alloc(total, sizeof *s->state, "the frames", &s->state));
-    TRY(memory_alloc(total, sizeof *s->written, "the frames", &s->written));
     for (size_t i = 0; i < n_there; i++)
         if (range_holds(s->frames, there[i]))
             TRY(survey_frame(s, there[i], (size_t)((there[i] - s->frames.first) / s->frames.step)));
@@ -113,31 +113,16 @@ static void add_damaged(const struct survey *s, struct text *out)
     json_end_array(out);
 }
 
-static int ascending(const void *a, const void *b)
+static void add_rate(const struct survey *s, struct text *out)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* The rate is the median time between recent frames, so that a pause among them has no effect. */
-static void add_rate(struct survey *s, struct text *out)
-{
-    double between[RECENT], now = (double)time(NULL);
-    size_t n = s->n[STATE_DONE], k = 0;
-    if (n < 2)
-        return;
-    qsort(s->written, n, sizeof *s->written, ascending);
-    for (size_t i = n > RECENT ? n - RECENT : 1; i < n; i++)
-        between[k++] = s->written[i] - s->written[i - 1];
-    qsort(between, k, sizeof *between, ascending);
-    double each = between[k / 2];
+    const double each = timing_frame_seconds(s->root), now = (double)time(NULL);
     if (each > 0) {
         json_number(out, "frames_per_second", (double)(int64_t)(1e4 / each) / 1e4);
         json_integer(out, "time_left_seconds",
                      (int64_t)((double)(s->n[STATE_MISSING] + s->n[STATE_DAMAGED]) * each));
     }
-    json_integer(out, "since_last_frame_seconds",
-                 (int64_t)(now > s->written[n - 1] ? now - s->written[n - 1] : 0));
+    if (s->n[STATE_DONE])
+        json_integer(out, "since_last_frame_seconds", (int64_t)(now > s->written ? now - s->written : 0));
 }
 
 static status add_checkpoints(const struct survey *s, struct text *out)
@@ -236,7 +221,6 @@ done:
     text_free(&answer);
     free(s.state);
     free(s.bad);
-    free(s.written);
     arguments_free(&operands);
     return st;
 }

@@ -2,8 +2,11 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -11,6 +14,7 @@
 #include "base/log.h"
 #include "base/path.h"
 #include "base/version.h"
+#include "text/json.h"
 #include "text/text.h"
 
 /* Rounds to milliseconds; more digits are noise. */
@@ -55,22 +59,89 @@ static void describe(const struct gpu *gpu, int first, int last, double started,
     json_end_object(t);
 }
 
-void timing_write(const char *root, const struct gpu *gpu, int first, int last, double started)
+/* Appends the object in *t, as one line, and frees it. */
+static void append(const char *root, const char *name, struct text *t)
 {
     struct path path;
-    struct text t = {0};
     int file = -1;
-    describe(gpu, first, last, started, &t);
-    if (text_status(&t) != OK || path_join(&path, root, "log/timing.jsonl") != OK) {
-        log_note("log/timing.jsonl: %s", status_message());
+    if (text_status(t) != OK || path_join(&path, root, name) != OK) {
+        log_note("%s: %s", name, status_message());
         goto done;
     }
-    json_one_line(&t);
+    json_one_line(t);
     file = open(path.text, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (file < 0 || write(file, t.data, t.size) != (ssize_t)t.size)
+    if (file < 0 || write(file, t->data, t->size) != (ssize_t)t->size)
         log_note("%s: %s", path.text, strerror(errno));
 done:
     if (file >= 0)
         close(file);
-    text_free(&t);
+    text_free(t);
+}
+
+void timing_write(const char *root, const struct gpu *gpu, int first, int last, double started)
+{
+    struct text t = {0};
+    describe(gpu, first, last, started, &t);
+    append(root, "log/timing.jsonl", &t);
+}
+
+/* ---- frames */
+
+static const char frames_log[] = "log/frames.jsonl";
+
+void timing_add_frame(const char *root, int frame, double seconds)
+{
+    struct text t = {0};
+    json_object(&t, NULL);
+    json_integer(&t, "frame", frame);
+    json_number(&t, "seconds", rounded(seconds));
+    json_end_object(&t);
+    append(root, frames_log, &t);
+}
+
+/* The end of the file as text; "" if there is none. */
+static void read_end(const char *root, char *out, size_t size)
+{
+    struct path path;
+    struct stat info;
+    const int file =
+        path_join(&path, root, frames_log) == OK ? open(path.text, O_RDONLY | O_CLOEXEC | O_NONBLOCK) : -1;
+    ssize_t n = -1;
+    if (file >= 0 && fstat(file, &info) == 0 && S_ISREG(info.st_mode))
+        n = pread(file, out, size - 1, info.st_size > (off_t)size - 1 ? info.st_size - ((off_t)size - 1) : 0);
+    out[n > 0 ? n : 0] = '\0';
+    if (file >= 0)
+        close(file);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double timing_frame_seconds(const char *root)
+{
+    enum { RECENT = 50, LEAST = 3, END = 4096 };
+    char end[END];
+    double seconds[RECENT];
+    size_t n = 0;
+    read_end(root, end, sizeof end);
+    for (char *line = end, *next; *line; line = next) {
+        struct json *json = NULL;
+        const size_t length = strcspn(line, "\n");
+        next = line + length + (line[length] == '\n');
+        if (json_read(NULL, line, length, &json) ==
+            OK) { /* the first line may be cut, and the last if a machine died in it */
+            const struct json *s = json_member(json, "seconds");
+            if (s && s->kind == JSON_NUMBER && s->number >= 0 && isfinite(s->number))
+                seconds[n++ % RECENT] = s->number;
+        }
+        json_free(&json);
+    }
+    if (n < LEAST)
+        return 0;
+    n = n < RECENT ? n : RECENT;
+    qsort(seconds, n, sizeof *seconds, ascending);
+    return seconds[n / 2];
 }

@@ -6,12 +6,14 @@
 #include <string.h>
 #include <sys/resource.h>
 
+#include "base/clock.h"
 #include "base/hash.h"
 #include "base/memory.h"
 #include "exr/exr.h"
 #include "frame/stage.h"
 #include "job/palette.h"
 #include "output/folder.h"
+#include "run/timing.h"
 #include "system/atomic_file.h"
 #include "usd/usd.h"
 #include "vdb/vdb.h"
@@ -230,7 +232,9 @@ struct writer {
     bool ending;
     status st;
     char message[2048];
-    struct stage_frames frames; /* known to the USD stage; used by the thread only */
+    /* used by the thread only: */
+    struct stage_frames frames; /* known to the USD stage */
+    double last;                /* when the last frame was complete, by clock_seconds() */
 };
 
 static void item_free(struct item *item)
@@ -270,6 +274,11 @@ static void *writer_main(void *argument)
         if (st == OK)
             st = item->is_checkpoint ? write_checkpoint(w, &item->checkpoint)
                                      : frame_write(w->job, w->states, w->root, &item->frame);
+        if (st == OK && !item->is_checkpoint) {
+            const double now = clock_seconds();
+            timing_add_frame(w->root, item->frame.number, now - w->last);
+            w->last = now;
+        }
         /* Keep the USD stage current, so that an unfinished run can be opened. */
         if (st == OK && item->is_checkpoint)
             st = stage_write(w->job, w->states, w->root, &w->frames);
@@ -298,6 +307,7 @@ status writer_create(const struct job *job, const struct job_states *states, con
     w->states = states;
     w->root = root;
     w->blocking = blocking;
+    w->last = clock_seconds();
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->changed, NULL);
     if (pthread_create(&w->thread, NULL, writer_main, w) != 0) {

@@ -35,6 +35,12 @@ check "status --json is JSON" /usr/bin/python3 -c '
 import json
 s = json.load(open("out"))
 assert (s["done"], s["missing"], s["damaged"], s["checkpoints"]) == (3, 0, 0, [1003, 1002]), s'
+check "each frame's time is in the log" [ "$(grep -c '"seconds":' $o/log/frames.jsonl)" = 3 ]
+# The rate comes from the log, whatever the times of files: the median, without lines that were cut.
+printf '{"frame": 1001, "seconds": 2}\n{"frame": 1002, "seconds": 900}\n{"frame": 1003, "seconds": 2}\n{"frame": 1004, "sec' >$o/log/frames.jsonl
+touch -d '2001-01-01' $o/frames/small.1001.json
+check "status: a rate" says 0 status $o --json
+check "status: the rate is that of the log" grep -qE '"frames_per_second": 0.5,' out
 check "verify: all well" says 0 verify $o
 check "verify --frames" says 0 verify $o --frames 1002-1003
 for file in checkpoint/small.1003.ckpt volumes/small.1002.vdb frames/small.1002.json run.json; do
