@@ -1,5 +1,7 @@
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "cli/cli.h"
@@ -39,8 +41,12 @@ status volume_frames(const char *root, const char *name, struct frame_range rang
         if (range.step && !range_holds(range, frames[i]))
             continue;
         TRY(folder_path(&path, root, name, FILE_VOLUMES, frames[i], NULL));
-        if (access(path.text, R_OK) == 0)
+        if (access(path.text, R_OK) == 0) {
             frames[(*n)++] = frames[i];
+        } else if (errno != ENOENT) {
+            st = fail(E_INPUT, "%s: %s", path.text, strerror(errno));
+            goto done;
+        }
     }
     if (*n == 0) {
         st = fail(E_INPUT, "%s: no volumes of %s; run the job first", root,

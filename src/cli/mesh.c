@@ -1,6 +1,8 @@
 /* hoodoo mesh OUT: writes each frame's surface as a triangle mesh, in PLY (with vertex values), OBJ and USD. */
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "base/log.h"
@@ -109,8 +111,12 @@ status cli_mesh(int argc, char **argv)
         if (c.frames.step && !range_holds(c.frames, frames[i]))
             continue;
         TRY(folder_path(&path, root.text, job->name, FILE_VOLUMES, frames[i], NULL));
-        if (access(path.text, R_OK) != 0)
-            continue;
+        if (access(path.text, R_OK) != 0) {
+            if (errno == ENOENT)
+                continue;
+            st = fail(E_INPUT, "%s: %s", path.text, strerror(errno));
+            goto done;
+        }
         n_found++;
         if (stop_requested()) {
             st = fail(STOPPED, "stopped before frame %d; to continue, run the same command with --missing",

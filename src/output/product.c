@@ -32,7 +32,10 @@ status recipe_of_frame(struct recipe *recipe, const char *name, int frame)
 {
     recipe->frame = frame;
     recipe->source = 0;
-    const status st = manifest_source(recipe->root, name, frame, &recipe->source);
+    status st = manifest_source(recipe->root, name, frame, &recipe->source);
+    /* A disk may fail once, and a product whose source is not known is never out of date. */
+    if (st == E_INPUT)
+        st = manifest_source(recipe->root, name, frame, &recipe->source);
     return st == E_MEMORY ? st : OK;
 }
 
