@@ -28,14 +28,6 @@ struct sweep {
     double *x; /* frames */
 };
 
-bool report_has_wedges(const char *root)
-{
-    struct path path;
-    if (path_join(&path, root, "run.json") != OK || access(path.text, F_OK) == 0)
-        return false;
-    return path_join(&path, root, "farm/job.yaml") == OK && access(path.text, F_OK) == 0;
-}
-
 static void free_sweep(struct sweep *s)
 {
     for (size_t i = 0; s->wedge && i < s->n; i++) {

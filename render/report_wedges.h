@@ -6,9 +6,6 @@
 
 #include "text/text.h"
 
-/* Is `root` the folder of a job with wedges (with farm/job.yaml and without run.json)? */
-bool report_has_wedges(const char *root);
-
 /* *page: for each wedge its values, frames, share of rock left and ledger, a link to its report, and the still of its last frame (copied
  * into root/report); and the volumes of all wedges over time in one chart. Wedges that have not begun are listed as such. *sound: at least
  * one wedge has a sound frame. E_INPUT, E_USAGE: farm/job.yaml cannot be read. E_OUTPUT. E_MEMORY. */

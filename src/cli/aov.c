@@ -15,7 +15,7 @@
 #include "field/field.h"
 #include "model/air.h"
 #include "output/product.h"
-#include "run/branch.h"
+#include "run/owner.h"
 #include "scene/scene.h"
 #include "system/progress.h"
 #include "system/signals.h"
@@ -318,10 +318,7 @@ status cli_aov(int argc, char **argv)
     TRY(frames_folder(s.root.text, c.frames, s.name));
     folder_sweep(s.root.text);
     TRY(path_join(&path, s.root.text, "job.yaml"));
-    TRY(job_load(path.text, NULL, 0, &s.job));
-    TRY(branch_prepare_own(s.job, s.root.text));
-    TRY(job_states(s.job, &s.states));
-    job_destroy(&s.job);
+    TRY(owner_check_frames(s.root.text, s.name, c.frames, &s.states));
     TRY(job_load(path.text, c.sets.item, c.sets.n, &s.job));
     TRY(choose_cameras(&s, &cameras));
     if (2 * c.sets.n + 3 > PRODUCT_WORDS) {

@@ -20,23 +20,18 @@
 
 /* Lists the meshes in the USD stage, and repeats this as long as other tasks add meshes, so that the last task lists them all. Where the
  * frames of another job cannot be told from its own, all are listed. */
-static status list_in_stage(const struct job *job, const char *root)
+static status list_in_stage(const struct job *job, const struct job_states *states, const char *root)
 {
     status st = OK;
-    struct job_states states = {0};
     size_t before, n = 0;
-    bool edited;
-    char why[600];
-    TRY(owner_states(root, &states, &edited, why));
     do {
         int *frames = NULL;
         before = n;
-        TRY(stage_write(job, states.n ? &states : NULL, root, NULL));
+        TRY(stage_write(job, states->n ? states : NULL, root, NULL));
         TRY(folder_list(root, job->name, FILE_MESH_USD, &frames, &n));
         free(frames);
     } while (n != before);
 done:
-    job_states_free(&states);
     return st;
 }
 
@@ -49,6 +44,7 @@ status cli_mesh(int argc, char **argv)
     int *frames = NULL;
     size_t n, n_found = 0;
     struct meshes meshes = {0};
+    struct job_states states = {0};
     bool no_rocks = false;
     struct path path;
     char name[256];
@@ -87,7 +83,7 @@ status cli_mesh(int argc, char **argv)
     folder_sweep(root.text);
     TRY(path_join(&path, root.text, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));
-    TRY(owner_check_frames(root.text, job->name, c.frames));
+    TRY(owner_check_frames(root.text, job->name, c.frames, &states));
     signals_install();
     TRY(path_join(&path, root.text, "mesh"));
     TRY(folder_make(path.text));
@@ -134,12 +130,13 @@ status cli_mesh(int argc, char **argv)
     if (n_found == 0 && !allow_none)
         st = fail(E_INPUT, "%s: no volumes of the requested frames; run the job first", root.text);
     else if (n_found)
-        st = list_in_stage(job, root.text);
+        st = list_in_stage(job, &states, root.text);
     if (st == OK && n_found && progress.style == PROGRESS_BAR)
         log_info("meshes of %zu frames are in %s/mesh", n_found, root.text);
 done:
     progress_end(&progress);
     free(frames);
+    job_states_free(&states);
     job_destroy(&job);
     arguments_free(&operands);
     common_free(&c);

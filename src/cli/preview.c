@@ -235,6 +235,7 @@ status cli_preview(int argc, char **argv)
     struct wanted w = {.views = 72, .preset = PRESET_PREVIEW, .jobs = cores()};
     struct arguments operands = {0};
     struct job *job = NULL;
+    struct job_states states = {0};
     struct preview p = {0};
     struct progress progress = {0};
     int *frames = NULL;
@@ -287,7 +288,7 @@ status cli_preview(int argc, char **argv)
     TRY(path_join(&path, p.root, "job.yaml"));
     TRY(job_load(path.text, NULL, 0, &job));
     p.job = job;
-    TRY(owner_check_frames(p.root, job->name, w.common.frames));
+    TRY(owner_check_frames(p.root, job->name, w.common.frames, &states));
     TRY(check(&w, &p));
     TRY(volume_frames(p.root, p.job->name, w.common.frames, &frames, &n));
     folder_sweep(p.root);
@@ -311,6 +312,7 @@ done:
     if (st != OK && p.root)
         sweep_all(p.root);
     free(frames);
+    job_states_free(&states);
     job_destroy(&job);
     arguments_free(&operands);
     common_free(&w.common);

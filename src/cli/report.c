@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/cli.h"
+#include "farm/status.h"
 #include "render/report.h"
 #include "render/report_wedges.h"
 #include "system/atomic_file.h"
@@ -65,7 +66,7 @@ status cli_report(int argc, char **argv)
     status st = OK;
     struct arguments operands = {0};
     struct text page = {0};
-    bool help = false, no_pictures = false;
+    bool help = false, no_pictures = false, wedges;
     const struct option options[] = {
         {"no-pictures", NULL, OPTION_FLAG, &no_pictures,
          "numbers and curves only: fast, and small enough to mail"},
@@ -75,7 +76,8 @@ status cli_report(int argc, char **argv)
     if (help)
         goto done;
     signals_install();
-    if (report_has_wedges(operands.item[0]))
+    TRY(farm_has_wedges(operands.item[0], &wedges));
+    if (wedges)
         TRY(report_on_wedges(operands.item[0], &page));
     else
         TRY(report_on_run(operands.item[0], !no_pictures, &page));

@@ -78,13 +78,11 @@ static status read_frame(const struct stage *s, const struct job_states *states,
     }
     if (st != E_MEMORY && (st != OK || *bad))
         frame_left_out(s, number);
-    if (st == E_INPUT && s->last && range_holds(s->job->frames, number))
-        goto done; /* it would be missing from the sequence, and the run would say that all is done */
-    if (st == E_INPUT) {
+    if (st == E_INPUT && !(s->last && range_holds(s->job->frames, number))) {
         st = OK;
         goto done;
     }
-    TRY(st);
+    TRY(st); /* at the end, the frame would be missing from the sequence, and the run would say that all is done */
     *sound = !*bad && (!states || job_states_hold(states, number, m.job_hash)) &&
              range_holds(s->job->frames, number);
     *out = (struct stage_frame){.number = number,

@@ -123,25 +123,25 @@ done:
     return st;
 }
 
-status owner_check_frames(const char *root, const char *name, struct frame_range frames)
+status owner_check_frames(const char *root, const char *name, struct frame_range frames,
+                          struct job_states *out)
 {
     status st = OK;
-    struct job_states states = {0};
     int *there = NULL;
     size_t n = 0;
     bool edited;
     char why[600];
-    TRY(owner_states(root, &states, &edited, why));
+    TRY(owner_states(root, out, &edited, why));
     if (edited)
         log_warn("%s; the next hoodoo run rewrites it", why);
-    if (states.n)
+    if (out->n)
         TRY(folder_frames(root, name, &there, &n));
     for (size_t i = 0; i < n; i++) {
         struct manifest m = {0};
         if (frames.step && !range_holds(frames, there[i]))
             continue;
         st = manifest_read(root, name, there[i], &m);
-        if (st == OK && !job_states_hold(&states, there[i], m.job_hash))
+        if (st == OK && !job_states_hold(out, there[i], m.job_hash))
             st = fail(E_INPUT, "%s: frame %d belongs to another job; hoodoo run makes it again", root,
                       there[i]);
         else if (st == E_INPUT)
@@ -151,7 +151,6 @@ status owner_check_frames(const char *root, const char *name, struct frame_range
     }
 done:
     free(there);
-    job_states_free(&states);
     return st;
 }
 

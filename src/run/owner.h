@@ -40,9 +40,10 @@ MUST_USE status owner_change(const char *root, const char *path, const struct jo
  * job_states_free(). E_INPUT: job.yaml or run.json cannot be read. */
 MUST_USE status owner_states(const char *root, struct job_states *out, bool *edited, char why[600]);
 
-/* For verbs that read frames: warns if job.yaml is not the job of the frames. E_INPUT: a frame in `frames` (step 0: any) belongs to another
- * job. */
-MUST_USE status owner_check_frames(const char *root, const char *name, struct frame_range frames);
+/* For verbs that read frames: owner_states(), with a warning if job.yaml is not the job of the frames. E_INPUT: a frame in `frames` (step 0:
+ * any) belongs to another job. */
+MUST_USE status owner_check_frames(const char *root, const char *name, struct frame_range frames,
+                                   struct job_states *out);
 
 /* Removes manifests, files and checkpoints from frame `first` on. */
 MUST_USE status owner_discard(const char *root, const char *name, int first);

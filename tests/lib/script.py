@@ -7,6 +7,16 @@ import sys
 
 HOODOO, TOP = os.environ["HOODOO"], os.environ["HOODOO_TOP"]
 failures = 0
+# A run of half a second, to which a test adds lines.
+SMALL = """hoodoo: 1
+name: small
+model: goblins
+frames: 1-3
+clock: {years_per_frame: 300}
+domain: {size_m: [4, 4, 5], spacing_m: 0.5}
+scene: {cylinder: {from_m: [2, 2, 0], to_m: [2, 2, 4.5], radius_m: 1.5}}
+strata: [{weak_m_per_kyr: 0.2}]
+"""
 
 
 def ok(good, name, *notes):

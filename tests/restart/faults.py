@@ -16,19 +16,11 @@ HERE = os.getcwd()
 OUT = HERE + "/out"
 EACH = os.environ.get("FAULTS") == "all"
 ONLY = os.environ.get("ONLY", "").split()
-JOB = """hoodoo: 1
-name: g
-model: goblins
-frames: 1-3
-clock: {years_per_frame: 300}
-domain: {size_m: [4, 4, 5], spacing_m: 0.5}
-scene: {cylinder: {from_m: [2, 2, 0], to_m: [2, 2, 4.5], radius_m: 1.5}}
-strata: [{weak_m_per_kyr: 0.2}]
-checkpoint: {every: 1, keep: 2}
+JOB = SMALL + """checkpoint: {every: 1, keep: 2}
 cameras: {main: {orbit: {target_m: [2, 2, 2], distance_m: 12}, resolution: [32, 18]}}
 output: {aov: {cameras: [main]}}
 """
-with open("g.yaml", "w") as file:
+with open("small.yaml", "w") as file:
     file.write(JOB)
 SHIM = HERE + "/fault.so"
 subprocess.run(["gcc", "-std=c11", "-D_GNU_SOURCE", "-O1", "-shared", "-fPIC", "-o", SHIM, TOP + "/tests/restart/lib/fault_shim.c", "-ldl"], check=True)
@@ -113,7 +105,7 @@ def campaign(name, words, before=None, few=1):
     ok(code == 0 and counts["read"] + counts["open"] > 3, f"{name}: undisturbed", code, said, counts)
     if not before:
         shutil.copytree("out", "done")
-        for path in glob.glob("done/*/g.0003.*"):
+        for path in glob.glob("done/*/small.0003.*"):
             os.remove(path)
     for kind in ("files", "device"):
         bad, n = [], 0
@@ -130,8 +122,8 @@ def campaign(name, words, before=None, few=1):
             ok(not bad, f"{name}: {n} calls about {'files' if kind == 'files' else 'the device'} fail, one at a time", "\n".join(bad))
 
 
-campaign("run", ["run", HERE + "/g.yaml", "--device", "cpu", "--out", OUT, "--progress", "none"])
-campaign("resume", ["run", HERE + "/g.yaml", "--device", "cpu", "--out", OUT, "--progress", "none"], "done")
+campaign("run", ["run", HERE + "/small.yaml", "--device", "cpu", "--out", OUT, "--progress", "none"])
+campaign("resume", ["run", HERE + "/small.yaml", "--device", "cpu", "--out", OUT, "--progress", "none"], "done")
 campaign("mesh", ["mesh", OUT, "--progress", "none"], "done")
 fault("calls about files that fail once with EIO, ENOSPC, EMFILE, ESTALE or ENOMEM", tried["files"],
       "an exit code of the table and a sentence, or nothing lost; no partial file; the same command ends with the same bytes")

@@ -101,16 +101,7 @@ for i in range(MOMENTS):
 
 # A small run of another model, killed again and again before it is let to its end.
 with open("small.yaml", "w") as file:
-    file.write("""hoodoo: 1
-name: small
-model: goblins
-frames: 1-4
-clock: {years_per_frame: 300}
-domain: {size_m: [4, 4, 5], spacing_m: 0.5}
-scene: {cylinder: {from_m: [2, 2, 0], to_m: [2, 2, 4.5], radius_m: 1.5}}
-strata: [{weak_m_per_kyr: 0.2}]
-checkpoint: {every: 2, keep: 9}
-""")
+    file.write(script.SMALL + "checkpoint: {every: 2, keep: 9}\n")
 
 
 def small(out):

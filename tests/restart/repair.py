@@ -126,12 +126,12 @@ for folder in ("points", "volumes", "aov", "frames"):
     for path in glob.glob(f"other/{folder}/twelve.1002.*"):
         shutil.copy(path, os.path.join("out", folder))
 verbs = [["mesh", "out", "--frames=1002"], ["preview", "out", "--frames=1002", "--preset=draft", "--resolution=64x36", "--only=stills"],
-         ["report", "out", "--no-pictures"]]
+         ["aov", "out", "--frames=1002", "--camera=main"], ["report", "out", "--no-pictures"]]
 answers = [subprocess.run([HOODOO, *words], capture_output=True, text=True) for words in verbs]
 with open("out/report/index.html") as file:
     page = file.read()
-ok([a.returncode for a in answers[:2]] == [3, 3] and all("1002 belongs to another job" in a.stderr for a in answers[:2]) and
-   "belongs to another job" in page, "mesh, preview and report name a frame of another job", answers)
+ok([a.returncode for a in answers[:3]] == [3, 3, 3] and all("1002 belongs to another job" in a.stderr for a in answers[:3]) and
+   "belongs to another job" in page, "mesh, preview, aov and report name a frame of another job", answers)
 code, said = run("out")
 for path in ("out/report", "out/records/report"):
     shutil.rmtree(path)
@@ -140,7 +140,7 @@ edit("out/job.yaml")
 answers = [subprocess.run([HOODOO, *words], capture_output=True, text=True) for words in verbs]
 with open("out/report/index.html") as file:
     page = file.read()
-ok(all("job.yaml is not the job of the frames" in a.stderr for a in answers[:2]) and "job.yaml is not the job of the frames" in page,
+ok(all("job.yaml is not the job of the frames" in a.stderr for a in answers[:3]) and "job.yaml is not the job of the frames" in page,
    "and a job.yaml that is not the frames' job", answers)
 fault("files of frames, checkpoints, job.yaml and run.json cut, flipped, edited or gone", damaged,
       "named by `verify`; `run` makes exactly these again with the same bytes")
