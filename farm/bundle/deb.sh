@@ -24,10 +24,15 @@ doc=$stage/usr/share/doc/hoodoo
 gzip -9nc "$doc/CHANGELOG.md" >"$doc/changelog.gz"
 rm "$doc/CHANGELOG.md" "$doc/LICENSE"
 sed -n 's/^## \[\([0-9.]*\)\]\( - \)*\(.*\)/\1 \3/p' CHANGELOG.md | while read -r release when; do
-    released=$(date -u -R -d "$when" 2>/dev/null || echo "$date")
+    case $when in
+    unreleased) released=$date ;;
+    [0-9]*) released=$(date -u -R -d "$when") ;;
+    *) echo "deb.sh: CHANGELOG.md has no date for version $release" >&2; exit 1 ;;
+    esac
     printf 'hoodoo (%s-1) unstable; urgency=medium\n\n  * Version %s; changelog.gz lists what changed.\n\n -- %s <%s>  %s\n\n' \
         "$release" "$release" "$name" "$email" "$released"
-done | gzip -9nc >"$doc/changelog.Debian.gz"
+done >"$doc/changelog.Debian"
+gzip -9n "$doc/changelog.Debian"
 cat >"$doc/copyright" <<EOF
 Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: hoodoo
