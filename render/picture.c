@@ -170,11 +170,17 @@ static status read_from_points(const struct preview *p, int frame, struct vdb_me
     float *value = NULL;
     TRY(folder_path(&path, p->root, p->job->name, FILE_POINTS, frame, NULL));
     TRY(vdb_points_read(path.text, &rock));
-    const float *const field = rock.field[value_field[p->show]];
+    float *const field = rock.field[value_field[p->show]];
     if (!field) {
         st = fail(E_INPUT, "%s: the points have no field %s", path.text, value_table[p->show].name);
         goto done;
     }
+    if (value_table[p->show].kind == KIND_ID) /* whole numbers, which are converted in place */
+        for (size_t i = 0; i < rock.n; i++) {
+            uint32_t id;
+            memcpy(&id, &field[i], sizeof id);
+            field[i] = (float)id;
+        }
     TRY(memory_alloc(mesh->n_vertices + 1, sizeof *value, "values", &value));
     TRY(closest_values(mesh->vertex, mesh->n_vertices, rock.P, field, rock.n, 2.5 * p->job->domain.spacing_m,
                        value));

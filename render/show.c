@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "job/palette.h"
+
 static const struct value_legend *legend(enum value_id show)
 {
     return &value_table[show].legend;
@@ -91,6 +93,8 @@ struct show_range show_job_range(enum value_id show, const struct job *job)
         return (struct show_range){1, fmax(10, pow(10, ceil(log10(fmax(water, 1)) - 1e-9)))};
     case SPAN_RATES:
         return rates(job);
+    case SPAN_LAYERS:
+        return (struct show_range){0, fmax((double)palette_size(job) - 1, 1)};
     case SPAN_FIXED:
         break;
     }
@@ -219,6 +223,8 @@ size_t show_ticks(enum value_id show, struct show_range r, struct show_tick tick
         return decades(r, tick);
     double span = r.high - r.low, step = pow(10, floor(log10(span / 3)));
     step *= span / step > 12 ? 5 : span / step > 6 ? 2 : 1;
+    if (value_table[show].kind == KIND_ID && span >= 1) /* between whole numbers there is nothing */
+        step = fmax(step, 1);
     for (double k = ceil(r.low / step - 1e-9); k * step <= r.high + 1e-9 * span && n < SHOW_TICKS; k++) {
         tick[n].position = show_position(show, r, k * step);
         short_number(k == 0 ? 0 : k * step, step, tick[n++].text);

@@ -32,6 +32,26 @@ void across(vec3 n, out vec3 a, out vec3 b)
     b = cross(n, a);
 }
 
+// What is left of a part of a ray when the rock is cut; nothing if the first number is larger.
+vec2 kept(vec3 from, vec3 along, vec2 span)
+{
+    if (k.cut == 0u)
+        return span;
+    uint axis = k.cut & 3u;
+    float side = (k.cut & CUT_KEEPS_HIGH) != 0u ? -1.0 : 1.0;
+    float beyond = side * (from[axis] - k.cut_at), away = side * along[axis];
+    if (abs(away) < 1e-12)
+        return beyond > 0.0 ? vec2(1.0, 0.0) : span;
+    float crossing = -beyond / away;
+    return away < 0.0 ? vec2(max(span.x, crossing), span.y) : vec2(span.x, min(span.y, crossing));
+}
+
+// Whether rock is in the way.
+bool hidden(vec3 from, vec3 along)
+{
+    return march(from, along, kept(from, along, box_span(from, along))) >= 0.0;
+}
+
 // `lift`: distance from the surface, in voxels, at which rays begin. The field is smoothed over 1.5 voxels; the ground is not in it.
 float lit(uint i, vec3 x, vec3 n, float lift)
 {
@@ -43,7 +63,7 @@ float lit(uint i, vec3 x, vec3 n, float lift)
         across(sun, a, b);
         sun = normalize(sun + r * cos(turn) * a + r * sin(turn) * b);
     }
-    if (dot(n, sun) > 0.0 && march(lifted, sun, box_span(lifted, sun)) < 0.0)
+    if (dot(n, sun) > 0.0 && !hidden(lifted, sun))
         sum += LIT_SUN;
     if (k.rays == 1u)
         return sum + LIT_SKY;
@@ -52,7 +72,7 @@ float lit(uint i, vec3 x, vec3 n, float lift)
     float r = sqrt(u.x), turn = 6.28318530718 * u.y;
     across(n, a, b);
     vec3 up = normalize(r * cos(turn) * a + r * sin(turn) * b + sqrt(1.0 - u.x) * n);
-    return march(lifted, up, box_span(lifted, up)) < 0.0 ? sum + LIT_SKY : sum;
+    return hidden(lifted, up) ? sum : sum + LIT_SKY;
 }
 
 void main()
@@ -64,12 +84,16 @@ void main()
     vec3 eye = vec3(k.eye_x, k.eye_y, k.eye_z), ahead = vec3(k.ahead_x, k.ahead_y, k.ahead_z);
     vec3 along = normalize(ahead + film.x * vec3(k.right_x, k.right_y, k.right_z) +
                            film.y * vec3(k.down_x, k.down_y, k.down_z));
-    vec2 span = box_span(eye, along);
+    vec2 box = box_span(eye, along), span = kept(eye, along, box);
     float t = span.x <= span.y ? march(eye, along, span) : -1.0;
     vec4 where = vec4(0.0, 0.0, 0.0, -1.0), normal = vec4(0.0);
     if (t >= 0.0) {
         vec3 x = eye + t * along, g = gradient_at(x);
         vec3 n = dot(g, g) > 0.0 ? normalize(g) : -along;
+        if (span.x > box.x && t == span.x) { // on the cut
+            n = vec3(0.0);
+            n[k.cut & 3u] = -sign(along[k.cut & 3u]);
+        }
         where = vec4(x, t * dot(along, ahead));
         normal = vec4(n, lit(i, x, n, 1.5));
     } else if (k.ground != 0u && along.z < 0.0 && eye.z > 0.0) {

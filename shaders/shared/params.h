@@ -608,8 +608,13 @@ struct march_params {
     uint ray, rays; /* sample number, and samples per pixel; a single one has a point sun and an open sky */
     float film_x, film_y; /* px: position in the pixel */
     uint ground;          /* 1: rays that hit no rock see level ground at z = 0 */
+    uint cut;             /* 0: none; CUT_KEEPS_LOW or CUT_KEEPS_HIGH, and the axis */
+    float cut_at;         /* m: rock on one side of this plane is not shown */
 };
-SHARED_SIZE(march_params, 120)
+SHARED_SIZE(march_params, 128)
+
+#define CUT_KEEPS_LOW 4u
+#define CUT_KEEPS_HIGH 8u
 
 #define LIT_SUN 1.0f
 #define LIT_SKY 2.0f

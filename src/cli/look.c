@@ -306,6 +306,8 @@ status cli_look(int argc, char **argv)
          "a value of the surface in false colours, with a legend (default: rock, its natural colours)"},
         {"range", "LO:HI", OPTION_TEXT, &l.options.range,
          "range of the colours, in the legend's unit (default: the same as in previews of the job)"},
+        {"cut", "AXIS=M", OPTION_TEXT, &l.options.cut,
+         "cut the rock at x, y or z, such as x=12.5, and show its inside there: beds, or the value of --show. What is between the cut and the camera is left out; of z, what is above"},
         {"figure", NULL, OPTION_FLAG, &l.options.figure, "add a person of 1.75 m in front of the rock"},
         {"gizmos", CHOICE_TEXT(GIZMOS_CHOICE), OPTION_CHOICE, &gizmos,
          "lines over the picture: domain, wind, water paths, paint, cameras, and edits and tools of this frame (now) or of all frames (all) (default: now)"},

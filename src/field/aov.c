@@ -110,6 +110,10 @@ static void record_sample(struct gpu *gpu, struct aov *a, const struct camera *c
         .ray = (uint)sample,
         .rays = (uint)samples,
         .ground = a->ground,
+        .cut = f->cut.keeps == CUT_NONE
+                   ? 0
+                   : (f->cut.keeps == CUT_LOW ? CUT_KEEPS_LOW : CUT_KEEPS_HIGH) | (uint)f->cut.axis,
+        .cut_at = (float)f->cut.at,
         .film_x = (float)fmod(0.5 + sample * 0.7548776662, 1),
         .film_y = (float)fmod(0.5 + sample * 0.5698402910, 1),
     };

@@ -1,7 +1,9 @@
 #include "field/field.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/memory.h"
 #include "particles/deep.h"
 
 static struct field geometry(const int voxels[3], double h)
@@ -98,6 +100,12 @@ int field_mean(enum value_id value)
     return -1;
 }
 
+bool field_cut_near(const struct field_cut *cut, int axis, double origin, double voxel, int first, int last)
+{
+    const double at = (cut->at - origin) / voxel;
+    return cut->keeps != CUT_NONE && axis == cut->axis && at >= first - CUT_REACH && at <= last + CUT_REACH;
+}
+
 /* ---- bricks */
 
 status field_keep(struct gpu *gpu, struct field *f, size_t n)
@@ -131,6 +139,29 @@ static struct field_params extent_params(const struct field *f, const int n[3], 
                                  .margin = (uint)margin};
 }
 
+/* Treats bricks at the cut as if they were at the surface, so that they are stored. */
+static status expose_cut(struct gpu *gpu, struct field *f)
+{
+    status st = OK;
+    uint32_t *bare = NULL;
+    int bricks[3];
+    const size_t n = grid_bricks_of(f->n, bricks);
+    const int axis = f->cut.axis;
+    TRY(memory_alloc(n, sizeof *bare, "bricks", &bare));
+    TRY(gpu_download(gpu, f->list, 0, bare, n));
+    for (size_t b = 0; b < n; b++) {
+        const size_t across = (size_t)bricks[0],
+                     x[3] = {b % across, b / across % (size_t)bricks[1], b / across / (size_t)bricks[1]};
+        const int first = BRICK_SIDE * (int)x[axis];
+        if (field_cut_near(&f->cut, axis, f->origin[axis], f->voxel, first, first + BRICK_SIDE - 1))
+            bare[b] = EXTENT_ALL;
+    }
+    TRY(gpu_upload(gpu, f->list, 0, bare, n));
+done:
+    free(bare);
+    return st;
+}
+
 /* Lists the bricks near the surface, which is between voxels with rock and voxels that are not full. The extents of both in each brick are in
  * f->place and f->list. */
 static status choose(struct gpu *gpu, struct gpu_work *work, struct field *f)
@@ -157,7 +188,7 @@ static void finish(struct gpu *gpu, struct field *f, struct particles *p)
     struct field_params k = params_of(f, p);
     if (k.n == 0)
         return;
-    if (f->whole)
+    if (f->whole || f->cut.keeps != CUT_NONE)
         gpu_fill(gpu, p->place, ~0U);
     else
         particles_mark_near(gpu, p, NEAR_REACH);
@@ -200,6 +231,8 @@ status field_build(struct gpu *gpu, struct gpu_work *work, struct field *f, stru
     GPU_RUN(gpu, field_reach, rock.n, rock, p->held.words, p->fill, f->place, f->list);
     if (f->whole)
         gpu_fill(gpu, f->list, EXTENT_ALL);
+    else if (f->cut.keeps != CUT_NONE)
+        TRY(expose_cut(gpu, f));
     TRY(choose(gpu, work, f));
     struct field_params k = params_of(f, p);
     k.repose = (float)tan(repose_deg * 3.14159265358979323846 / 180);

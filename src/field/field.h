@@ -12,6 +12,20 @@
 #include "particles/frame.h"
 #include "particles/particles.h"
 
+/* A plane along which pictures cut the rock: what is on one side of it is not shown, and the values inside show on the cut. */
+enum cut_keeps { CUT_NONE, CUT_LOW, CUT_HIGH };
+struct field_cut {
+    enum cut_keeps keeps; /* the side that is shown: below or above `at` on the axis */
+    int axis;             /* 0..2 */
+    double at;            /* m */
+};
+
+/* Voxels on each side of a cut in which the values on it need particles. */
+enum { CUT_REACH = 3 };
+
+/* Do the samples first..last along an axis come within CUT_REACH of the cut? `origin`, m: position of sample 0. */
+bool field_cut_near(const struct field_cut *cut, int axis, double origin, double voxel, int first, int last);
+
 struct field {
     int n[3];                /* samples: the domain plus FIELD_MARGIN voxels on each side */
     double voxel, origin[3]; /* m: the particle spacing; position of sample 0 */
@@ -19,6 +33,7 @@ struct field {
      * +FIELD_BAND voxels; where the slot is BRICK_INSIDE the share is 1 and the distance -FIELD_BAND voxels. */
     size_t n_bricks, room; /* stored bricks; capacity */
     bool whole;            /* all rock has particles: no brick is BRICK_INSIDE */
+    struct field_cut cut;  /* bricks at the cut are stored; set by the caller before the field is built */
     /* Per brick of the lattice, uint: */
     struct gpu_buffer *slot;         /* index in `list` plus 1; 0: not stored; or BRICK_INSIDE */
     struct gpu_buffer *list;         /* numbers of the stored bricks, ascending */

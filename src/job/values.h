@@ -55,7 +55,7 @@ enum value_where {
 };
 enum value_bits { BITS_EXACT, BITS_HALF, BITS_SHARE, BITS_DIRECTION };
 enum value_axis { AXIS_LINEAR, AXIS_LOG, AXIS_DIVERGING };
-enum value_span { SPAN_FIXED, SPAN_STRESS, SPAN_WEIGHT, SPAN_WATER, SPAN_RATES };
+enum value_span { SPAN_FIXED, SPAN_STRESS, SPAN_WEIGHT, SPAN_WATER, SPAN_RATES, SPAN_LAYERS };
 
 enum { VALUE_CHANNELS = 4, VALUE_NAME = 15 }; /* most channels of a value, and letters of a name */
 

@@ -15,7 +15,8 @@ struct ink {
 static const struct ink INK_DOMAIN = {"grey", {150, 158, 170}}, INK_WIND = {"cyan", {110, 225, 235}},
                         INK_WATER = {"blue", {60, 120, 255}}, INK_PAINT = {"magenta", {235, 90, 220}},
                         INK_CARVE = {"red", {255, 70, 60}}, INK_ADD = {"green", {90, 215, 90}},
-                        INK_TOOL = {"orange", {255, 160, 30}}, INK_CAMERA = {"yellow", {250, 225, 70}};
+                        INK_TOOL = {"orange", {255, 160, 30}}, INK_CAMERA = {"yellow", {250, 225, 70}},
+                        INK_CUT = {"white", {240, 240, 240}};
 
 /* The drawing state; coordinates are in the world, or local to a placement. */
 struct drawing {
@@ -311,8 +312,23 @@ static void draw_cameras(const struct job *job, int frame, const struct job_came
     }
 }
 
+static void draw_cut(const struct job *job, const struct field_cut *cut, struct shot *s, struct text *said)
+{
+    const struct drawing d = {.shot = s, .ink = &INK_CUT};
+    double low[3] = {0}, high[3];
+    struct text words = {0};
+    if (cut->keeps == CUT_NONE)
+        return;
+    memcpy(high, job->domain.size_m, sizeof high);
+    low[cut->axis] = high[cut->axis] = cut->at;
+    box(&d, low, high);
+    text_add(&words, "at %c = %g m", "xyz"[cut->axis], cut -> at);
+    say(said, &INK_CUT, "cut", SIZE_MAX, words.data ? words.data : "");
+    text_free(&words);
+}
+
 void gizmos_draw(const struct job *job, int frame, enum gizmos which, const struct job_camera *own,
-                 struct shot *s, struct text *said)
+                 const struct field_cut *cut, struct shot *s, struct text *said)
 {
     const bool all = which == GIZMOS_ALL;
     const double origin[3] = {0};
@@ -325,6 +341,7 @@ void gizmos_draw(const struct job *job, int frame, enum gizmos which, const stru
     text_add(&words, "%g x %g x %g m", size[0], size[1], size[2]);
     say(said, &INK_DOMAIN, "domain", SIZE_MAX, words.data ? words.data : "");
     text_free(&words);
+    draw_cut(job, cut, s, said);
     draw_wind(job_at(job, frame), frame, s, said);
     draw_sources(job_at(job, frame), frame, s, said);
     draw_edits(job, frame, all, s, said);

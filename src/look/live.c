@@ -78,8 +78,10 @@ static void give_job(struct live *l, struct serve_answer *out)
         json_text(&t, "name", job->name);
         json_integer(&t, "first", job->frames.first);
         json_integer(&t, "last", job->frames.last);
-        json_number(&t, "size",
-                    fmax(fmax(job->domain.size_m[0], job->domain.size_m[1]), job->domain.size_m[2]));
+        json_array(&t, "size_m");
+        for (int a = 0; a < 3; a++)
+            json_number(&t, NULL, job->domain.size_m[a]);
+        json_end_array(&t);
         json_array(&t, "cameras");
         for (size_t i = 0; i < job->n_cameras; i++)
             json_text(&t, NULL, job->cameras[i].name);
@@ -156,7 +158,7 @@ static void give_picture(struct live *l, const struct serve_request *r, struct s
     struct look_made made;
     const bool rough = number(r, "rough", 0) > 0;
     const char *gizmos = serve_value(r, "gizmos");
-    o.no_slate = true;
+    o.no_slate = o.no_legend = true; /* the page draws the legend */
     o.sketch.frame = serve_value(r, "frame");
     o.sketch.camera = serve_value(r, "camera");
     o.sketch.zoom = fmin(fmax(number(r, "zoom", 1), 0.1), 50);
@@ -165,6 +167,7 @@ static void give_picture(struct live *l, const struct serve_request *r, struct s
     o.sketch.width = (int)fmin(fmax(number(r, "width", o.sketch.width), 64), 1920) / (rough ? 2 : 1);
     o.sketch.samples = rough ? 1 : o.sketch.samples;
     o.range = NULL;
+    o.cut = serve_value(r, "cut");
     o.figure = number(r, "figure", 0) > 0;
     o.gizmos = gizmos && strcmp(gizmos, "all") == 0    ? GIZMOS_ALL
                : gizmos && strcmp(gizmos, "none") == 0 ? GIZMOS_NONE

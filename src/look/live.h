@@ -2,8 +2,8 @@
  * is render/look.html. Requests:
  *
  *   /          the page
- *   /job       JSON: name, frames, values, cameras, size; `saves` counts how often its files have been saved
- *   /picture   ?frame&camera&zoom&show&gizmos&figure&rough: a PNG, described by JSON in the header X-Look. 422: an error in the job, as text
+ *   /job       JSON: name, frames, values, cameras, size_m of the domain; `saves` counts how often its files have been saved
+ *   /picture   ?frame&camera&zoom&show&cut&gizmos&figure&rough: a PNG, described by JSON in the header X-Look. 422: an error in the job, as text
  *   /at        ?x&y (0..1): JSON with the position and the values at this point of the last picture
  */
 #ifndef HOODOO_LOOK_LIVE_H

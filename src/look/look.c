@@ -140,6 +140,24 @@ done:
 
 /* ---- the picture */
 
+/* "AXIS=METRES". The side of the camera is cut off, or what is above. */
+static status parse_cut(const struct job *job, const struct camera *camera, const char *text,
+                        struct field_cut *out)
+{
+    static const char axes[] = "xyz";
+    const char *letter = text[0] ? strchr(axes, text[0]) : NULL;
+    char rest;
+    double at = 0;
+    if (!letter || sscanf(text + 1, "=%lf%c", &at, &rest) != 1)
+        return fail(E_USAGE, "--cut %.40s: write x=, y= or z= and metres, such as x=12.5", text);
+    const int axis = (int)(letter - axes);
+    if (!(at >= 0 && at <= job->domain.size_m[axis]))
+        return fail(E_USAGE, "--cut %.40s: must be within the domain, whose %c is 0 to %g m", text, *letter,
+                    job->domain.size_m[axis]);
+    *out = (struct field_cut){axis == 2 || camera->eye[axis] > at ? CUT_LOW : CUT_HIGH, axis, at};
+    return OK;
+}
+
 static status picture(struct look *l, const struct sketch *s, const struct look_options *o, struct model *m,
                       struct look_made *made)
 {
@@ -147,21 +165,26 @@ static status picture(struct look *l, const struct sketch *s, const struct look_
     struct frame frame = {0};
     struct shot shot = {0};
     struct slate slate = {0};
+    struct field_cut cut = {0};
     char right[32];
     const struct camera camera = camera_of(s->camera, s->frame);
     struct show_range range = show_job_range(o->sketch.show, s->job);
     if (o->range)
         TRY(show_parse_range(o->sketch.show, o->range, &range));
-    TRY(model_pictures(m, &frame));
+    if (o->cut)
+        TRY(parse_cut(s->job, &camera, o->cut, &cut));
+    TRY(model_pictures(m, &cut, &frame));
     made->years = frame.years;
     TRY(shot_make(s->job, s->frame, &frame.image[0], &camera, o->sketch.show, range, &shot));
     if (o->figure)
         figure_draw(s->job, s->frame, &shot);
-    gizmos_draw(s->job, s->frame, o->gizmos, s->camera, &shot, &made->gizmos);
+    gizmos_draw(s->job, s->frame, o->gizmos, s->camera, &cut, &shot, &made->gizmos);
     slate.width = camera.width;
     slate.height = camera.height;
     snprintf(right, sizeof right, "at %.3g m", s->job->domain.spacing_m);
     slate_describe(s->job, s->frame, &camera, o->sketch.show, range, o->no_slate ? NULL : right, &slate);
+    if (o->no_legend)
+        slate = (struct slate){0};
     TRY(print_picture(&shot, &slate, o->folder, &made->png, &made->png_size));
     made->range = range;
     frame_free(&l->last);

@@ -27,8 +27,9 @@ bool look_on_gpu(const struct look *look);
 struct look_options {
     struct sketch_options sketch;
     const char *folder; /* for temporary files, which the slate needs */
-    bool no_slate, figure;
+    bool no_slate, no_legend, figure;
     enum gizmos gizmos;
+    const char *cut;   /* "x=12.5": cut the rock there, which also shows its inside; NULL: as a whole */
     const char *range; /* range of the shown value, "LO:HI"; NULL: that of the job */
     bool (*stop)(void *user);
     void (*frame)(void *user, int frame); /* called after each simulated frame; NULL: none */

@@ -18,6 +18,7 @@ static const double WHITE = 4;
 
 struct found {
     const float *rgba[4], *depth, *n[3], *p[3], *value;
+    const uint32_t *id; /* the value, if it is a whole number */
 };
 
 static const float *channel_of(const struct aov_image *image, const char *name)
@@ -40,6 +41,10 @@ static void find(const struct aov_image *image, enum value_id show, struct found
     }
     f->depth = channel_of(image, "Z");
     f->value = show ? channel_of(image, value_table[show].channel[0]) : NULL;
+    f->id = NULL;
+    for (size_t i = 0; show && i < image->n_channels; i++)
+        if (strcmp(image->channel[i].name, value_table[show].channel[0]) == 0)
+            f->id = image->channel[i].id;
 }
 
 static bool is_rock(const struct found *f, size_t i)
@@ -148,7 +153,7 @@ static void color_of(const struct light *light, const struct camera *c, double s
 static void paint_value(struct shot *s, enum value_id show, struct show_range range, const struct found *f,
                         size_t i)
 {
-    const double scaled = (double)f->value[i] * value_table[show].legend.scale;
+    const double scaled = (f->id ? (double)f->id[i] : (double)f->value[i]) * value_table[show].legend.scale;
     double along[3], facing = 0;
     unsigned char rgb[3];
     direction(&s->camera, (int)(i % (size_t)s->camera.width), (int)(i / (size_t)s->camera.width), along);
@@ -200,7 +205,7 @@ status shot_make(const struct job *job, int frame, const struct aov_image *image
     TRY(develop(out, &light, span, &f));
     for (size_t i = 0; i < n; i++) {
         out->depth[i] = is_rock(&f, i) ? f.depth[i] : HUGE_VALF;
-        if (f.value && is_rock(&f, i))
+        if ((f.value || f.id) && is_rock(&f, i))
             paint_value(out, show, range, &f, i);
     }
 done:

@@ -111,8 +111,11 @@ static status show(struct arches *t, struct frame_wants wants, struct frame *out
     status st = OK;
     struct model *m = &t->m;
     struct terrain_view *v = &t->view;
-    *v = (struct terrain_view){
-        .job = m->job, .stacks = &t->stacks, .n_materials = t->n_materials, .voxel = m->field.voxel};
+    *v = (struct terrain_view){.job = m->job,
+                               .stacks = &t->stacks,
+                               .n_materials = t->n_materials,
+                               .voxel = m->field.voxel,
+                               .cut = m->field.cut};
     memcpy(v->n, m->field.n, sizeof v->n);
     memcpy(v->origin, m->field.origin, sizeof v->origin);
     gpu_stage(m->gpu, "surface");

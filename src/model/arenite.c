@@ -583,6 +583,8 @@ static status output(struct model *m, struct frame *out)
     const unsigned has = arenite_has(m->job, water_ever_flows(m->job), a->plants, a->deposits, a->exposed);
     struct aov_air air = {0};
     out->stress_iterations = a->elastic.iterations;
+    if (m->field.cut.keeps != CUT_NONE)
+        TRY(arenite_add_at_cut(a, &m->field.cut));
     if (wants.points || wants.volumes || wants.pictures)
         TRY(show_water(a));
     gpu_stage(m->gpu, "field");

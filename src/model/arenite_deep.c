@@ -89,6 +89,39 @@ done:
     return st;
 }
 
+status arenite_add_at_cut(struct arenite *a, const struct field_cut *cut)
+{
+    status st = OK;
+    struct particles *p = &a->particles;
+    uint32_t *bits = NULL;
+    const int across = (p->voxels[0] + 31) / 32;
+    size_t n = 0;
+    if (p->n_deep == 0)
+        return OK;
+    TRY(alloc_bits(a, &bits));
+    TRY(particles_deep_bits(a->m.gpu, a->m.work, p, bits));
+    for (size_t w = 0; w < held_words(p->voxels); w++) {
+        const int row = (int)(w / (size_t)across);
+        int v[3] = {0, row % p->voxels[1], row / p->voxels[1]};
+        uint32_t near = 0;
+        for (int b = 0; b < 32; b++) {
+            v[0] = 32 * (int)(w % (size_t)across) + b;
+            if (field_cut_near(cut, cut->axis, 0.5 * p->h, p->h, v[cut->axis], v[cut->axis]))
+                near |= 1U << b;
+        }
+        bits[w] &= near;
+        n += (size_t)__builtin_popcount(bits[w]);
+    }
+    if (n == 0)
+        goto done;
+    TRY(gpu_upload(a->m.gpu, p->flags, 0, bits, held_words(p->voxels)));
+    TRY(arenite_add_due(a, DUE_CHOSEN, n));
+    TRY(arenite_update_derived(a, true));
+done:
+    free(bits);
+    return st;
+}
+
 /* ---- the start */
 
 status arenite_first_rock(struct arenite *a, struct rock *rock, uint32_t **deep, size_t *n_deep)

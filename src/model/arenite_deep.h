@@ -18,6 +18,9 @@ MUST_USE status arenite_add_due(struct arenite *a, enum particles_due what, size
 /* Makes what a frame shows of the rock without particles; the frame owns it, also on error. The stress must be current. Waits. */
 MUST_USE status arenite_show_deep(struct arenite *a, struct frame_deep *out);
 
+/* Creates the particles of deep voxels at a cut, with their values. Waits. */
+MUST_USE status arenite_add_at_cut(struct arenite *a, const struct field_cut *cut);
+
 /* Its sections of a checkpoint. The particles, whose ids are in *ids, must be restored before. E_CHECKPOINT: the sections are damaged, or
  * made from another scene. */
 MUST_USE status arenite_save_deep(struct arenite *a, struct checkpoint *out);

@@ -319,11 +319,13 @@ done:
     return st;
 }
 
-status model_pictures(struct model *m, struct frame *out)
+status model_pictures(struct model *m, const struct field_cut *cut, struct frame *out)
 {
     m->only_pictures = m->aov.ground = true;
+    m->field.cut = *cut;
     const status st = model_output(m, out);
     m->only_pictures = m->aov.ground = false;
+    m->field.cut = (struct field_cut){0};
     return st;
 }
 

@@ -7,6 +7,7 @@
 #define HOODOO_MODEL_H
 
 #include "checkpoint/checkpoint.h"
+#include "field/field.h"
 #include "frame/disk.h"
 #include "frame/host.h"
 #include "gpu/gpu.h"
@@ -52,8 +53,9 @@ MUST_USE status model_output(struct model *model, struct frame *out);
 void model_stream(struct model *model);
 
 /* Makes only the pictures of output.aov.cameras, in out->image, even if the job has no pictures of this frame. Their colours include the
- * level ground around the rock, opaque and with the rock's shadow; their other layers do not. Free with frame_free(). */
-MUST_USE status model_pictures(struct model *model, struct frame *out);
+ * level ground around the rock, opaque and with the rock's shadow; their other layers do not. The rock is cut at `cut` ({0}: not), where its
+ * inside gets particles; this changes no later frame. Free with frame_free(). */
+MUST_USE status model_pictures(struct model *model, const struct field_cut *cut, struct frame *out);
 
 /* Sets a function that is called when a stage of a frame begins; NULL: none. */
 void model_on_stage(struct model *m, void (*begun)(void *user, int frame, const char *name), void *user);

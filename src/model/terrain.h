@@ -2,6 +2,7 @@
 #ifndef HOODOO_TERRAIN_H
 #define HOODOO_TERRAIN_H
 
+#include "field/field.h"
 #include "job/job.h"
 #include "particles/frame.h"
 #include "stacks/operations.h"
@@ -80,6 +81,7 @@ struct terrain_view {
     int n_materials;
     int n[3];
     double origin[3], voxel;
+    struct field_cut cut; /* samples at it are particles, too */
     struct grid_bricks bricks;
     float *share;     /* [bricks * 512]: share of ground, 1/2 on the surface; 0 beyond the lattice */
     struct rock rock; /* one particle for every voxel at the surface; fields that are 0 everywhere are NULL */

@@ -35,9 +35,12 @@ static void stacks_near(const struct terrain_view *v, const struct surface *s, i
     *last = (int)fmin(fmax(floor((low + (BRICK_SIDE - 1) * v->voxel + reach) / cell), 0), most);
 }
 
-/* Whether air around the domain is within the margin of bricks `at` along an axis. */
+/* Whether air around the domain, or the cut, is within the margin of bricks `at` along an axis. */
 static bool near_side(const struct terrain_view *v, int axis, int at)
 {
+    if (field_cut_near(&v->cut, axis, v->origin[axis], v->voxel, BRICK_SIDE * at,
+                       BRICK_SIDE * at + BRICK_SIDE - 1))
+        return true;
     const int low = at * BRICK_SIDE - REACH, high = at * BRICK_SIDE + BRICK_SIDE - 1 + REACH;
     return low < FIELD_MARGIN || high >= v->n[axis] - FIELD_MARGIN;
 }

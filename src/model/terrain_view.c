@@ -102,7 +102,8 @@ static uint8_t find_ground(const struct terrain_view *v, const struct sample *at
     if (share <= 0)
         return 0;
     for (int a = 0; a < 3; a++)
-        side |= at->x[a] == FIELD_MARGIN || at->x[a] == v->n[a] - FIELD_MARGIN - 1;
+        side |= at->x[a] == FIELD_MARGIN || at->x[a] == v->n[a] - FIELD_MARGIN - 1 ||
+                field_cut_near(&v->cut, a, v->origin[a], v->voxel, at->x[a], at->x[a]);
     return (uint8_t)(IS_GROUND | (share < 1 || side ? IS_PARTICLE : 0));
 }
 

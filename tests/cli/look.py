@@ -2,55 +2,25 @@
 again at each save; errors are reported."""
 import atexit
 import glob
-import http.client
 import json
 import os
 import re
 import shutil
 import signal
 import socket
-import struct
 import subprocess
 import sys
 import time
-import urllib.parse
 
+from looking import Page, look, png_size, with_cache, write
 from script import HOODOO, TOP, cut_half, finish, hoodoo, ok
 
 sys.dont_write_bytecode = True
 EDITS = open(f"{TOP}/tests/restart/edits.yaml").read()
 
 
-def png_size(path):
-    with open(path, "rb") as file:
-        head = file.read(24)
-    return struct.unpack(">II", head[16:24]) if head[:8] == b"\x89PNG\r\n\x1a\n" else None
-
-
-# Compiled kernels are shared, since they cost seconds; states have separate folders.
-KERNELS = os.environ.get("HOODOO_CACHE") or os.path.join(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"), "hoodoo")
-
-
-def with_cache(folder):
-    environment = dict(os.environ, XDG_CACHE_HOME=os.path.abspath(folder), MESA_SHADER_CACHE_DIR=KERNELS)
-    environment.pop("HOODOO_CACHE", None)
-    return environment
-
-
 def states(cache):
     return {os.path.basename(p): open(p, "rb").read() for p in glob.glob(f"{cache}/hoodoo/look/*.state")}
-
-
-def look(job, *words, cache="kept"):
-    """Exit code and output, parsed if it is JSON."""
-    code, said = hoodoo("look", job, "--json", "--progress", "none", "--no-slate", *words, env=with_cache(cache))
-    lines = [line for line in said.splitlines() if line.startswith("{")]
-    return code, json.loads(lines[-1]) if lines else said
-
-
-def write(text, path="edits.yaml"):
-    with open(path, "w") as file:
-        file.write(text)
 
 
 # ---- states before a change
@@ -189,14 +159,6 @@ ok(watching.wait(timeout=60) == 0, "--watch: ends cleanly")
 # ---- --serve
 
 
-def fetch(path, method="GET", host=None, **query):
-    """Status, content type, X-Look and body."""
-    asked = http.client.HTTPConnection(*server, timeout=120)
-    asked.request(method, path + "?" + urllib.parse.urlencode(query), headers={"Host": host or f"{server[0]}:{server[1]}"})
-    answer = asked.getresponse()
-    return answer.status, answer.headers.get("Content-Type", ""), answer.headers.get("X-Look"), answer.read()
-
-
 def raw(text):
     """The first line of the answer to these bytes; "" without an answer."""
     try:
@@ -208,11 +170,9 @@ def raw(text):
         return ""
 
 
-serving = subprocess.Popen([HOODOO, "look", "edits.yaml", "--serve"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, env=with_cache("kept"))
-address = urllib.parse.urlsplit(serving.stdout.readline().strip())
-atexit.register(serving.kill)
-server, token = (address.hostname, address.port), urllib.parse.parse_qs(address.query)["token"][0]
-ok(address.hostname == "127.0.0.1" and len(token) == 32, "--serve: an address on this machine, with a token", address)
+page = Page("edits.yaml")
+server, token, fetch = page.server, page.token, page.fetch
+ok(server[0] == "127.0.0.1" and len(token) == 32, "--serve: an address on this machine, with a token", server)
 code, kind, _, body = fetch("/", token=token)
 ok(code == 200 and kind.startswith("text/html") and b"<title>hoodoo look" in body and not re.search(rb"https?://", body), "the page, which asks nobody else for anything")
 code, kind, _, body = fetch("/job", token=token)
@@ -239,8 +199,8 @@ for _ in range(100):
         break
     time.sleep(0.1)
 ok(job["saves"] > 0 and "radius_m" in job.get("error", "") and fetch("/picture", token=token)[0] == 422, "a save is known, and what is wrong with it", job)
-serving.send_signal(signal.SIGTERM)
-ok(serving.wait(timeout=60) == 0, "--serve: ends cleanly")
+page.process.send_signal(signal.SIGTERM)
+ok(page.process.wait(timeout=60) == 0, "--serve: ends cleanly")
 code, said = hoodoo("look", "edits.yaml", "--serve", "--port", "70000")
 ok(code == 2 and "65535" in said, "--port 70000: exit 2", code, said)
 finish()

@@ -31,6 +31,16 @@ for size in 1200,950 390,800; do
     awk '/Stats StdDev/ { found = ($3 > 20) } END { exit !found }' stats
     say $? "there is something to see at $size"
 done
+page=$(cat address)
+echo "$page&show=stress&cut=y=7&frame=1003" >address
+browse --dump-dom >dom.html
+grep -q 'id="number">frame 1003, ' dom.html && grep -q 'id="where">7 m<' dom.html && grep -q 'id="unit">stress, MPa<' dom.html
+say $? "the address chooses frame, cut and value"
+for size in 1200,950 390,800; do
+    browse --window-size=$size --hide-scrollbars --screenshot="$PWD/cut.$size.png" >/dev/null
+    ! cmp -s "$size.png" "cut.$size.png"
+    say $? "the cut is seen at $size"
+done
 kill "$hoodoo"
 wait "$hoodoo"
 say $? "it ends cleanly"
