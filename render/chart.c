@@ -230,6 +230,9 @@ void chart_lines(const struct chart *c, struct text *t)
     add_axes(t, &x, &y, c->x_label, c->y_label);
     for (size_t s = 0; !c->stacked && s < c->n_series; s++)
         add_line(t, c, &x, &y, s);
+    if (c->mark && *c->mark >= x.low && *c->mark <= x.high)
+        text_add(t, "<line class=\"mark\" x1=\"%.1f\" x2=\"%.1f\" y1=\"%d\" y2=\"%d\"/>\n", at(&x, *c->mark),
+                 at(&x, *c->mark), y.from, y.to);
     add_values(t, c, &x, &y);
     text_add(t, "</svg>");
     if (c->n_series > 1)

@@ -25,8 +25,9 @@ struct chart {
     const double *x;                       /* ascending */
     size_t n_series;
     const struct series *series;
-    bool stacked;   /* stacked areas instead of lines */
-    bool from_zero; /* the y axis includes 0 */
+    bool stacked;       /* stacked areas instead of lines */
+    bool from_zero;     /* the y axis includes 0 */
+    const double *mark; /* an x value to mark with a line; NULL: none */
 };
 void chart_lines(const struct chart *c, struct text *t);
 

@@ -57,6 +57,7 @@ struct report {
     int turntable_frame;
     char *log;         /* the end of log/run.log, or NULL */
     struct text notes; /* sentences, one per line */
+    const int *mark;   /* a frame that curves mark; NULL: none */
 };
 
 /* The command that makes a page and its pictures, for their records. */

@@ -98,7 +98,8 @@ void page_budget(const struct report *r, const struct page_clock *clock, struct 
                                 .x = c.time,
                                 .n_series = n_series,
                                 .series = series,
-                                .stacked = true},
+                                .stacked = true,
+                                .mark = &clock->now},
                 &svg);
     json_object(t, "budget");
     page_chart(t, "budget_chart", &svg);

@@ -20,11 +20,13 @@ struct columns {
 
 struct page_clock page_clock(const struct report *r)
 {
+    struct page_clock c = {.label = "time, yr", .rate = "kyr", .unit = 1, .per = 0.001};
     if (r->job->clock.seconds_per_frame > 0)
-        return (struct page_clock){.label = "time, s", .rate = "s", .unit = 1, .per = 1, .shot = true};
-    if (job_years(r->job, r->frames.first, r->frames.last) >= 2000)
-        return (struct page_clock){.label = "time, kyr", .rate = "kyr", .unit = 1000, .per = 1};
-    return (struct page_clock){.label = "time, yr", .rate = "kyr", .unit = 1, .per = 0.001};
+        c = (struct page_clock){.label = "time, s", .rate = "s", .unit = 1, .per = 1, .shot = true};
+    else if (job_years(r->job, r->frames.first, r->frames.last) >= 2000)
+        c = (struct page_clock){.label = "time, kyr", .rate = "kyr", .unit = 1000, .per = 1};
+    c.now = r->mark ? page_time(r, &c, *r->mark) : (double)NAN;
+    return c;
 }
 
 double page_time(const struct report *r, const struct page_clock *clock, int frame)
@@ -97,7 +99,8 @@ static void add_ledger(const struct report *r, const struct columns *c, struct t
                                 .x = c->value[TIME],
                                 .n_series = 4,
                                 .series = series,
-                                .stacked = true},
+                                .stacked = true,
+                                .mark = &c->clock.now},
                 &svg);
     json_object(t, "ledger");
     page_chart(t, "ledger_chart", &svg);
@@ -222,7 +225,8 @@ static void add_rock(const struct report *r, const struct columns *c, struct tex
                                     .x = c->value[TIME],
                                     .n_series = 1,
                                     .series = &stress,
-                                    .from_zero = true},
+                                    .from_zero = true,
+                                    .mark = &c->clock.now},
                     &most_chart);
     }
     if (r->stress.n)
@@ -256,7 +260,8 @@ void page_curves(const struct report *r, struct text *t)
                           .x = c.value[TIME],
                           .n_series = 1,
                           .series = &volume,
-                          .from_zero = true};
+                          .from_zero = true,
+                          .mark = &c.clock.now};
     struct text svg = {0};
     json_object(t, "erosion");
     json_integer(t, "frame", r->frames.first);

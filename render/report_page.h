@@ -16,6 +16,7 @@ struct page_clock {
     double unit;              /* unit of the axis, in years or seconds */
     double per;               /* time unit of rates, in units of the axis */
     bool shot;
+    double now; /* position of the marked frame; NAN: none */
 };
 struct page_clock page_clock(const struct report *r);
 /* Position of a frame on the axis. */

@@ -133,8 +133,23 @@ static void frame_done(void *user, int frame)
     progress_frame(&l->progress, frame, -1, "");
 }
 
+/* "50 s", "4 min", "3 h" */
+static const char *rough_time(double seconds, char out[24])
+{
+    const bool minutes = seconds >= 100, hours = seconds >= 100 * 60;
+    snprintf(out, 24, "%.2g %s",
+             hours     ? seconds / 3600
+             : minutes ? seconds / 60
+                       : seconds,
+             hours     ? "h"
+             : minutes ? "min"
+                       : "s");
+    return out;
+}
+
 static void print_text(const char *path, const struct look_made *m)
 {
+    char time[24];
     printf("%s: %s, frame %d, at %.4g m", path, m->name, m->frame, m->spacing_m);
     if (m->spacing_m != m->own_spacing_m)
         printf(" (the job's spacing is %.4g)", m->own_spacing_m);
@@ -145,9 +160,10 @@ static void print_text(const char *path, const struct look_made *m)
         printf(", from the state of frame %d", m->began);
     printf("; load %.1f s, simulate %.1f s, picture %.1f s\n", m->load_seconds, m->step_seconds,
            m->picture_seconds);
-    if (m->spacing_m != m->own_spacing_m)
-        printf("the job itself has about %zu particles, this picture %zu; 'hoodoo plan' estimates its cost\n",
-               m->own_particles, m->n_particles);
+    printf(
+        "about %zu particles; the job itself: %zu, roughly %s here, %.2f GB on the device and %.2f GB beside; 'hoodoo plan' measures its speed\n",
+        m->n_particles, m->own_estimate.n_particles, rough_time(m->own_seconds, time),
+        (double)m->own_estimate.device_bytes / 1e9, (double)m->own_estimate.host_bytes / 1e9);
     if (m->coarse.size)
         printf("too fine for this spacing:\n%s", m->coarse.data);
     printf("%s", m->gizmos.data ? m->gizmos.data : "");
@@ -165,7 +181,10 @@ static status print_json(const char *path, const struct look_made *m)
     json_number(&t, "spacing_m", m->spacing_m);
     json_number(&t, "job_spacing_m", m->own_spacing_m);
     json_integer(&t, "particles", (int64_t)m->n_particles);
-    json_integer(&t, "job_particles", (int64_t)m->own_particles);
+    json_integer(&t, "job_particles", (int64_t)m->own_estimate.n_particles);
+    json_number(&t, "job_seconds", m->own_seconds);
+    json_integer(&t, "job_device_bytes", (int64_t)m->own_estimate.device_bytes);
+    json_integer(&t, "job_host_bytes", (int64_t)m->own_estimate.host_bytes);
     json_integer(&t, "from_frame", m->began);
     json_bool(&t, "state_found", m->found);
     json_number(&t, "load_seconds", m->load_seconds);
@@ -316,7 +335,7 @@ status cli_look(int argc, char **argv)
         {"watch", NULL, OPTION_FLAG, &l.watch,
          "render again whenever the job or one of its input files is saved, until Ctrl-C; errors in the job are reported and do not end it"},
         {"serve", NULL, OPTION_FLAG, &page,
-         "serve a page for a browser on this machine, until Ctrl-C: orbit, step through frames, click for positions and values. The address is printed; anyone who knows it can see the page"},
+         "serve a page for a browser on this machine, until Ctrl-C: orbit, step through frames, cut, click for positions and values, and see curves. The address is printed; anyone who knows it can see the page"},
         {"port", "N", OPTION_INT, &port, "port of the page (default: any free one)"},
         {"out", "PNG", OPTION_TEXT, &l.out, "the picture's file (default: NAME.look.png)"},
         OPTION_WEDGE(&l.options.sketch.wedge),

@@ -189,6 +189,7 @@ struct job_model {
     bool seconds;        /* supports shots in real time: clock.seconds_per_frame */
     bool edits;          /* supports edits */
     bool wind;           /* its pictures show wind */
+    double step_seconds; /* per sample and step, about, measured with lavapipe on two cores */
     bool interlocks;     /* stress above the threshold of a stratum slows its weathering */
     bool terrain;        /* has materials besides the strata, and its frames show their shares */
 };

@@ -134,6 +134,10 @@ static char *note_of(const struct look_made *m, enum value_id show)
     json_number(&t, "years", m->years);
     json_number(&t, "spacing_m", m->spacing_m);
     json_number(&t, "job_spacing_m", m->own_spacing_m);
+    json_integer(&t, "particles", (int64_t)m->n_particles);
+    json_integer(&t, "job_particles", (int64_t)m->own_estimate.n_particles);
+    json_number(&t, "job_seconds", m->own_seconds);
+    json_integer(&t, "job_bytes", (int64_t)(m->own_estimate.device_bytes + m->own_estimate.host_bytes));
     json_integer(&t, "from_frame", m->began);
     json_number(&t, "seconds", round(100 * (m->load_seconds + m->step_seconds + m->picture_seconds)) / 100);
     if (show)
@@ -195,6 +199,19 @@ static void give_place(struct live *l, const struct serve_request *r, struct ser
     give_text(&t, "application/json", out);
 }
 
+static void give_curves(struct live *l, struct serve_answer *out)
+{
+    struct text t = {0};
+    json_object(&t, NULL);
+    const status st = look_curves(l->look, &t);
+    json_end_object(&t);
+    if (st == OK)
+        give_text(&t, "application/json", out);
+    else
+        give_failure(l, st, out);
+    text_free(&t);
+}
+
 void live_answer(void *user, const struct serve_request *r, struct serve_answer *out)
 {
     struct live *l = user;
@@ -205,6 +222,8 @@ void live_answer(void *user, const struct serve_request *r, struct serve_answer 
         give_job(l, out);
     else if (strcmp(path, "/picture") == 0)
         give_picture(l, r, out);
+    else if (strcmp(path, "/curves") == 0)
+        give_curves(l, out);
     else if (strcmp(path, "/at") == 0)
         give_place(l, r, out);
 }

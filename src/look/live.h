@@ -4,6 +4,7 @@
  *   /          the page
  *   /job       JSON: name, frames, values, cameras, size_m of the domain; `saves` counts how often its files have been saved
  *   /picture   ?frame&camera&zoom&show&cut&gizmos&figure&rough: a PNG, described by JSON in the header X-Look. 422: an error in the job, as text
+ *   /curves    JSON: the report's curves over the frames simulated so far, as SVG; the last picture's frame is marked
  *   /at        ?x&y (0..1): JSON with the position and the values at this point of the last picture
  */
 #ifndef HOODOO_LOOK_LIVE_H

@@ -11,6 +11,7 @@
 #include "gpu/gpu.h"
 #include "look/figure.h"
 #include "look/gizmos.h"
+#include "look/history.h"
 #include "look/print.h"
 #include "look/shot.h"
 #include "look/states.h"
@@ -23,7 +24,9 @@ enum { KEPT_STATES = 16 };
 struct look {
     struct gpu *gpu;
     struct states states;
-    struct frame last; /* the frame of the last picture, for look_at() */
+    struct frame last;   /* the frame of the last picture, for look_at() */
+    struct sketch shown; /* its job, for look_curves() */
+    struct history history;
 };
 
 status look_begin(const char *device, struct look **out)
@@ -46,6 +49,8 @@ void look_end(struct look **look)
         return;
     states_trim(&(*look)->states);
     frame_free(&(*look)->last);
+    sketch_free(&(*look)->shown);
+    history_free(&(*look)->history);
     gpu_destroy(&(*look)->gpu);
     free(*look);
     *look = NULL;
@@ -80,6 +85,8 @@ static status load_latest_state(struct look *l, const struct sketch *s, const ui
         made->found = at < n;
         if (!made->found && *s->job->from)
             TRY(checkpoint_read(s->job->from, &c));
+        if (made->found)
+            TRY(history_take(&l->history, &c));
         st = model_create(l->gpu, s->job, made->found || *s->job->from ? &c : NULL, out);
         checkpoint_free(&c);
         if (st != E_CHECKPOINT || !made->found)
@@ -91,16 +98,32 @@ done:
     return st;
 }
 
-static status keep_state(struct look *l, struct model *m, uint64_t hash)
+/* Keeps the model's state; `hash` has those of its frame and of all frames before. */
+static status keep_state(struct look *l, const struct sketch *s, struct model *m, const uint64_t *hash)
 {
     status st = OK;
     struct checkpoint c = {0};
-    if (states_has(&l->states, hash))
+    const size_t at = (size_t)(model_frame(m) - s->job->frames.first);
+    if (states_has(&l->states, hash[at]))
         return OK;
     TRY(model_save(m, &c));
-    states_keep(&l->states, hash, &c);
+    TRY(history_give(&l->history, hash, at + 1, &c));
+    states_keep(&l->states, hash[at], &c);
 done:
     checkpoint_free(&c);
+    return st;
+}
+
+static status note_numbers(struct look *l, struct model *m, uint64_t hash)
+{
+    status st = OK;
+    struct frame frame = {0};
+    if (history_has(&l->history, hash))
+        return OK;
+    TRY(model_measure(m, &frame));
+    TRY(history_note(&l->history, hash, &frame));
+done:
+    frame_free(&frame);
     return st;
 }
 
@@ -118,12 +141,13 @@ static status simulate_to_frame(struct look *l, const struct sketch *s, const st
         o->begin(o->user, (struct frame_range){made->began, s->frame, 1});
     for (;;) {
         const int frame = model_frame(*out);
+        TRY(note_numbers(l, *out, hash[frame - first]));
         if ((frame - first) % stride == 0 || frame == s->frame)
-            TRY(keep_state(l, *out, hash[frame - first]));
+            TRY(keep_state(l, s, *out, hash));
         if (frame == s->frame)
             break;
         if (o->stop && o->stop(o->user)) {
-            TRY(keep_state(l, *out, hash[frame - first]));
+            TRY(keep_state(l, s, *out, hash));
             st = fail(STOPPED,
                       "stopped after frame %d, whose state is cached; run the same command again to continue",
                       frame);
@@ -217,6 +241,39 @@ void look_at(const struct look *l, double x, double y, struct text *json)
     }
 }
 
+/* Takes over the numbers that the latest cached state of n frames carries, if they are not known. */
+static status find_numbers(struct look *l, const uint64_t *hash, size_t n)
+{
+    status st = OK;
+    struct checkpoint c = {0};
+    while (n > 0 && !states_has(&l->states, hash[n - 1]))
+        n--;
+    if (n == 0 || history_has(&l->history, hash[n - 1]))
+        return OK;
+    if (states_find(&l->states, hash, n, &c) < n)
+        TRY(history_take(&l->history, &c));
+done:
+    checkpoint_free(&c);
+    return st;
+}
+
+status look_curves(struct look *l, struct text *json)
+{
+    status st = OK;
+    struct job *job = l->shown.job;
+    uint64_t *hash = NULL;
+    if (!job)
+        return OK;
+    const size_t n = range_count(job->frames);
+    TRY(memory_alloc(n, sizeof *hash, "hashes of frames", &hash));
+    TRY(job_frame_hashes(job, job->frames.last, hash));
+    TRY(find_numbers(l, hash, n));
+    TRY(history_curves(&l->history, job, hash, l->shown.frame, json));
+done:
+    free(hash);
+    return st;
+}
+
 status look_make(struct look *l, const struct look_options *o, struct look_made *made)
 {
     status st = OK;
@@ -234,7 +291,8 @@ status look_make(struct look *l, const struct look_options *o, struct look_made 
     made->frame = s.frame;
     made->spacing_m = s.job->domain.spacing_m;
     made->own_spacing_m = s.own_spacing_m;
-    made->own_particles = s.own_particles;
+    made->own_estimate = s.own_estimate;
+    made->own_seconds = s.own_seconds;
     made->air_m = s.job->wind.flow.solver == FLOW_SPH ? s.job->wind.flow.spacing_m : 0;
     made->load_seconds = loaded - began;
     made->step_seconds = there - loaded;
@@ -243,6 +301,11 @@ done:
     if (st != OK)
         look_made_free(made);
     model_destroy(&m);
-    sketch_free(&s);
+    if (st == OK) {
+        sketch_free(&l->shown);
+        l->shown = s;
+    } else {
+        sketch_free(&s);
+    }
     return st;
 }

@@ -46,12 +46,18 @@ struct look_made {
     int frame, began;        /* `began`: the frame of the cached state, or the job's first frame */
     bool found;              /* a cached state was used */
     double years, spacing_m, own_spacing_m, air_m;
-    size_t n_particles, own_particles; /* estimates */
+    size_t n_particles;                 /* estimate */
+    struct model_estimate own_estimate; /* of the job as written */
+    double own_seconds;                 /* see struct sketch */
     double load_seconds, step_seconds, picture_seconds;
     struct text gizmos; /* one line per object */
     struct text coarse; /* details lost at the coarse spacing, one per line */
 };
 void look_made_free(struct look_made *made);
+
+/* Adds the report's curves over the frames of the last picture's job whose states have been simulated or found in the cache, with that
+ * picture's frame marked, as members to a JSON object; none before the first picture. E_MEMORY. */
+MUST_USE status look_curves(struct look *look, struct text *json);
 
 /* Makes the picture. Release *out with look_made_free(). E_OUTPUT: the folder cannot be written. STOPPED: options->stop returned true; the
  * states reached so far are cached. Other errors as sketch_load(), model_create() and model_step(). */

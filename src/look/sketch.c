@@ -13,8 +13,8 @@
 #include "run/branch.h"
 #include "text/text.h"
 
-/* Seconds on two cores: per frame at least, and per particle and step. */
-static const double FRAME_SECONDS = 0.025, STEP_SECONDS = 4e-6;
+/* Seconds of a frame, at least. */
+static const double FRAME_SECONDS = 0.025;
 
 /* ---- settings that replace the job's own */
 
@@ -130,9 +130,9 @@ static status choose_frame(const struct job *job, const char *text, int *out)
 
 /* ---- the spacing */
 
-static double seconds_of(double work, int frames, bool gpu)
+static double seconds_of(const struct job *job, double work, int frames, bool gpu)
 {
-    return FRAME_SECONDS * frames + STEP_SECONDS * work / (gpu ? LOOK_GPU : 1);
+    return FRAME_SECONDS * frames + job_model(job)->step_seconds * work / (gpu ? LOOK_GPU : 1);
 }
 
 /* Particles times steps at `times` the job's spacing. The number of particles follows from the volume, and the number of steps from the
@@ -142,14 +142,15 @@ static double work_at(const struct model_estimate *e, double frames, double fact
     return (double)e->n_particles / (factor * factor * factor) * fmax(e->steps / factor, frames);
 }
 
-static double choose_factor(const struct model_estimate *e, int frames, double seconds, bool gpu)
+static double choose_factor(const struct job *job, const struct model_estimate *e, int frames, double seconds,
+                            bool gpu)
 {
     static const double factors[] = {1, 1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32};
     enum { N = sizeof factors / sizeof *factors };
     double factor = 1;
     for (int i = 0; i < N && (double)e->n_particles / pow(factors[i], 3) >= (i ? LOOK_LEAST : 0); i++) {
         factor = factors[i];
-        if (seconds_of(work_at(e, frames, factor), frames, gpu) <= seconds)
+        if (seconds_of(job, work_at(e, frames, factor), frames, gpu) <= seconds)
             break;
     }
     return factor;
@@ -159,18 +160,19 @@ static status set_spacing(const struct job *job, const struct sketch_options *o,
                           struct sketch *out)
 {
     status st = OK;
-    const int frames = out->frame - job->frames.first;
+    const int frames = out->frame - job->frames.first, all = job->frames.last - job->frames.first;
     const double *size = job->domain.size_m, own = job->domain.spacing_m;
     struct model_estimate e;
     double factor = 1;
     TRY(model_estimate(job, &e));
+    out->own_estimate = e;
+    out->own_seconds = seconds_of(job, work_at(&e, all, 1), all, o->gpu);
     e.steps *= (double)frames / fmax(job->frames.last - job->frames.first, 1);
     if (o->spacing_m > 0)
         factor = o->spacing_m / own;
     else if (isfinite(o->seconds) && !*job->from)
-        factor = choose_factor(&e, frames, o->seconds, o->gpu);
+        factor = choose_factor(job, &e, frames, o->seconds, o->gpu);
     out->own_spacing_m = own;
-    out->own_particles = e.n_particles;
     if (factor == 1 && o->spacing_m <= 0)
         goto done;
     text_add(sets_more(s), "domain.spacing_m=%.17g", own * factor);

@@ -2,7 +2,7 @@
  *
  * Spacing    Rates are in metres and years, so that a coarse run shows the same rock, less sharp. The spacing is the job's own times the
  *            smallest of a few factors with which the frames take about `seconds`, as long as at least LOOK_LEAST particles remain. The
- *            time per particle and step was measured with lavapipe on two cores; GPUs are assumed to be LOOK_GPU times as fast. This
+ *            time per particle and step was measured with lavapipe on two cores, per model; GPUs are assumed to be LOOK_GPU times as fast. This
  *            estimate affects nothing but the time.
  * Branches   A job that begins with a checkpoint keeps that checkpoint's spacing.
  * Air        The spacing of flowing air is raised to a sixth of the longest side of the domain, since the flow would take most of the time.
@@ -17,6 +17,7 @@
 
 #include "job/job.h"
 #include "job/values.h"
+#include "model/model.h"
 
 enum { LOOK_LEAST = 1500, LOOK_GPU = 30 };
 
@@ -44,8 +45,11 @@ struct sketch {
     struct job *own;                 /* the job as written */
     const struct job_camera *camera; /* a camera of `job` */
     int frame;
-    double own_spacing_m; /* of the job as written */
-    size_t own_particles; /* estimate for the job as written */
+    /* Of the job as written: */
+    double own_spacing_m;
+    struct model_estimate own_estimate;
+    double
+        own_seconds; /* about what all its frames take to simulate on this device; within a factor of three */
 };
 
 /* The job as written, or its wedge, ready to begin with a checkpoint. Release *out with job_destroy(). Errors as job_load() and

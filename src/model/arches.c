@@ -174,12 +174,12 @@ static status output(struct model *m, struct frame *out)
     out->start_volume_m3 = volume_of(t, m->ledger.start);
     if (wants.volumes)
         TRY(rocks_on_stacks(m->job, &t->stacks, &t->tile, &out->rocks));
-    if (wants_stacks(m->job, m->frame))
+    if (m->makes == MAKES_FILES && wants_stacks(m->job, m->frame))
         TRY(stacks_encode(&t->stacks, spaces_kinds(t->table, t->n_materials).solid, &out->stacks.bytes,
                           &out->stacks.size));
     if (wants.points || wants.volumes || wants.pictures)
         TRY(show(t, wants, out));
-    if (m->job->arches.maps && job_writes(m->whole, JOB_PICTURES, m->frame))
+    if (m->makes == MAKES_FILES && m->job->arches.maps && job_writes(m->whole, JOB_PICTURES, m->frame))
         TRY(add_map(t, out));
 done:
     return st;

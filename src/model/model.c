@@ -321,22 +321,33 @@ done:
 
 status model_pictures(struct model *m, const struct field_cut *cut, struct frame *out)
 {
-    m->only_pictures = m->aov.ground = true;
+    m->makes = MAKES_PICTURES;
+    m->aov.ground = true;
     m->field.cut = *cut;
     const status st = model_output(m, out);
-    m->only_pictures = m->aov.ground = false;
+    m->makes = MAKES_FILES;
+    m->aov.ground = false;
     m->field.cut = (struct field_cut){0};
+    return st;
+}
+
+status model_measure(struct model *m, struct frame *out)
+{
+    m->makes = MAKES_NUMBERS;
+    const status st = model_output(m, out);
+    m->makes = MAKES_FILES;
     return st;
 }
 
 struct frame_wants model_wants(const struct model *m)
 {
     const struct job *job = m->whole;
-    const bool only = m->only_pictures;
+    const bool only = m->makes != MAKES_FILES;
     struct frame_wants wants = {
         .points = !only && job_writes(job, JOB_POINTS, m->frame),
         .volumes = !only && job_writes(job, JOB_VOLUMES, m->frame),
-        .pictures = job->output.aov.n_cameras > 0 && (only || job_writes(job, JOB_PICTURES, m->frame)),
+        .pictures = job->output.aov.n_cameras > 0 &&
+                    (m->makes == MAKES_PICTURES || (!only && job_writes(job, JOB_PICTURES, m->frame))),
     };
     wants.air = (wants.volumes && job->output.vdb.wind) ||
                 (wants.pictures && job_wants_layer(job, value_table[VALUE_wind].layer));

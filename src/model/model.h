@@ -57,6 +57,9 @@ void model_stream(struct model *model);
  * inside gets particles; this changes no later frame. Free with frame_free(). */
 MUST_USE status model_pictures(struct model *model, const struct field_cut *cut, struct frame *out);
 
+/* Makes only the numbers of the current frame: volumes, ledger, changes, greatest stress. */
+MUST_USE status model_measure(struct model *model, struct frame *out);
+
 /* Sets a function that is called when a stage of a frame begins; NULL: none. */
 void model_on_stage(struct model *m, void (*begun)(void *user, int frame, const char *name), void *user);
 

@@ -28,8 +28,8 @@ struct model {
     int64_t change[PROCESSES]; /* quanta, in the last frame */
     struct gpu_work *work;
     struct field field;
-    struct aov aov;     /* only if the job has pictures */
-    bool only_pictures; /* see model_pictures() */
+    struct aov aov;                                            /* only if the job has pictures */
+    enum { MAKES_FILES, MAKES_PICTURES, MAKES_NUMBERS } makes; /* see model_pictures() and model_measure() */
     const struct particles
         *shown;            /* the rock as particles; NULL while the device does not have it in that form */
     struct particles made; /* of a frame, by models whose state is not particles; until model_release() */

@@ -24,6 +24,8 @@ grep -q 'id="number">frame 1010, 9.5 kyr<' dom.html
 say $? "it says which frame it shows, and its age"
 grep -q 'src="blob:' dom.html
 say $? "it has a picture"
+[ "$(grep -o '<figure class="chart">' dom.html | wc -l)" = 5 ] && grep -q 'The job itself: 0.5 m, [0-9]* particles, roughly [0-9.]* s' dom.html
+say $? "it has the curves, and what the job itself would cost"
 for size in 1200,950 390,800; do
     browse --window-size=$size --hide-scrollbars --screenshot="$PWD/$size.png" >/dev/null
     oiiotool --stats "$size.png" >stats 2>&1
