@@ -673,13 +673,14 @@ struct voxels_params {
     uint brick_rows, brick_slabs;
     uint skin_rows; /* rows of the skin's ball, which begin at skin_first in the table of rows */
     uint skin_first;
-    float dt;                /* kyr */
+    float dt;    /* kyr */
+    float early; /* kyr: a voxel that would vanish within this time after the cycle vanishes in it */
     float per_row, per_slab; /* 1 / row, 1 / slab */
     uint walls;
     uint tilted; /* 1: strata are stored by voxel; 0: by slab */
     uint flag;   /* gpu_rounds */
 };
-SHARED_SIZE(voxels_params, 80)
+SHARED_SIZE(voxels_params, 84)
 
 #undef SHARED_SIZE
 #endif

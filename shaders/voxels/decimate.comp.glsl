@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per active voxel, first step of a cycle: left -= dt rate, and marks it as gone if nothing is left. The rock
-// bits change only in the second step, so the update is synchronous.
+// Per active voxel, first step of a cycle: left -= dt rate, and marks it as gone if nothing is left, or if the
+// rest would be gone soon. The rock bits change only in the second step, so the update is synchronous.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
@@ -22,8 +22,8 @@ void main()
     if (i >= k.n)
         return;
     uint v = LOAD_U(list, i);
-    float after = AT(left, v) - k.dt * decimation(LOAD_U(state, v), v);
-    if (after <= VOXELS_SLIVER) {
+    float rate = decimation(LOAD_U(state, v), v), after = AT(left, v) - k.dt * rate;
+    if (after <= max(k.early * rate, VOXELS_SLIVER)) {
         atomicOr(AT(bits, v >> 5), 1u << (v & 31u));
         after = 0.0;
     }

@@ -89,12 +89,20 @@ static void add_interlocking(const struct scale *s, struct text *t)
                   "arches and pillars hold", ""));
 }
 
+/* How fast rock of a stratum retreats, as a share of its weak rate: in goblins, as a ball of half the rock's width (voxels/README.md). */
+static double share_of_weak(const struct scale *s, size_t stratum)
+{
+    if (job_model(s->job)->interlocks)
+        return 1;
+    return 1 - s->job->goblins.threshold + 0.375 * s->job->strata[stratum].bubble.radius_m / s->half;
+}
+
 static void add_retreat(const struct scale *s, struct text *t)
 {
     static const struct range forms = {0.1, 6}, lasts = {0, 0.5};
     double weak = 0, strong = 0;
     for (size_t i = 0; i < s->job->n_strata; i++) {
-        weak = fmax(weak, job_weak(s->job, i, s->frame));
+        weak = fmax(weak, job_weak(s->job, i, s->frame) * share_of_weak(s, i));
         strong = fmax(strong, job_strong(s->job, i, s->frame));
     }
     const double far = weak * s->kyr / s->half;

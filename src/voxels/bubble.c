@@ -75,6 +75,6 @@ struct bubble_rate bubble_rate(const struct bubble *b, double threshold, int dep
         for (int d = 0; d < depth; d++)
             speed += flat_air(b, axis, side, d) / 6;
     }
-    speed /= flat;
-    return (struct bubble_rate){1 / (flat * b->n * speed), threshold / speed};
+    speed /= flat * depth;
+    return (struct bubble_rate){1 / (flat * b->n * depth), (speed - (1 - threshold)) / depth};
 }

@@ -12,7 +12,9 @@
 #include "base/status.h"
 #include "job/job.h"
 
-enum { BUBBLE_REACH_MAX = 15, BUBBLE_ROWS_MAX = 31 * 31, SKIN_MAX = 4 };
+/* Per area, a skin of SKIN_EVEN voxels has 3, 2.83 and 2.89 voxels below faces across one, two and three axes: these retreat most
+ * evenly. (Of 2 voxels: 2, 1.41, 1.73; of 4: 4, 3.54, 3.46.) */
+enum { BUBBLE_REACH_MAX = 15, BUBBLE_ROWS_MAX = 31 * 31, SKIN_EVEN = 3, SKIN_MAX = 4 };
 
 struct bubble_row {
     int8_t dy, dz, low, high; /* voxels low..high along x */
@@ -27,10 +29,11 @@ struct bubble {
 /* E_USAGE: at this voxel size h (m) it contains no neighbour, or reaches farther than BUBBLE_REACH_MAX voxels. */
 MUST_USE status bubble_create(const struct job_bubble *job, double h, struct bubble *out);
 
-/* Rate as a function of the number of air voxels in the bubble: w = max(0, slope * air - level). Without a threshold, w summed
- * over a skin of `depth` voxels below a flat face is 1, averaged over the six faces. The threshold is a share of the air count on
- * the flat face itself, the mean of those of the outermost voxel and the first voxel of air. Both are second-order accurate in the
- * voxel size, so that neither shape nor speed depends on it. */
+/* Rate as a function of the number of air voxels in the bubble: w = max(0, slope * air - level), 1 for a face that retreats by its voxel's
+ * size per unit of time. In the limit of small voxels, the sum of w over a skin of `depth` voxels is air / air_f - threshold, where air_f
+ * is the share of air on a flat face itself (the mean of those of its outermost voxel and the first voxel of air), averaged over the six
+ * faces. Below a flat face the sum is 1 - threshold for voxels of any size, unless w is 0 in some of the skin; for curved faces it is second-order
+ * accurate in the voxel size, so that neither shape nor speed depends on it. */
 struct bubble_rate {
     double slope, level;
 };

@@ -49,8 +49,13 @@ size_t voxels_number(const struct voxels *v, int x, int y, int z)
 
 static int skin_of(const struct job *job)
 {
-    double skin = job->goblins.skin_m > 0 ? job->goblins.skin_m / job->domain.spacing_m : 2;
-    return (int)fmin(fmax(round(skin), 1), SKIN_MAX);
+    double skin_m = job->goblins.skin_m, most = skin_m > 0 ? SKIN_MAX : SKIN_EVEN;
+    if (!(skin_m > 0)) {
+        skin_m = INFINITY;
+        for (size_t i = 0; i < job->n_strata; i++)
+            skin_m = fmin(skin_m, job->strata[i].bubble.radius_m / 2);
+    }
+    return (int)fmin(fmax(round(skin_m / job->domain.spacing_m), 1), most);
 }
 
 /* Upper bound of the reach of the job's bubbles in y and z, and of the skin, in voxels. */
@@ -406,6 +411,7 @@ status voxels_cycle(struct gpu *gpu, struct gpu_work *work, struct voxels *v, do
         goto done;
     *passed = fmin(kyr, fmax(event, quantum / fastest));
     k.dt = (float)*passed;
+    k.early = *passed > event ? 0.5f * k.dt : 0;
     GPU_RUN(gpu, voxels_decimate, v->n_active, k, v->list, v->state, v->layers, v->layer_of, v->left,
             v->bits);
     TRY(voxels_remove(gpu, work, v, n_gone));

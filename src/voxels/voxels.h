@@ -49,8 +49,9 @@ void voxels_destroy(struct gpu *gpu, struct voxels *v);
 /* Sets the layers' rates for a frame. Call before its cycles. */
 MUST_USE status voxels_rates(struct gpu *gpu, struct voxels *v, const struct job *job, int frame);
 
-/* One cycle: until the next voxel vanishes, but at least `quantum` of the fastest voxel's life and at most `kyr`. *passed: its
- * length, kyr; *n_gone: voxels that vanished. Waits for the device. E_NUMERIC if rates are not finite. */
+/* One cycle: until the next voxel vanishes, but at least `quantum` of the fastest voxel's life and at most `kyr`. Voxels vanish in the
+ * cycle whose end is nearest to their own, so that on average none lives longer for the quantum. *passed: the cycle's length, kyr;
+ * *n_gone: voxels that vanished. Waits for the device. E_NUMERIC if rates are not finite. */
 MUST_USE status voxels_cycle(struct gpu *gpu, struct gpu_work *work, struct voxels *v, double quantum,
                              double kyr, double *passed, uint32_t *n_gone);
 

@@ -430,7 +430,7 @@ static void goblins_weather_by_tilted_strata(void **state)
     (void)state;
     struct sim s = sim_begin(
         "hoodoo: 1\nname: goblin\nmodel: goblins\nframes: 1-9\nclock: {years_per_frame: 1000}\n"
-        "domain: {size_m: [10, 9, 12], spacing_m: 0.5}\ngoblins: {skin_m: 0.5}\n"
+        "domain: {size_m: [10, 9, 12], spacing_m: 0.5}\ngoblins: {threshold: 0, skin_m: 0.5}\n"
         "scene: {box: {min_m: [1, 1, 0], max_m: [9, 8, 10]}}\n"
         "attitude: {dip_deg: 30, dip_azimuth_deg: 60, pivot_m: [5, 4.5, 5]}\n"
         "strata: [{to_m: 5, weak_m_per_kyr: 0.001, bubble: {radius_m: 0.5}}, {weak_m_per_kyr: 2, bubble: "
