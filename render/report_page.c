@@ -213,7 +213,9 @@ static void add_pictures(const struct report *r, struct text *t)
 {
     const struct report_frame *first = NULL, *last = NULL;
     size_t n_thumbs = 0;
+    bool exist = false;
     for (size_t i = 0; i < r->n_frames; i++) {
+        exist |= *r->frame[i].source.text != '\0';
         n_thumbs += r->frame[i].thumb;
         if (!r->frame[i].pictured)
             continue;
@@ -221,7 +223,8 @@ static void add_pictures(const struct report *r, struct text *t)
         last = &r->frame[i];
     }
     json_bool(t, "plain_pictures", first && !r->stills);
-    json_bool(t, "no_pictures", !first);
+    json_bool(t, "no_pictures", !first && !exist);
+    json_bool(t, "left_out", !first && exist);
     if (first != last) {
         json_object(t, "slider");
         add_pictured(t, "before", first);

@@ -8,6 +8,7 @@
 #include "base/version.h"
 #include "cli/cli.h"
 #include "system/begin.h"
+#include "system/signals.h"
 #include "text/nearest.h"
 #include "text/text.h"
 
@@ -73,6 +74,7 @@ static status run_verb(int argc, char **argv)
 int main(int argc, char **argv)
 {
     process_begin();
+    signals_end();
     status st = run_verb(argc, argv);
     /* Write errors, such as a full disk, may only show when buffered output is flushed. */
     if ((fflush(stdout) != 0 || ferror(stdout)) && st == OK)

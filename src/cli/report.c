@@ -15,6 +15,8 @@ static status write_page(const char *root, bool pictures, const struct text *pag
     struct path path;
     struct recipe recipe = report_recipe(root);
     status st = OK;
+    if (stop_requested())
+        return fail(STOPPED, "stopped before the page was written; to continue, run the same command again");
     if (!pictures) {
         recipe.word = without;
         recipe.n_words = 2;
@@ -30,6 +32,7 @@ static status report_on_wedges(const char *root, struct text *page)
 {
     status st = OK;
     bool sound = false;
+    signals_install();
     TRY(report_wedges(root, page, &sound));
     TRY(write_page(root, true, page));
     if (!sound)
@@ -44,6 +47,7 @@ static status report_on_run(const char *root, bool pictures, struct text *page)
     struct report r = {0};
     struct path path;
     TRY(report_gather(root, &r));
+    signals_install(); /* from here on files are written */
     TRY(path_join(&path, r.root, "report"));
     TRY(folder_make(path.text));
     folder_sweep(r.root);
@@ -75,7 +79,6 @@ status cli_report(int argc, char **argv)
                       &help));
     if (help)
         goto done;
-    signals_install();
     TRY(farm_has_wedges(operands.item[0], &wedges));
     if (wedges)
         TRY(report_on_wedges(operands.item[0], &page));

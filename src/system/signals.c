@@ -3,6 +3,10 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <stddef.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/status.h"
 
 static const struct {
     int number;
@@ -17,6 +21,19 @@ static void on_stop(int number)
 {
     int none = 0;
     atomic_compare_exchange_strong(&stop, &none, number);
+}
+
+/* Only calls functions that are safe in signal handlers. */
+static void on_end(int number)
+{
+    char line[128] = "hoodoo: stopped by ";
+    for (size_t i = 0; i < sizeof stops / sizeof *stops; i++)
+        if (stops[i].number == number)
+            strcat(line, stops[i].name);
+    strcat(line, "; to start over, run the same command again\n");
+    const ssize_t written = write(STDERR_FILENO, line, strlen(line));
+    (void)written;
+    _exit(STOPPED);
 }
 
 /* Whether the parent process ignores SIGHUP, so that the program survives the end of a terminal session. */
@@ -40,6 +57,12 @@ void signals_install(void)
     for (size_t i = 0; i < sizeof stops / sizeof *stops; i++)
         set(stops[i].number, on_stop);
     set(SIGPIPE, SIG_IGN);
+}
+
+void signals_end(void)
+{
+    for (size_t i = 0; i < sizeof stops / sizeof *stops; i++)
+        set(stops[i].number, on_end);
 }
 
 void signals_reset(void)

@@ -201,6 +201,10 @@ code, _, said = hoodoo("report", ROOT)
 page = look(ROOT, "with previews")
 check(code == 0 and len(page.every("video")) == 1 and "There is no turntable" not in page.text and "hoodoo preview" not in page.text,
       "the turntable's video is on it", said)
+code, _, said = hoodoo("report", ROOT, "--no-pictures")
+page = look(ROOT, "pictures left out")
+check(code == 0 and not page.every("img") and "leaves out the pictures" in page.text and "There are no pictures" not in page.text,
+      "--no-pictures: it says that pictures are left out", said)
 os.remove(f"{ROOT}/7-wall.turntable.mp4")
 os.remove(f"{ROOT}/report/turntable.mp4")
 code, _, said = hoodoo("report", ROOT)
