@@ -185,6 +185,7 @@ unsigned job_walls(const struct job *job);
 struct job_model {
     const char *name;
     const char *samples; /* what its rock consists of: "particles" or "voxels" */
+    bool centred;        /* they are at the centres of voxels, without a jitter */
     size_t piles;        /* offset in struct job of the struct job_piles that describes its rocks; 0: none */
     bool seconds;        /* supports shots in real time: clock.seconds_per_frame */
     bool edits;          /* supports edits */

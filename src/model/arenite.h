@@ -28,19 +28,19 @@
 #define ARENITE_PARTS(PART)                                                                                  \
     PART(maps, LASTS_RUN, maps_bytes(job, voxels), maps_create(a->m.gpu, a->m.whole, a->m.voxels, &a->maps)) \
     PART(elastic, LASTS_RUN,                                                                                 \
-         arenite_ever(job, arenite_uses_stress_grid) ? elastic_bytes(voxels, all, bare, ends) : 0,           \
+         edits_ever(job, arenite_uses_stress_grid) ? elastic_bytes(voxels, all, bare, ends) : 0,             \
          elastic_create(a->m.gpu, a->m.voxels, a->m.h,                                                       \
                         (const struct elastic_options[]){elastic_options(a->m.job, a->maps.stiff)},          \
                         &a->elastic))                                                                        \
     PART(blocks, LASTS_ROCK, blocks_bytes(n),                                                                \
          blocks_create(a->m.gpu, a->particles.held.n, a->maps.parted, &a->blocks))                           \
     PART(wind, LASTS_RUN, wind_bytes(job, voxels), wind_create(a->m.gpu, a->m.whole, a->m.voxels, &a->wind)) \
-    PART(deposit, LASTS_JOB, arenite_ever(job, deposit_wanted) ? deposit_bytes(voxels) : 0,                  \
+    PART(deposit, LASTS_JOB, edits_ever(job, deposit_wanted) ? deposit_bytes(voxels) : 0,                    \
          a->deposits ? deposit_create(a->m.gpu, a->m.voxels, &a->deposit) : OK)                              \
-    PART(water, LASTS_JOB, arenite_ever(job, water_ever_flows) ? water_bytes(voxels, 1) : 0,                 \
+    PART(water, LASTS_JOB, edits_ever(job, water_ever_flows) ? water_bytes(voxels, 1) : 0,                   \
          water_ever_flows(a->m.job) ? water_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, 1, &a->water)    \
                                     : OK)                                                                    \
-    PART(fragments, LASTS_JOB, arenite_ever(job, deposit_wanted) ? water_bytes(voxels, 2) : 0,               \
+    PART(fragments, LASTS_JOB, edits_ever(job, deposit_wanted) ? water_bytes(voxels, 2) : 0,                 \
          a->deposits ? fragments_create(a->m.gpu, a->m.job, a->m.voxels, a->m.h, &a->fragments) : OK)        \
     PART(groundwater, LASTS_JOB, groundwater_bytes(job, voxels),                                             \
          groundwater_create(a->m.gpu, a->m.job, a->m.voxels, &a->groundwater))                               \
@@ -101,9 +101,6 @@ void arenite_destroy_parts(struct arenite *a, enum lasts lasts);
 
 /* Whether stress is computed on the stress grid. Shots and the mpm stress solver compute it with material points. */
 bool arenite_uses_stress_grid(const struct job *job);
-
-/* Whether `wanted` holds for the job or for the job after one of its edits. */
-bool arenite_ever(const struct job *job, bool (*wanted)(const struct job *));
 
 /* The functions of struct model_type. */
 MUST_USE status arenite_estimate(const struct job *job, struct model_needs *needs);

@@ -5,14 +5,6 @@
 #include "plants/plants.h"
 #include "scene/scene.h"
 
-bool arenite_ever(const struct job *job, bool (*wanted)(const struct job *))
-{
-    bool any = wanted(job);
-    for (size_t i = 0; i < job->n_edits && !any; i++)
-        any = job->edits[i].set.job && wanted(job->edits[i].set.job);
-    return any;
-}
-
 bool arenite_uses_stress_grid(const struct job *job)
 {
     return !collapse_shot(job) && job->stress.solver != STRESS_MPM;
@@ -66,7 +58,7 @@ status arenite_estimate(const struct job *job, struct model_needs *needs)
     const size_t n = needs->size.n_kept;
     needs->capacity = n < needs->size.n_particles ? particles_capacity_for(n) : n;
     const unsigned has = arenite_has(job, water_ever_flows(job), plants_wanted(job) || edits_plant(job),
-                                     arenite_ever(job, deposit_wanted), job_keeps_exposed(job));
+                                     edits_ever(job, deposit_wanted), job_keeps_exposed(job));
     needs->device_bytes = device_bytes(job, needs->voxels, &needs->size, needs->capacity);
     needs->frame.samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     const uint64_t ages = job_keeps_exposed(job) ? n : 0;

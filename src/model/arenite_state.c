@@ -325,7 +325,7 @@ status arenite_create(struct model *m)
     a->exposed = job_keeps_exposed(m->whole);
     a->seeps = job_seeps(m->whole);
     a->plants = plants_wanted(m->whole) || edits_plant(m->whole);
-    a->deposits = arenite_ever(m->whole, deposit_wanted);
+    a->deposits = edits_ever(m->whole, deposit_wanted);
     TRY(arenite_create_parts(a, LASTS_RUN));
     TRY(rocks_tile(m->whole, &a->tile));
     TRY(scene_edits_check(m->whole, m->frame));

@@ -17,6 +17,14 @@ enum edits_kind edits_of(const struct job *job, int frame)
     return kind;
 }
 
+bool edits_ever(const struct job *job, bool (*wanted)(const struct job *))
+{
+    bool any = wanted(job);
+    for (size_t i = 0; i < job->n_edits && !any; i++)
+        any = job->edits[i].set.job && wanted(job->edits[i].set.job);
+    return any;
+}
+
 bool edits_plant(const struct job *job)
 {
     for (size_t i = 0; i < job->n_edits; i++)
@@ -40,8 +48,8 @@ status edits_apply(const struct job *job, int frame, struct rock *rock, struct l
         ledger->start += done.added;
         ledger->left += done.carved;
         *start_volume += done.added_m3;
-        log_info("frame %d: edit %zu added %zu particles and carved %zu out", frame, i, done.added,
-                 done.carved);
+        log_info("frame %d: edit %zu added %zu %s and carved %zu out", frame, i, done.added,
+                 job_model(job)->samples, done.carved);
         if (e->n_add && done.added_m3 <= 0)
             log_warn(
                 "frame %d: edit %zu adds no rock: its shapes are outside the domain, or there is rock already",

@@ -13,6 +13,9 @@ enum edits_kind { EDITS_NONE, EDITS_SET, EDITS_ROCK };
 /* What the edits of this frame change: nothing, only keys (see job_at()), or also the rock. */
 enum edits_kind edits_of(const struct job *job, int frame);
 
+/* Whether `wanted` holds for the job or for the job after one of its edits. */
+bool edits_ever(const struct job *job, bool (*wanted)(const struct job *));
+
 /* Whether any edit paints plants. */
 bool edits_plant(const struct job *job);
 

@@ -2,6 +2,7 @@
  *
  * One frame is a list of stages (gpu_stage()):
  *
+ *   edits         edit()                   what the frame's edits set, carve, add and paint
  *   weathering    voxels_rates(); then voxels_cycle() until the frame's years have passed
  *   blocks        remove_unsupported()
  *
@@ -19,6 +20,7 @@
 #include "blocks/blocks.h"
 #include "frame/host.h"
 #include "geology/attitude.h"
+#include "model/edits.h"
 #include "model/inside.h"
 #include "model/sections.h"
 #include "model/type.h"
@@ -72,33 +74,15 @@ done:
     return st;
 }
 
-static status step(struct model *m)
-{
-    status st = OK;
-    struct goblins *g = of(m);
-    double kyr = m->job->clock.years_per_frame / 1000;
-    gpu_stage(m->gpu, "weathering");
-    budget_before(g, PROCESS_WEATHERING);
-    TRY(voxels_rates(m->gpu, &g->voxels, m->job, m->frame));
-    while (kyr > 0 && m->ledger.rock > 0) {
-        double passed;
-        uint32_t n_gone;
-        TRY(voxels_cycle(m->gpu, m->work, &g->voxels, m->job->goblins.quantum, kyr, &passed, &n_gone));
-        kyr -= passed;
-        m->ledger.rock -= n_gone;
-        m->ledger.left += n_gone;
-    }
-    budget_after(g, PROCESS_WEATHERING);
-    TRY(remove_unsupported(g));
-done:
-    return st;
-}
+/* ---- edits */
 
-/* ---- what a frame shows */
-
-static double volume_of(const struct model *m, const float *share)
+/* The number of voxels of which something is left. */
+static size_t count(const float *share, size_t n)
 {
-    return model_sum(share, voxel_count(m->voxels)) * m->h * m->h * m->h;
+    size_t sum = 0;
+    for (size_t i = 0; i < n; i++)
+        sum += share[i] > VOXELS_SLIVER;
+    return sum;
 }
 
 /* Makes one particle at the centre of each voxel that is left, with the voxel's number as its id. */
@@ -130,6 +114,98 @@ done:
     return st;
 }
 
+/* What the frame's edits carve, add and paint, on arrays as of voxels_create(). */
+static status edit_rock(struct goblins *g, float *share, float *factor)
+{
+    status st = OK;
+    struct model *m = &g->m;
+    struct rock rock = {0};
+    if (edits_of(m->whole, m->frame) != EDITS_ROCK)
+        return OK;
+    TRY(make_rock(g, share, factor, &rock));
+    TRY(edits_apply(m->whole, m->frame, &rock, &m->ledger, &m->start_volume));
+    memset(share, 0, voxel_count(m->voxels) * sizeof *share);
+    for (size_t p = 0; p < rock.n; p++) {
+        size_t v = 0;
+        for (size_t a = 3; a-- > 0;)
+            v = v * (size_t)m->voxels[a] + (size_t)((double)rock.P[4 * p + a] / m->h);
+        share[v] = rock.viability[p];
+        factor[v] = rock.rate_factor[p];
+    }
+    m->ledger.rock = rock.n;
+done:
+    rock_free(&rock);
+    return st;
+}
+
+static bool shows_stress(const struct job *job)
+{
+    return job->goblins.stress;
+}
+
+static status create_stress(struct goblins *g)
+{
+    const struct elastic_options options = elastic_options(g->m.job, NULL);
+    return shows_stress(g->m.job) ? elastic_create(g->m.gpu, g->m.voxels, g->m.h, &options, &g->elastic) : OK;
+}
+
+/* Applies the frame's edits: the keys that they set, and what they carve, add and paint. */
+static status edit(struct goblins *g)
+{
+    status st = OK;
+    struct model *m = &g->m;
+    const size_t n = voxel_count(m->voxels);
+    float *share = NULL, *factor = NULL;
+    if (edits_of(m->whole, m->frame) == EDITS_NONE)
+        return OK;
+    gpu_stage(m->gpu, "edits");
+    TRY(memory_alloc(n, sizeof *share, "voxels", &share));
+    TRY(memory_alloc(n, sizeof *factor, "voxels", &factor));
+    budget_before(g, PROCESS_EDITS);
+    TRY(voxels_download(m->gpu, &g->voxels, share, factor));
+    TRY(edit_rock(g, share, factor));
+    voxels_destroy(m->gpu, &g->voxels);
+    TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &g->voxels));
+    budget_after(g, PROCESS_EDITS);
+    elastic_destroy(m->gpu, &g->elastic);
+    TRY(create_stress(g));
+    TRY(remove_unsupported(g));
+done:
+    free(share);
+    free(factor);
+    return st;
+}
+
+static status step(struct model *m)
+{
+    status st = OK;
+    struct goblins *g = of(m);
+    double kyr = m->job->clock.years_per_frame / 1000;
+    TRY(edit(g));
+    gpu_stage(m->gpu, "weathering");
+    budget_before(g, PROCESS_WEATHERING);
+    TRY(voxels_rates(m->gpu, &g->voxels, m->job, m->frame));
+    while (kyr > 0 && m->ledger.rock > 0) {
+        double passed;
+        uint32_t n_gone;
+        TRY(voxels_cycle(m->gpu, m->work, &g->voxels, m->job->goblins.quantum, kyr, &passed, &n_gone));
+        kyr -= passed;
+        m->ledger.rock -= n_gone;
+        m->ledger.left += n_gone;
+    }
+    budget_after(g, PROCESS_WEATHERING);
+    TRY(remove_unsupported(g));
+done:
+    return st;
+}
+
+/* ---- what a frame shows */
+
+static double volume_of(const struct model *m, const float *share)
+{
+    return model_sum(share, voxel_count(m->voxels)) * m->h * m->h * m->h;
+}
+
 /* Solves the stress from zero displacement: none is kept between frames, so that a continued run has the same stress. */
 static status solve_stress(struct goblins *g, struct particles *p)
 {
@@ -149,7 +225,7 @@ static status show(struct goblins *g, struct frame_wants wants, struct particles
     const struct job *job = g->m.job;
     gpu_stage(g->m.gpu, "surface");
     TRY(particles_surface(g->m.gpu, g->m.work, p));
-    if (job->goblins.stress) {
+    if (shows_stress(job)) {
         TRY(solve_stress(g, p));
         out->stress_iterations = g->elastic.iterations;
     }
@@ -224,15 +300,6 @@ done:
 
 enum { HALF_MAX = 65504 }; /* factors are stored as halves */
 
-/* The number of voxels of which something is left. */
-static size_t count(const float *share, size_t n)
-{
-    size_t sum = 0;
-    for (size_t i = 0; i < n; i++)
-        sum += share[i] > VOXELS_SLIVER;
-    return sum;
-}
-
 static status restore(struct model *m, const struct checkpoint *c)
 {
     status st = OK;
@@ -273,8 +340,9 @@ static status begin(struct model *m)
     TRY(memory_alloc(n, sizeof *share, "voxels", &share));
     TRY(memory_alloc(n, sizeof *factor, "voxels", &factor));
     TRY(scene_grid(m->job, m->job->goblins.floats, share, factor));
-    TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &g->voxels));
     m->ledger.start = m->ledger.rock = count(share, n);
+    TRY(edit_rock(g, share, factor));
+    TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &g->voxels));
     const double lowest = lowest_of(m, share);
     TRY(remove_unsupported(g));
     TRY(voxels_download(m->gpu, &g->voxels, share, NULL));
@@ -290,12 +358,14 @@ static status create(struct model *m)
 {
     status st = OK;
     struct goblins *g = of(m);
-    const struct elastic_options options = elastic_options(m->job, NULL);
     TRY(held_create(m->gpu, m->voxels, voxel_count(m->voxels), &g->held));
     TRY(held_all(m->gpu, m->work, &g->held));
     TRY(blocks_create(m->gpu, g->held.n, NULL, &g->blocks));
-    if (m->job->goblins.stress)
-        TRY(elastic_create(m->gpu, m->voxels, m->h, &options, &g->elastic));
+    TRY(create_stress(g));
+    TRY(scene_edits_check(m->whole, m->frame));
+    for (size_t i = 0; i < m->whole->n_edits; i++)
+        if (m->whole->edits[i].set.job)
+            TRY(voxels_check(m->whole->edits[i].set.job));
 done:
     return st;
 }
@@ -311,11 +381,26 @@ static void destroy(struct model *m)
 
 /* ---- what a job takes */
 
+/* The most bytes that the voxels take, with n active ones, for the job and after each of its edits; *words as of voxels_bytes(). */
+static uint64_t most_bytes(const struct job *job, const int voxels[3], size_t n, size_t *words)
+{
+    uint64_t most = voxels_bytes(job, voxels, n, words);
+    for (size_t i = 0; i < job->n_edits; i++) {
+        size_t then_words;
+        if (!job->edits[i].set.job)
+            continue;
+        const uint64_t then = voxels_bytes(job->edits[i].set.job, voxels, n, &then_words);
+        most = then > most ? then : most;
+        *words = then_words > *words ? then_words : *words;
+    }
+    return most;
+}
+
 static size_t work_items(const struct job *job, const int voxels[3])
 {
     const size_t stress = elastic_work_items(voxels), each = voxel_count(voxels) + 2;
     size_t words, items = each > stress ? each : stress;
-    voxels_bytes(job, voxels, 0, &words);
+    most_bytes(job, voxels, 0, &words);
     return words > items ? words : items;
 }
 
@@ -338,21 +423,22 @@ static status estimate(const struct job *job, struct model_needs *needs)
         bare = {.inside = 3, .bare = 18, .volumes_inside = 1.5, .volumes_bare = 50, .channel = 1.5},
         stressed = {.inside = 10.6, .bare = 35, .volumes_inside = 2.2, .volumes_bare = 110, .channel = 1.9};
     const uint64_t state = 8 * (uint64_t)voxel_count(needs->voxels);
+    const bool stressed_ever = edits_ever(job, shows_stress);
     size_t words;
     TRY(scene_estimate(job, &needs->size));
     /* Most jobs have less than a third of their rock active. */
     needs->capacity = needs->size.n_particles;
-    needs->device_bytes = voxels_bytes(job, needs->voxels, needs->size.n_particles / 3, &words) +
+    needs->device_bytes = most_bytes(job, needs->voxels, needs->size.n_particles / 3, &words) +
                           blocks_bytes(voxel_count(needs->voxels)) +
                           held_bytes(needs->voxels, voxel_count(needs->voxels)) +
-                          (job->goblins.stress ? elastic_bytes(needs->voxels, needs->size.n_particles,
-                                                               needs->size.n_surface, needs->size.n_ends)
-                                               : 0);
+                          (stressed_ever ? elastic_bytes(needs->voxels, needs->size.n_particles,
+                                                         needs->size.n_surface, needs->size.n_ends)
+                                         : 0);
     /* Frames are made from the voxels and the particles made of them. */
     needs->host_bytes = state + host_rock_bytes(needs->size.n_particles);
-    needs->frame.kept = job->goblins.stress ? 2 : 0; /* see inside_values() */
+    needs->frame.kept = stressed_ever ? 2 : 0; /* see inside_values() */
     needs->frame.samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
-    needs->disk = job->goblins.stress ? stressed : bare;
+    needs->disk = stressed_ever ? stressed : bare;
     needs->checkpoint_bytes = (uint64_t)(0.1 * (double)state);
     needs->steps = cycles(job);
     needs->kernels = 70;

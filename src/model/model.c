@@ -158,7 +158,7 @@ static status create_shared(struct model *m)
     status st = OK;
     TRY(scene_voxels(m->job, m->voxels));
     TRY(numbers_create(m->gpu, &m->found));
-    TRY(gpu_work_create(m->gpu, m->type->work_items(m->job, m->voxels), &m->work));
+    TRY(gpu_work_create(m->gpu, m->type->work_items(m->whole, m->voxels), &m->work));
     if (job_has_processes(m->job))
         TRY(budget_create(m->gpu, &m->budget));
     TRY(field_create(m->gpu, m->voxels, m->h, &m->field));

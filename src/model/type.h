@@ -67,7 +67,7 @@ struct model_type {
 
     MUST_USE status (*estimate)(const struct job *job, struct model_needs *needs);
 
-    /* Items of scratch memory (gpu_work_create()) that the model needs for this job. */
+    /* Items of scratch memory (gpu_work_create()) that the model needs for this job, with its edits. */
     size_t (*work_items)(const struct job *job, const int voxels[3]);
 
     /* Creates what does not depend on the rock: buffers and tables. */

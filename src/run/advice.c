@@ -379,10 +379,9 @@ static status check_frames(struct context *v)
     const struct job *job = v->job;
     char key[64], range[48];
     for (size_t i = 0; i < job->n_edits; i++)
-        if (job->edits[i].frame > job->frames.last || job->edits[i].frame <= job->frames.first) {
+        if (job->edits[i].frame > job->frames.last || job->edits[i].frame < job->frames.first) {
             snprintf(key, sizeof key, "edits.%zu.frame", i);
-            TRY(add_advice(v, key,
-                           "frame %d is not among the frames after the first (%s): this edit is never made",
+            TRY(add_advice(v, key, "frame %d is not one of the frames (%s): this edit is never made",
                            (int)job->edits[i].frame, range_text(job->frames, range)));
         }
     for (size_t i = 0; i < job->wind.n_gusts; i++)

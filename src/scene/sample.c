@@ -35,10 +35,11 @@ status scene_voxels(const struct job *job, int n[3])
 
 void sampler_position(const struct sampler *s, const int voxel[3], float P[4])
 {
+    const float jitter = job_model(s->job)->centred ? 0 : JITTER;
     for (int a = 0; a < 3; a++) {
         float share = random_float(
             random_hash(s->jitter[a], (uint32_t)voxel[0], (uint32_t)voxel[1], (uint32_t)voxel[2]));
-        P[a] = (float)((voxel[a] + 0.5 + (double)(JITTER * (2 * share - 1))) * s->h);
+        P[a] = (float)((voxel[a] + 0.5 + (double)(jitter * (2 * share - 1))) * s->h);
     }
     P[3] = 0;
 }

@@ -40,7 +40,8 @@ const struct solid *sampler_scene(const struct sampler *s);
 /* E_USAGE: there is no rock in the domain, or, unless it may float, none on the ground. */
 MUST_USE status sampler_check(const struct sampler *s, bool floats);
 
-/* The position of a voxel's particle: its centre plus a jitter that depends on seed and voxel only. P[3] = 0. */
+/* The position of a voxel's particle: its centre plus, unless the model wants centres, a jitter that depends on seed and voxel only.
+ * P[3] = 0. */
 void sampler_position(const struct sampler *s, const int voxel[3], float P[4]);
 
 /* The effect of the geological structure on a voxel. */

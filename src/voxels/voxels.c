@@ -130,6 +130,28 @@ done:
     return st;
 }
 
+static status bubble_of(const struct job *job, size_t stratum, struct bubble *b)
+{
+    status st = OK;
+    TRY(bubble_create(&job->strata[stratum].bubble, job->domain.spacing_m, b));
+    if (!isfinite(bubble_rate(b, 0, 1).slope))
+        st = fail(E_USAGE, "bubble: that of stratum %zu sees no air beside a flat face", stratum);
+done:
+    return st;
+}
+
+status voxels_check(const struct job *job)
+{
+    status st = OK;
+    struct bubble *b = NULL;
+    TRY(memory_alloc(1, sizeof *b, "a bubble", &b));
+    for (size_t i = 0; i < job->n_strata; i++)
+        TRY(bubble_of(job, i, b));
+done:
+    free(b);
+    return st;
+}
+
 static status make_tables(struct voxels *v, const struct job *job, struct bubble *b, struct tables *t)
 {
     status st = OK;
@@ -138,7 +160,7 @@ static status make_tables(struct voxels *v, const struct job *job, struct bubble
     TRY(memory_alloc(job->n_strata, 12, "the bubbles", &t->bubbles));
     TRY(memory_alloc(job->n_strata, sizeof *v->rate, "the layers", &v->rate));
     for (size_t i = 0; i < job->n_strata; i++) {
-        TRY(bubble_create(&job->strata[i].bubble, v->h, b));
+        TRY(bubble_of(job, i, b));
         t->bubbles[3 * i] = (uint32_t)t->n_rows;
         t->bubbles[3 * i + 2] = b->n;
         for (int r = 0; r < b->n_rows; r++) {
@@ -150,8 +172,6 @@ static status make_tables(struct voxels *v, const struct job *job, struct bubble
             add_row(t, 0, 0); /* the kernel takes four rows at a time */
         t->bubbles[3 * i + 1] = (uint32_t)((t->n_rows - t->bubbles[3 * i]) / 2);
         v->rate[i] = bubble_rate(b, job->goblins.threshold, v->skin);
-        if (!isfinite(v->rate[i].slope))
-            return fail(E_USAGE, "bubble: that of stratum %zu sees no air beside a flat face", i);
     }
     add_skin(v, t);
     TRY(find_layers(v, job, t));

@@ -40,6 +40,9 @@ struct voxels {
 /* Bytes on the device with n_active active voxels. *words: number of items that gpu_work_create() must support. */
 uint64_t voxels_bytes(const struct job *job, const int n[3], size_t n_active, size_t *words);
 
+/* E_USAGE: a bubble of the job does not fit its voxels. */
+MUST_USE status voxels_check(const struct job *job);
+
 /* `share` and `factor`, float [voxels of the domain] at (z ny + y) nx + x: share left (0: air), and factor of the layer's rate. Waits
  * for the device. E_USAGE: a bubble does not fit the voxels, or there are too many voxels. */
 MUST_USE status voxels_create(struct gpu *gpu, struct gpu_work *work, const struct job *job, const int n[3],

@@ -253,8 +253,8 @@ static const struct {
     {"  - {frame: 1010, paint: [{image: {file: '', corner_m: [0, 0, 0], right_m: [1, 0, 0], up_m: [0, 0, "
      "1]}}]}\n",
      {"paint.0.image.file: a file name is expected"}},
-    {"  - {frame: 1010, set: {wind.speed_m_s: 3}}\nmodel: goblins\n",
-     {"job.yaml:8:3: edits: model: goblins does not support edits"}},
+    {"  - {frame: 1010, set: {wind.speed_m_s: 3}}\nmodel: arches\n",
+     {"job.yaml:8:3: edits: model: arches does not support edits"}},
     {"  - {frame: 1010, set: {wind.speed_m_s: 3}}\nsources: [{bed_m: 1}]\n",
      {"sources.0.bed_m: a bed needs points in path_m"}},
     {"  []\ncheckpoint: {mark: 1040}\n", {"checkpoint.mark: a number where a list of frames is expected"}},
