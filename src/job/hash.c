@@ -433,14 +433,16 @@ static status walk_section(struct walk *w, enum job_section_id section, const vo
         bool leave = false;
         if (!wanted(w, key) || (w->part == WALK_MOMENT && !key_has_moments(key)))
             continue;
-        const size_t back = path_add(w, key->name), before = w->canonical.size;
+        const size_t back = path_add(w, key->name), before = w->canonical.size, leaves = w->n_leaves;
         put_text(w, key->name);
         const size_t at = w->canonical.size;
         TRY(walk_key(w, key, base));
         if (!w->of_files && key_later(key))
             TRY(is_default(w, section, key, at, &leave));
-        if (leave)
+        if (leave) { /* with the leaves of its keys, which would end behind it */
             w->canonical.size = before;
+            w->n_leaves = leaves;
+        }
         if (w->leaves)
             TRY(add_leaf(w));
         path_back(w, back);
