@@ -54,6 +54,14 @@ MUST_USE status farm_choose(struct farm *f, size_t task, const bool *active);
 /* Makes the folders and writes farm/job.yaml. E_CHECKPOINT: the folder holds frames of another job. */
 MUST_USE status farm_freeze(struct farm *f);
 
+/* E_OUTPUT: a process of this machine runs the folder's tasks already; two would fail each other's. */
+MUST_USE status farm_check_alone(const char *root);
+
+/* For a job that was changed from some frame on since it ran in this folder: takes over the folder of each wedge (run_take_over()), so that
+ * what is before the change counts as done. With `dry_run` only says what would be overwritten. E_CHECKPOINT: a wedge has no frame to keep;
+ * then none is touched. E_OUTPUT: tasks run or are queued. */
+MUST_USE status farm_change(struct farm *f, bool dry_run);
+
 /* Sets frame_seconds of each wedge from the frames in its folder; 0 where there are too few. */
 MUST_USE status farm_measure(struct farm *f);
 

@@ -81,19 +81,6 @@ static void show_state(void *user, const struct local_state *s)
     progress_note(&v->progress, s->done, s->total, line);
 }
 
-/* Two processes that run the tasks of one folder would fail each other's. */
-static status check_alone(const char *root)
-{
-    struct submission s;
-    status st = submission_read(root, &s);
-    if (st == OK && s.to == TO_LOCAL && s.process.pid && process_fate(&s.process) == PROCESS_LIVES)
-        st = fail(E_OUTPUT,
-                  "the tasks of %s are run by process %ld already: wait for it, or 'hoodoo cancel' it first",
-                  root, s.process.pid);
-    submission_free(&s);
-    return st;
-}
-
 static status to_local(const struct submit_request *r, struct farm *f)
 {
     status st = OK;
@@ -106,7 +93,7 @@ static status to_local(const struct submit_request *r, struct farm *f)
     if (s->device)
         for (size_t i = 0; i < n; i++)
             snprintf(worker[i].device, sizeof worker[i].device, "%s", s->device);
-    TRY(check_alone(f->root.text));
+    TRY(farm_check_alone(f->root.text));
     TRY(farm_freeze(f));
     struct submission own = *s;
     process_self(&own.process);
@@ -327,7 +314,7 @@ status cli_submit(int argc, char **argv)
     struct arguments operands = {0};
     struct farm farm = {0};
     struct plan_asked asked = {.common = &c};
-    bool help = false;
+    bool help = false, change = false;
     const struct option options[] = {
         {"to", CHOICE_TEXT(SUBMIT_TO_CHOICE), OPTION_CHOICE, &s->to,
          "this machine's devices; sbatch; a job template (jobtemplate-2023-09); a job bundle of AWS Deadline Cloud; or, for any other farm, the tasks as JSON on stdout: each with its command, what it waits for and what it needs"},
@@ -337,6 +324,8 @@ status cli_submit(int argc, char **argv)
         {"workers", "N", OPTION_INT, &s->workers, "local: this many workers that share the CPU"},
         {"rehearse", "SECONDS", OPTION_NUMBER, &asked.patience,
          "for time limits: how long to time the first frames on this machine's device, if the folder has none yet (default 0: no rehearsal)"},
+        {"continue", NULL, OPTION_FLAG, &change,
+         "the job was changed from some frame on since it ran in this folder: keep the frames before, and submit what is behind; says first what is overwritten"},
         OPTION_DEVICE(&c),
         OPTION_SET(&c),
         OPTION_FROM(&c),
@@ -364,6 +353,8 @@ status cli_submit(int argc, char **argv)
     TRY(farm_load(asked.path, c.sets.item, c.sets.n, c.from, s->wedge, c.out, &farm));
     for (size_t i = 0; i < farm.n_wedges && i < WARNED; i++)
         TRY(advice_log(farm.wedge[i].job, false));
+    if (change)
+        TRY(farm_change(&farm, request.dry_run));
     TRY(time_frames(&asked, s->to == TO_SLURM ? NULL : s->device, &farm));
     TRY(farm_graph(&farm));
     TRY(submit_tasks(&request, &farm));

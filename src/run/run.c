@@ -505,6 +505,32 @@ done:
     return st;
 }
 
+status run_take_over(const struct job *job, const char *root, bool change)
+{
+    status st = OK;
+    const struct run_options options = {.root = root, .change = true};
+    struct run r = {.job = job, .options = &options, .frames = job->frames};
+    const bool hushed = log_silence(change); /* it has been said */
+    TRY(job_states(job, &r.states));
+    TRY(job_files_hash(job, &r.files_hash));
+    TRY(path_join(&r.lock_path, root, "lock"));
+    TRY(check_owner(&r));
+    log_silence(hushed);
+    if (!change || !r.change.any)
+        goto done;
+    TRY(lock_folder(&r));
+    TRY(provenance_restore(job, r.states.job, &r.change, root));
+    TRY(owner_discard(root, job->name, r.change.frame));
+done:
+    log_silence(hushed);
+    atomic_file_guard(NULL, NULL);
+    lock_release(&r.lock);
+    job_states_free(&r.states);
+    free(r.done);
+    free(r.compared);
+    return st;
+}
+
 status run_job(struct job *job, const struct run_options *options)
 {
     status st = OK;

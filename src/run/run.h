@@ -46,4 +46,9 @@ struct run_options {
 
 MUST_USE status run_job(struct job *job, const struct run_options *options);
 
+/* What run_job() with `change` does before it simulates: says what is kept and what is overwritten; with `change`, records the job and removes
+ * the frames that differ, so that any run of this job makes them again. `job` is prepared (branch_prepare()). Nothing happens in a folder
+ * without a job, or of this one. Errors as run_job(). */
+MUST_USE status run_take_over(const struct job *job, const char *root, bool change);
+
 #endif
