@@ -446,12 +446,23 @@ done:
     return st;
 }
 
+double picture_years(const struct preview *p, int frame)
+{
+    struct manifest m = {0};
+    const double years = manifest_read(p->root, p->job->name, frame, &m) == OK
+                             ? m.years
+                             : job_years(p->job, p->job->frames.first, frame);
+    manifest_free(&m);
+    return years;
+}
+
 static void describe(const struct preview *p, int frame, const char *seen_from, const struct camera *camera,
                      struct slate *s)
 {
     char right[160];
     snprintf(right, sizeof right, "%s%shoodoo %.40s", seen_from, *seen_from ? "   " : "", hoodoo_version);
-    slate_describe(p->job, frame, camera, p->show, p->range, p->no_slate ? NULL : right, s);
+    slate_describe(p->job, frame, picture_years(p, frame), camera, p->show, p->range,
+                   p->no_slate ? NULL : right, s);
 }
 
 /* Adds a picture to the list of pictures in progress; picture_end() removes it. */

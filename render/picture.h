@@ -67,6 +67,9 @@ void pictures_end(struct preview *p);
 MUST_USE status picture_data_range(const struct preview *p, const int *frames, size_t n,
                                    struct show_range *out);
 
+/* The years since the first frame: as the frame's manifest says, or the job if there is none. */
+double picture_years(const struct preview *p, int frame);
+
 /* Paths of a still and of a view, relative to root. E_OUTPUT: too long. */
 MUST_USE status picture_still_path(const struct preview *p, int frame, struct path *out);
 MUST_USE status picture_view_path(const struct preview *p, int frame, int view, struct path *out);

@@ -23,8 +23,13 @@ struct page_clock page_clock(const struct report *r)
     struct page_clock c = {.label = "time, yr", .rate = "kyr", .unit = 1, .per = 0.001};
     if (r->job->clock.seconds_per_frame > 0)
         c = (struct page_clock){.label = "time, s", .rate = "s", .unit = 1, .per = 1, .shot = true};
-    else if (job_years(r->job, r->frames.first, r->frames.last) >= 2000)
-        c = (struct page_clock){.label = "time, kyr", .rate = "kyr", .unit = 1000, .per = 1};
+    for (size_t i = r->n_frames; i-- > 0;)
+        if (!r->frame[i].damaged)
+            c.began =
+                r->frame[i].manifest.years - job_years(r->job, r->frames.first, r->frame[i].manifest.frame);
+    if (!c.shot && c.began + job_years(r->job, r->frames.first, r->frames.last) >= 2000)
+        c = (struct page_clock){
+            .label = "time, kyr", .rate = "kyr", .unit = 1000, .per = 1, .began = c.began};
     c.now = r->mark ? page_time(r, &c, *r->mark) : (double)NAN;
     return c;
 }
@@ -32,7 +37,7 @@ struct page_clock page_clock(const struct report *r)
 double page_time(const struct report *r, const struct page_clock *clock, int frame)
 {
     const double passed = clock->shot ? (frame - r->frames.first) * r->job->clock.seconds_per_frame
-                                      : job_years(r->job, r->frames.first, frame);
+                                      : clock->began + job_years(r->job, r->frames.first, frame);
     return passed / clock->unit;
 }
 

@@ -15,6 +15,7 @@ struct page_clock {
     const char *label, *rate; /* "time, kyr"; denominator of rates: "kyr" */
     double unit;              /* unit of the axis, in years or seconds */
     double per;               /* time unit of rates, in units of the axis */
+    double began;             /* years at the first frame: more than 0 in branches */
     bool shot;
     double now; /* position of the marked frame; NAN: none */
 };

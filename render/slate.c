@@ -239,9 +239,9 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
     add_argument(c, to);
 }
 
-void slate_when(const struct job *job, int frame, char out[96])
+void slate_when(const struct job *job, int frame, double years, char out[96])
 {
-    double frames = frame - job->frames.first, years = job_years(job, job->frames.first, frame);
+    const double frames = frame - job->frames.first;
     if (job_model(job)->terrain) /* the time that tools take is undefined */
         snprintf(out, 96, "frame %d", frame);
     else if (job->clock.seconds_per_frame > 0)
@@ -267,8 +267,8 @@ static void mark_interlocking(const struct job *job, int frame, struct slate *s)
     }
 }
 
-void slate_describe(const struct job *job, int frame, const struct camera *camera, enum value_id show,
-                    struct show_range range, const char *right, struct slate *s)
+void slate_describe(const struct job *job, int frame, double years, const struct camera *camera,
+                    enum value_id show, struct show_range range, const char *right, struct slate *s)
 {
     char when[96];
     double to_middle[3];
@@ -283,7 +283,7 @@ void slate_describe(const struct job *job, int frame, const struct camera *camer
     double depth = dot3(to_middle, camera->ahead);
     if (depth > 0)
         s->px_per_m = 0.5 * camera->width / sqrt(dot3(camera->right, camera->right)) / depth;
-    slate_when(job, frame, when);
+    slate_when(job, frame, years, when);
     snprintf(s->left, sizeof s->left, "%.64s   %s", job->name, when);
     snprintf(s->right, sizeof s->right, "%s", right);
 }

@@ -45,10 +45,11 @@ void slate_command(const struct slate *s, const char *from, const char *bar, con
 
 /* Fills in everything but the size: the legend of the shown value, with the job's interlocking stresses as marks if it is stress; the texts of
  * the strip, with `right` at its right end (NULL: neither strip nor scale bar); and the scale in the middle of the domain. */
-void slate_describe(const struct job *job, int frame, const struct camera *camera, enum value_id show,
-                    struct show_range range, const char *right, struct slate *out);
+void slate_describe(const struct job *job, int frame, double years, const struct camera *camera,
+                    enum value_id show, struct show_range range, const char *right, struct slate *out);
 
-/* "frame 1061   55.2 kyr"; in days below a year, in seconds for shots in real time, without a time for model arches. */
-void slate_when(const struct job *job, int frame, char out[96]);
+/* "frame 1061   55.2 kyr"; in days below a year, in seconds for shots in real time, without a time for model arches. `years`: those of the
+ * frame's manifest, which in a branch count from the first frame of the run that it left. */
+void slate_when(const struct job *job, int frame, double years, char out[96]);
 
 #endif

@@ -159,7 +159,7 @@ status turntable_contact(struct preview *p, const int *frames, size_t n, int vie
         TRY(views ? picture_view_path(p, frame, (int)(3 * i), &tile[i].picture)
                   : picture_still_path(p, frame, &tile[i].picture));
         if (!picture_has_slate(p, tile[i].picture.text))
-            slate_when(p->job, frame, tile[i].label);
+            slate_when(p->job, frame, picture_years(p, frame), tile[i].label);
     }
     TRY(folder_name(&path, p->job->name, FILE_SHEET, 0, picture_part(p)));
     /* The sheet of views belongs to the video, and is made only if there is no other. */

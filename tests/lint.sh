@@ -62,7 +62,7 @@ rank() {
     case $1 in
     base) echo 0 ;; text) echo 1 ;; system) echo 2 ;; gltf) echo 3 ;; gpu | job | mesh | reader) echo 4 ;;
     particles | stacks | geology | image | meshinput) echo 5 ;; shape) echo 6 ;; usd | checkpoint) echo 8 ;; frame) echo 9 ;;
-    model) echo 10 ;; run) echo 11 ;; farm) echo 12 ;; render) echo 13 ;; look | selftest) echo 14 ;; cli) echo 15 ;; *) echo 7 ;;
+    resample) echo 8 ;; model) echo 10 ;; run) echo 11 ;; farm) echo 12 ;; render) echo 13 ;; look | selftest) echo 14 ;; cli) echo 15 ;; *) echo 7 ;;
     esac
 }
 includes() {

@@ -16,6 +16,7 @@
 #include "look/shot.h"
 #include "look/states.h"
 #include "model/model.h"
+#include "run/branch.h"
 #include "run/memory.h"
 
 /* About so many states of a run are kept, evenly spaced, besides that of the requested frame. */
@@ -77,18 +78,18 @@ static status load_latest_state(struct look *l, const struct sketch *s, const ui
     status st = OK;
     const size_t n = (size_t)(s->frame - s->job->frames.first) + 1;
     struct model_estimate e;
-    struct checkpoint c = {0};
+    struct branch_state c = {0};
     TRY(run_memory_check(l->gpu, s->job, &e));
     made->n_particles = e.n_particles;
     for (size_t at = n; !*out;) {
-        at = states_find(&l->states, hash, at, &c);
+        at = states_find(&l->states, hash, at, &c.at);
         made->found = at < n;
         if (!made->found && *s->job->from)
-            TRY(checkpoint_read(s->job->from, &c));
+            TRY(branch_load(s->job, &c));
         if (made->found)
-            TRY(history_take(&l->history, &c));
-        st = model_create(l->gpu, s->job, made->found || *s->job->from ? &c : NULL, out);
-        checkpoint_free(&c);
+            TRY(history_take(&l->history, &c.at));
+        st = model_create(l->gpu, s->job, made->found || *s->job->from ? &c.at : NULL, out);
+        checkpoint_free(&c.at);
         if (st != E_CHECKPOINT || !made->found)
             break;
         states_drop(&l->states, hash[at]);
@@ -206,7 +207,8 @@ static status picture(struct look *l, const struct sketch *s, const struct look_
     slate.width = camera.width;
     slate.height = camera.height;
     snprintf(right, sizeof right, "at %.3g m", s->job->domain.spacing_m);
-    slate_describe(s->job, s->frame, &camera, o->sketch.show, range, o->no_slate ? NULL : right, &slate);
+    slate_describe(s->job, s->frame, frame.years, &camera, o->sketch.show, range, o->no_slate ? NULL : right,
+                   &slate);
     if (o->no_legend)
         slate = (struct slate){0};
     TRY(print_picture(&shot, &slate, o->folder, &made->png, &made->png_size));

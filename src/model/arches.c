@@ -19,6 +19,7 @@
 #include "base/memory.h"
 #include "frame/host.h"
 #include "frame/rocks.h"
+#include "model/resampling.h"
 #include "model/sections.h"
 #include "model/terrain.h"
 #include "model/type.h"
@@ -321,6 +322,23 @@ done:
     return st;
 }
 
+/* The stacks do not depend on the spacing of the voxels that show them, if the job gives their size. */
+static status resample(struct resampling *r)
+{
+    status st = OK;
+    const double was = terrain_cell(&r->before), is = terrain_cell(r->job);
+    if (was != is)
+        return fail(
+            E_CHECKPOINT,
+            "the checkpoint of frame %d has stacks of %g m, which are not resampled; to show them at domain.spacing_m: %g, set arches.cell_m: %g",
+            r->from->frame, was, is, was);
+    TRY(resampling_keep(r, "stack "));
+    r->counts = r->ledger;
+    r->times = 1;
+done:
+    return st;
+}
+
 const struct model_type arches_type = {
     .size = sizeof(struct arches),
     .estimate = estimate,
@@ -334,4 +352,5 @@ const struct model_type arches_type = {
     .read_terrain = read_terrain,
     .release = release,
     .save = save,
+    .resample = resample,
 };

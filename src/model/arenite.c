@@ -467,7 +467,7 @@ static status weather(struct arenite *a)
     const struct job *job = a->m.job;
     const int steps = erosion_steps(job, wind_fastest(job, a->m.frame));
     const double whole = job->clock.years_per_frame / 1000 / steps;
-    const double began = job_years(a->m.whole, a->m.whole->frames.first, a->m.frame - 1) / 1000;
+    const double began = (a->m.years - job->clock.years_per_frame) / 1000;
     int number = 0;
     if (a->plants) {
         gpu_stage(a->m.gpu, "plants");
@@ -632,4 +632,5 @@ const struct model_type arenite_type = {
     .watch = arenite_watch,
     .output = output,
     .save = arenite_save,
+    .resample = arenite_resample,
 };

@@ -109,6 +109,12 @@ MUST_USE status arenite_create(struct model *m);
 MUST_USE status arenite_begin(struct model *m);
 MUST_USE status arenite_restore(struct model *m, const struct checkpoint *from);
 MUST_USE status arenite_save(struct model *m, struct checkpoint *out);
+MUST_USE status arenite_resample(struct resampling *r);
+
+/* The STATE fields of a checkpoint, borrowed from it and not to be freed, checked against the ledger of `m`, of which only jobs, voxels,
+ * h and ledger are read. n_deep: arenite_deep_count(). *ids receives the particles' ids. E_CHECKPOINT. */
+MUST_USE status arenite_read_rock(const struct model *m, const struct checkpoint *c, struct rock *rock,
+                                  size_t n_deep, struct idset *ids);
 
 void arenite_watch(const struct model *m, struct watch_list *list);
 void arenite_destroy(struct model *m);

@@ -9,6 +9,7 @@
 #include "geology/joints.h"
 #include "model/edits.h"
 #include "model/sections.h"
+#include "particles/voxel_set.h"
 #include "stress/places.h"
 
 bool arenite_may_be_deep(const struct job *job)
@@ -185,7 +186,7 @@ static void take_words(const uint32_t *bits, size_t words, size_t *word, uint32_
     memset(some, 0, words * sizeof *some);
     for (; *word < words && n + 32 <= PLACES_MOST; ++*word) {
         some[*word] = bits[*word];
-        n += (size_t)__builtin_popcount(bits[*word]);
+        n += (size_t)bits_in(bits[*word]);
     }
 }
 
@@ -264,20 +265,18 @@ static void few_numbers(const struct rock *few, size_t i, float out[FEW_NUMBERS]
     out[2] = few->interlock_factor[i];
 }
 
-status arenite_save_deep(struct arenite *a, struct checkpoint *out)
+status arenite_add_deep(const struct scene_source *source, const int voxels[3], struct checkpoint *out,
+                        uint32_t **bits)
 {
     status st = OK;
     struct rock few = {0};
     void *data;
-    const size_t words = held_words(a->m.voxels);
-    if (a->particles.n_deep == 0)
-        return OK;
-    TRY(section_add(out, deep_bits, 4, words, &data));
-    TRY(particles_deep_bits(a->m.gpu, a->m.work, &a->particles, data));
-    const uint64_t hash = scene_source_hash(a->source);
+    TRY(section_add(out, deep_bits, 4, held_words(voxels), &data));
+    *bits = data;
+    const uint64_t hash = scene_source_hash(source);
     TRY(section_add(out, deep_voxels, 8, 1, &data));
     memcpy(data, &hash, sizeof hash);
-    TRY(scene_source_sample(a->source, &few));
+    TRY(scene_source_sample(source, &few));
     TRY(section_add(out, deep_scene, 4, FEW_NUMBERS * few.n, &data));
     for (size_t i = 0; i < few.n; i++)
         few_numbers(&few, i, (float *)data + FEW_NUMBERS * i);
@@ -286,8 +285,20 @@ done:
     return st;
 }
 
+status arenite_save_deep(struct arenite *a, struct checkpoint *out)
+{
+    status st = OK;
+    uint32_t *bits;
+    if (a->particles.n_deep == 0)
+        return OK;
+    TRY(arenite_add_deep(a->source, a->m.voxels, out, &bits));
+    TRY(particles_deep_bits(a->m.gpu, a->m.work, &a->particles, bits));
+done:
+    return st;
+}
+
 /* Checks that the job's scene has the deep rock of the checkpoint. */
-static status check_scene(const struct arenite *a, const struct checkpoint *c)
+static status check_scene(const struct scene_source *source, const struct checkpoint *c)
 {
     status st = OK;
     struct rock few = {0};
@@ -295,9 +306,9 @@ static status check_scene(const struct arenite *a, const struct checkpoint *c)
     const char *differs = NULL;
     TRY(section_get(c, &(struct section_rule){deep_voxels, SECTION_INTEGER, 1, 1, {SECTION_ALL}}, &data,
                     NULL));
-    if (*(const uint64_t *)data != scene_source_hash(a->source))
+    if (*(const uint64_t *)data != scene_source_hash(source))
         differs = "shape";
-    TRY(scene_source_sample(a->source, &few));
+    TRY(scene_source_sample(source, &few));
     const struct section_rule rule = {
         deep_scene, SECTION_FLOAT, SECTION_ANY, FEW_NUMBERS, {SECTION_ALL, SECTION_ALL, SECTION_ALL}};
     size_t n;
@@ -325,13 +336,13 @@ done:
 }
 
 /* Checks that the deep voxels are full rock of the scene and that no particle exists with one of their ids. */
-static status check_bits(const struct arenite *a, const struct checkpoint *c, const uint32_t *bits, size_t n,
-                         struct idset *ids)
+static status check_bits(const struct scene_source *source, const struct checkpoint *c, const uint32_t *bits,
+                         size_t n, struct idset *ids)
 {
     status st = OK;
     uint32_t *id = NULL;
     TRY(memory_alloc(n, sizeof *id, "ids", &id));
-    if (!scene_source_ids(a->source, bits, id)) {
+    if (!scene_source_ids(source, bits, id)) {
         st = fail(
             E_CHECKPOINT,
             "the checkpoint of frame %d is damaged: section '%s' has voxels that are not full of rock in its scene",
@@ -354,29 +365,39 @@ done:
     return st;
 }
 
-size_t arenite_deep_count(const struct arenite *a, const struct checkpoint *c)
+size_t arenite_deep_count(const int voxels[3], const struct checkpoint *c)
 {
     const struct checkpoint_section *s = checkpoint_find(c, deep_bits, 4);
     size_t n = 0;
-    if (s && s->n == held_words(a->m.voxels))
+    if (s && s->n == held_words(voxels))
         for (size_t i = 0; i < s->n; i++)
-            n += (size_t)__builtin_popcount(((const uint32_t *)s->data)[i]);
+            n += (size_t)bits_in(((const uint32_t *)s->data)[i]);
     return n;
+}
+
+status arenite_read_deep(const struct scene_source *source, const int voxels[3], const struct checkpoint *c,
+                         struct idset *ids, const uint32_t **bits)
+{
+    status st = OK;
+    const struct section_rule rule = {deep_bits, SECTION_WORD, held_words(voxels), 1, {SECTION_ALL}};
+    const void *data;
+    TRY(section_get(c, &rule, &data, NULL));
+    TRY(check_scene(source, c));
+    TRY(check_bits(source, c, data, arenite_deep_count(voxels, c), ids));
+    *bits = data;
+done:
+    return st;
 }
 
 status arenite_restore_deep(struct arenite *a, const struct checkpoint *c, struct idset *ids)
 {
     status st = OK;
-    const size_t n = arenite_deep_count(a, c);
-    const struct section_rule rule = {deep_bits, SECTION_WORD, held_words(a->m.voxels), 1, {SECTION_ALL}};
-    const void *bits;
+    const uint32_t *bits;
     if (!checkpoint_find(c, deep_bits, 4))
         return OK;
-    TRY(section_get(c, &rule, &bits, NULL));
     TRY(scene_source_create(a->m.whole, &a->source));
-    TRY(check_scene(a, c));
-    TRY(check_bits(a, c, bits, n, ids));
-    TRY(particles_set_deep(a->m.gpu, a->m.work, &a->particles, bits, n));
+    TRY(arenite_read_deep(a->source, a->m.voxels, c, ids, &bits));
+    TRY(particles_set_deep(a->m.gpu, a->m.work, &a->particles, bits, arenite_deep_count(a->m.voxels, c)));
     if (!arenite_may_be_deep(a->m.whole))
         TRY(arenite_add_due(a, DUE_ALL, 0));
 done:

@@ -24,7 +24,15 @@ MUST_USE status arenite_add_at_cut(struct arenite *a, const struct field_cut *cu
 /* Its sections of a checkpoint. The particles, whose ids are in *ids, must be restored before. E_CHECKPOINT: the sections are damaged, or
  * made from another scene. */
 MUST_USE status arenite_save_deep(struct arenite *a, struct checkpoint *out);
-size_t arenite_deep_count(const struct arenite *a, const struct checkpoint *c);
+size_t arenite_deep_count(const int voxels[3], const struct checkpoint *c);
 MUST_USE status arenite_restore_deep(struct arenite *a, const struct checkpoint *c, struct idset *ids);
+
+/* Adds these sections for a scene; *bits points to those of the voxels, for the caller to fill. */
+MUST_USE status arenite_add_deep(const struct scene_source *source, const int voxels[3],
+                                 struct checkpoint *out, uint32_t **bits);
+
+/* Finds and checks these sections; *bits points to those of the checkpoint. There must be at least one voxel. */
+MUST_USE status arenite_read_deep(const struct scene_source *source, const int voxels[3],
+                                  const struct checkpoint *c, struct idset *ids, const uint32_t **bits);
 
 #endif

@@ -161,9 +161,8 @@ done:
     return st;
 }
 
-/* The STATE fields, borrowed from the checkpoint, which must not be freed. *ids receives the particles' ids. */
-static status restore_rock(const struct model *m, const struct checkpoint *c, struct rock *rock,
-                           size_t n_deep, struct idset *ids)
+status arenite_read_rock(const struct model *m, const struct checkpoint *c, struct rock *rock, size_t n_deep,
+                         struct idset *ids)
 {
     status st = OK;
     const struct checkpoint_section *id = checkpoint_find(c, "id", 4);
@@ -244,7 +243,7 @@ status arenite_restore(struct model *m, const struct checkpoint *c)
     struct idset ids = {0};
     const void *data;
     bool solved;
-    TRY(restore_rock(m, c, &rock, arenite_deep_count(a, c), &ids));
+    TRY(arenite_read_rock(m, c, &rock, arenite_deep_count(m->voxels, c), &ids));
     TRY(section_get(c, &(struct section_rule){"processes", SECTION_DOUBLE, 2, 1, {{0, 1}}}, &data, NULL));
     a->deposits |= ((const double *)data)[0] != 0;
     a->plants |= ((const double *)data)[1] != 0;

@@ -21,6 +21,7 @@
 #include "frame/host.h"
 #include "geology/attitude.h"
 #include "model/edits.h"
+#include "model/goblins.h"
 #include "model/inside.h"
 #include "model/sections.h"
 #include "model/type.h"
@@ -300,22 +301,34 @@ done:
 
 enum { HALF_MAX = 65504 }; /* factors are stored as halves */
 
-static status restore(struct model *m, const struct checkpoint *c)
+status goblins_read(const struct checkpoint *c, const int voxels[3], const struct ledger *ledger,
+                    const float **share, const float **factor)
 {
     status st = OK;
-    const size_t n = voxel_count(m->voxels);
+    const size_t n = voxel_count(voxels);
     size_t n_rock;
-    const void *share, *factor;
-    TRY(section_get(c, &(struct section_rule){"voxels", SECTION_FLOAT, n, 1, {{0, 1}}}, &share, NULL));
-    TRY(section_get(c, &(struct section_rule){"factors", SECTION_FLOAT, n, 1, {{0, HALF_MAX}}}, &factor,
+    const void *shares, *factors;
+    TRY(section_get(c, &(struct section_rule){"voxels", SECTION_FLOAT, n, 1, {{0, 1}}}, &shares, NULL));
+    TRY(section_get(c, &(struct section_rule){"factors", SECTION_FLOAT, n, 1, {{0, HALF_MAX}}}, &factors,
                     NULL));
     /* Frames have one particle for each voxel that the ledger counts as rock. */
-    n_rock = count(share, n);
-    if (m->ledger.rock != n_rock || m->ledger.deposit != 0)
+    n_rock = count(shares, n);
+    if (ledger->rock != n_rock || ledger->deposit != 0)
         return fail(
             E_CHECKPOINT,
             "the checkpoint of frame %d is damaged: section 'ledger' counts %llu voxels of rock and %llu deposited, but section 'voxels' has %zu voxels of rock",
-            c->frame, (unsigned long long)m->ledger.rock, (unsigned long long)m->ledger.deposit, n_rock);
+            c->frame, (unsigned long long)ledger->rock, (unsigned long long)ledger->deposit, n_rock);
+    *share = shares;
+    *factor = factors;
+done:
+    return st;
+}
+
+static status restore(struct model *m, const struct checkpoint *c)
+{
+    status st = OK;
+    const float *share, *factor;
+    TRY(goblins_read(c, m->voxels, &m->ledger, &share, &factor));
     TRY(voxels_create(m->gpu, m->work, m->job, m->voxels, share, factor, &of(m)->voxels));
 done:
     return st;
@@ -458,4 +471,5 @@ const struct model_type goblins_type = {
     .watch = watch,
     .output = output,
     .save = save,
+    .resample = goblins_resample,
 };

@@ -17,7 +17,7 @@
 JOB_MODELS(MODEL)
 #undef MODEL
 
-static const struct model_type *type_of(const struct job *job)
+const struct model_type *model_type_of(const struct job *job)
 {
 #define MODEL(constant, word, ...) [MODEL_##constant] = &word##_type,
     static const struct model_type *const types[] = {JOB_MODELS(MODEL)};
@@ -50,7 +50,7 @@ static status choose_pace(const struct job *job, struct model_estimate *e)
 status model_estimate(const struct job *job, struct model_estimate *out)
 {
     status st = OK;
-    const struct model_type *type = type_of(job);
+    const struct model_type *type = model_type_of(job);
     struct model_needs needs = {.voxels = out->voxels};
     *out = (struct model_estimate){0};
     TRY(scene_voxels(job, out->voxels));
@@ -210,7 +210,7 @@ status model_create(struct gpu *gpu, const struct job *job, const struct checkpo
 {
     status st = OK;
     struct model *m = NULL;
-    const struct model_type *type = type_of(job);
+    const struct model_type *type = model_type_of(job);
     TRY(memory_alloc(1, type->size, "the model", &m));
     m->type = type;
     m->gpu = gpu;

@@ -1,5 +1,6 @@
 #include "model/sections.h"
 
+#include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -172,13 +173,28 @@ done:
     return st;
 }
 
+static const struct section_rule domain_rule = {
+    "domain", SECTION_DOUBLE, DOMAIN_NUMBERS, 1, {{0, SECTION_COUNT_MAX}}};
+
+status section_get_spacing(const struct checkpoint *c, int voxels[3], double *h)
+{
+    status st = OK;
+    const void *data;
+    TRY(section_get(c, &domain_rule, &data, NULL));
+    const double *number = data;
+    for (int a = 0; a < 3; a++)
+        voxels[a] = (int)fmin(number[DOMAIN_VOXELS + a], INT_MAX);
+    *h = number[DOMAIN_SPACING];
+done:
+    return st;
+}
+
 status section_check_domain(const struct checkpoint *c, const struct job *job)
 {
     status st = OK;
-    const struct section_rule rule = {"domain", SECTION_DOUBLE, DOMAIN_NUMBERS, 1, {{0, SECTION_COUNT_MAX}}};
     const void *data;
     double here[DOMAIN_NUMBERS];
-    TRY(section_get(c, &rule, &data, NULL));
+    TRY(section_get(c, &domain_rule, &data, NULL));
     TRY(domain_numbers(job, here));
     const double *there = data;
     if (there[DOMAIN_MODEL] != here[DOMAIN_MODEL])

@@ -60,4 +60,7 @@ MUST_USE status section_get_ledger(const struct checkpoint *c, struct ledger *ou
 MUST_USE status section_add_domain(struct checkpoint *c, const struct job *job);
 MUST_USE status section_check_domain(const struct checkpoint *c, const struct job *job);
 
+/* The number of voxels and their size, m, that a checkpoint says it has. */
+MUST_USE status section_get_spacing(const struct checkpoint *c, int voxels[3], double *h);
+
 #endif

@@ -11,6 +11,7 @@
 #include "model/numbers.h"
 
 struct model_type;
+struct resampling;
 
 /* The first member of every model's own struct. */
 struct model {
@@ -101,7 +102,14 @@ struct model_type {
 
     /* Adds the model's sections, and calls sections_add_counts(). The section of the domain is there already. */
     MUST_USE status (*save)(struct model *m, struct checkpoint *out);
+
+    /* Adds to r->out the model's sections of the checkpoint r->from at another spacing, but no counts, which it puts into r->counts
+     * (resampling.h). E_CHECKPOINT: damaged, or this state cannot be resampled. */
+    MUST_USE status (*resample)(struct resampling *r);
 };
+
+/* The model of a job. */
+const struct model_type *model_type_of(const struct job *job);
 
 /* Whether an array that stage `by` writes and stage `before` reads must be checked now: after `by`, and before `before`, a checkpoint or
  * the frame's field. */

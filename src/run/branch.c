@@ -8,6 +8,7 @@
 
 #include "base/log.h"
 #include "base/memory.h"
+#include "model/resample.h"
 #include "output/folder.h"
 #include "system/atomic_file.h"
 
@@ -157,20 +158,33 @@ done:
     return st;
 }
 
-status branch_read(const struct job *job, const char *root, struct checkpoint *out)
+status branch_load(const struct job *job, struct branch_state *out)
+{
+    status st = OK;
+    *out = (struct branch_state){0};
+    TRY(checkpoint_read(job->from, &out->at));
+    TRY(model_resample(job, &out->at, &out->spacing_m));
+done:
+    if (st != OK)
+        checkpoint_free(&out->at);
+    return st;
+}
+
+status branch_read(const struct job *job, const char *root, struct branch_state *out)
 {
     status st = OK;
     struct path path;
     char *bytes = NULL;
     size_t n;
-    TRY(checkpoint_read(job->from, out));
+    TRY(branch_load(job, out));
     TRY(branch_copy_path(&path, root, job->name));
-    if (strcmp(path.text, job->from) == 0)
-        goto done;
-    if ((st = file_read(job->from, (size_t)1 << 40, &bytes, &n)) != OK ||
-        (st = atomic_file_write(path.text, bytes, n)) != OK)
-        checkpoint_free(out);
+    if (strcmp(path.text, job->from) != 0) {
+        TRY(file_read(job->from, (size_t)1 << 40, &bytes, &n));
+        TRY(atomic_file_write(path.text, bytes, n));
+    }
 done:
     free(bytes);
+    if (st != OK)
+        checkpoint_free(&out->at);
     return st;
 }

@@ -4,6 +4,9 @@
  * checkpoint/NAME.from.ckpt, so that the branch can be continued after the other run is deleted. The first frame of a branch is
  * the frame of the checkpoint. Edits up to that frame are not applied again, because the checkpoint already contains the rock
  * they made, but the keys that they set remain in force.
+ *
+ * The spacing may be another one: a whole fraction or a whole multiple of the other run's (src/resample). The copy is of the checkpoint as it
+ * was; the state is resampled when the branch starts from it.
  */
 #ifndef HOODOO_BRANCH_H
 #define HOODOO_BRANCH_H
@@ -33,7 +36,15 @@ MUST_USE status branch_prepare(struct job *job, const char *root);
 /* The same for the job.yaml stored in `root`, which always uses the copy in that folder. */
 MUST_USE status branch_prepare_own(struct job *job, const char *root);
 
-/* Reads the checkpoint that a prepared branch starts from, after copying it into `root`. Free with checkpoint_free(). */
-MUST_USE status branch_read(const struct job *job, const char *root, struct checkpoint *out);
+/* The state that a branch starts from, at the job's spacing. */
+struct branch_state {
+    struct checkpoint at; /* free with checkpoint_free() */
+    double spacing_m;     /* of the other run */
+};
+
+/* Reads the state that a prepared branch starts from; without a folder, or after copying the checkpoint into `root`. Errors of
+ * checkpoint_read() and model_resample(). */
+MUST_USE status branch_load(const struct job *job, struct branch_state *out);
+MUST_USE status branch_read(const struct job *job, const char *root, struct branch_state *out);
 
 #endif

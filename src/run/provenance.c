@@ -1,5 +1,6 @@
 #include "run/provenance.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -86,6 +87,10 @@ static status read_run(const char *root, struct provenance *p)
     for (const struct json *v = list && list->kind == JSON_ARRAY ? list->first : NULL; v; v = v->next)
         if (read_maker(v, &maker) && json_to_int(json_member(v, "frame"), &frame))
             TRY(add(p, frame, &maker));
+    const struct json *from = json_member(json, "from"),
+                      *spacing = from ? json_member(from, "spacing_m") : NULL;
+    if (spacing && spacing->kind == JSON_NUMBER && isfinite(spacing->number))
+        p->from_m = spacing->number;
     list = json_member(json, "changed");
     for (const struct json *v = list && list->kind == JSON_ARRAY ? list->first : NULL; v; v = v->next) {
         struct change change = {.any = true};
@@ -231,7 +236,7 @@ static void add_changes(struct text *t, const struct provenance *p)
     json_end_array(t);
 }
 
-static void add_job(struct text *t, const struct job *job, uint64_t job_hash)
+static void add_job(const struct provenance *p, struct text *t, const struct job *job, uint64_t job_hash)
 {
     char hash[17];
     json_integer(t, "seed", job->seed);
@@ -240,6 +245,8 @@ static void add_job(struct text *t, const struct job *job, uint64_t job_hash)
         json_object(t, "from");
         json_text(t, "checkpoint", job->from);
         json_integer(t, "frame", job->frames.first);
+        if (p->from_m > 0)
+            json_number(t, "spacing_m", p->from_m);
         json_end_object(t);
     }
     if (job->wedge.index) {
@@ -303,7 +310,7 @@ static status write_run(const struct provenance *p, const struct gpu *gpu, const
     }
     add_continued(&t, p);
     add_changes(&t, p);
-    add_job(&t, job, job_hash);
+    add_job(p, &t, job, job_hash);
     TRY(add_inputs(&t, job));
     json_end_object(&t);
     TRY(text_status(&t));

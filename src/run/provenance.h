@@ -28,6 +28,7 @@ struct provenance {
     struct maker maker; /* ... the last maker; those before are in the list */
     size_t n, capacity;
     struct continued *continued; /* oldest first; owned */
+    double from_m; /* the spacing of the checkpoint that a branch started from, m; 0: not known */
     size_t n_changes, change_capacity;
     struct change *change; /* oldest first; owned */
 };

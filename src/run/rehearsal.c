@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "model/model.h"
+#include "run/branch.h"
 #include "run/writer.h"
 
 static struct cost now(void)
@@ -145,7 +146,7 @@ status rehearse(struct gpu *gpu, const struct job *job, double patience, struct 
 {
     status st = OK;
     struct model *model = NULL;
-    struct checkpoint from = {0};
+    struct branch_state from = {0};
     struct job shown = *job;
     struct cost made, written;
     const struct cost start = now();
@@ -153,8 +154,8 @@ status rehearse(struct gpu *gpu, const struct job *job, double patience, struct 
     const unsigned set = files_of(job, job->frames.first);
     *out = (struct rehearsal){.frames = {job->frames.first, job->frames.first, 1}};
     if (*job->from)
-        TRY(checkpoint_read(job->from, &from));
-    TRY(model_create(gpu, &shown, *job->from ? &from : NULL, &model));
+        TRY(branch_load(job, &from));
+    TRY(model_create(gpu, &shown, *job->from ? &from.at : NULL, &model));
     TRY(time_output(gpu, model, &shown, set, &made, &written));
     out->start = since(start);
     TRY(time_outputs(gpu, model, &shown, false, out));
@@ -166,7 +167,7 @@ status rehearse(struct gpu *gpu, const struct job *job, double patience, struct 
     add(&out->start, out->written[0][set], -1);
 done:
     log_silence(hushed);
-    checkpoint_free(&from);
+    checkpoint_free(&from.at);
     model_destroy(&model);
     return st;
 }

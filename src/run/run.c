@@ -395,7 +395,10 @@ static status begin(struct run *r)
         goto done;
     }
     if (!found && *r->job->from) {
-        TRY(branch_read(r->job, r->options->root, &c));
+        struct branch_state branch;
+        TRY(branch_read(r->job, r->options->root, &branch));
+        c = branch.at;
+        r->provenance.from_m = branch.spacing_m;
         TRY(check_provenance(r, &c, r->job->from));
         found = true;
         log_info("branching from %s, frame %d, %.10g years", r->job->from, c.frame, c.years);

@@ -5,57 +5,28 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "geology/attitude.h"
+#include "particles/voxel_set.h"
 #include "scene/sampler.h"
 
 struct scene_source {
     struct sampler s;
-    size_t row_words, words; /* of a row; of all rows */
-    uint32_t *rock;          /* [words]: the voxels that contain rock */
-    uint32_t *before;        /* [words + 1]: the number of such voxels in all words before */
+    struct voxel_set rock; /* the voxels that contain rock */
 };
-
-static void voxel_at(const struct scene_source *src, size_t word, int bit, int voxel[3])
-{
-    const size_t row = word / src->row_words, ny = (size_t)src->s.n[1];
-    voxel[0] = (int)(32 * (word % src->row_words)) + bit;
-    voxel[1] = (int)(row % ny);
-    voxel[2] = (int)(row / ny);
-}
-
-static int bits_in(uint32_t word)
-{
-    return __builtin_popcount(word);
-}
-
-/* Runs BODY for each set bit of a word, lowest first, with its number `bit`. */
-#define EACH_BIT(word, BODY)                                                                                 \
-    for (uint32_t left = (word); left != 0; left &= left - 1) {                                              \
-        const int bit = __builtin_ctz(left);                                                                 \
-        BODY                                                                                                 \
-    }
 
 static status find_voxels(struct scene_source *src)
 {
     status st = OK;
     const int *n = src->s.n;
-    src->row_words = ((size_t)n[0] + 31) / 32;
-    src->words = src->row_words * (size_t)n[1] * (size_t)n[2];
-    TRY(memory_alloc(src->words, sizeof *src->rock, "the scene's voxels", &src->rock));
-    TRY(memory_alloc(src->words + 1, sizeof *src->before, "the scene's voxels", &src->before));
+    struct voxel_set *rock = &src->rock;
+    TRY(voxel_set_create(n, "the scene's voxels", rock));
 #pragma omp parallel for schedule(dynamic, 256)
-    for (size_t w = 0; w < src->words; w++) {
+    for (size_t w = 0; w < rock->words; w++) {
         int v[3];
-        voxel_at(src, w, 0, v);
+        voxel_set_at(rock, w, 0, v);
         for (int bit = 0; bit < 32 && v[0] + bit < n[0]; bit++)
-            src->rock[w] |= (uint32_t)(coverage_at(src->s.coverage, v[0] + bit, v[1], v[2]) > 0) << bit;
+            rock->bits[w] |= (uint32_t)(coverage_at(src->s.coverage, v[0] + bit, v[1], v[2]) > 0) << bit;
     }
-    uint64_t sum = 0;
-    for (size_t w = 0; w < src->words; w++) {
-        sum += (uint64_t)bits_in(src->rock[w]);
-        if (sum > UINT32_MAX)
-            return fail(E_MEMORY, "scene: it has more than 2^32 particles: raise domain.spacing_m");
-        src->before[w + 1] = (uint32_t)sum;
-    }
+    TRY(voxel_set_rank(rock));
 done:
     return st;
 }
@@ -65,11 +36,11 @@ static void add_occluders(struct scene_source *src)
 {
     if (!paint_needs_occluders(src->s.paint))
         return;
-    for (size_t w = 0; w < src->words; w++)
-        EACH_BIT(src->rock[w], {
+    for (size_t w = 0; w < src->rock.words; w++)
+        EACH_BIT(src->rock.bits[w], {
             int v[3];
             float P[4];
-            voxel_at(src, w, bit, v);
+            voxel_set_at(&src->rock, w, bit, v);
             sampler_position(&src->s, v, P);
             paint_add_occluder(src->s.paint, (const double[]){(double)P[0], (double)P[1], (double)P[2]});
         })
@@ -98,20 +69,14 @@ void scene_source_destroy(struct scene_source **source)
     if (!*source)
         return;
     sampler_deinit(&(*source)->s);
-    free((*source)->rock);
-    free((*source)->before);
+    voxel_set_destroy(&(*source)->rock);
     free(*source);
     *source = NULL;
 }
 
 size_t scene_source_count(const struct scene_source *src)
 {
-    return src->before[src->words];
-}
-
-static uint32_t id_of(const struct scene_source *src, size_t word, int bit)
-{
-    return src->before[word] + (uint32_t)bits_in(src->rock[word] & ((1U << bit) - 1));
+    return voxel_set_count(&src->rock);
 }
 
 /* ---- particles */
@@ -121,11 +86,11 @@ static void make_particle(const struct scene_source *src, size_t word, int bit, 
     const struct sampler *s = &src->s;
     int v[3];
     double x[3];
-    voxel_at(src, word, bit, v);
+    voxel_set_at(&src->rock, word, bit, v);
     sampler_position(s, v, rock->P + 4 * p);
     rock_position(rock, p, x);
     struct paint_values paint = paint_at(s->paint, x, 0);
-    rock->id[p] = id_of(src, word, bit);
+    rock->id[p] = voxel_set_before(&src->rock, word, bit);
     rock->viability[p] = (float)coverage_at(s->coverage, v[0], v[1], v[2]) / COVERAGE_FULL;
     rock->phase[p] = solid_at(s->solid, x).loose ? 1 : 0;
     const struct structure_rock built = sampler_structure(s, v);
@@ -138,7 +103,7 @@ static void make_particle(const struct scene_source *src, size_t word, int bit, 
 static uint32_t selected(const struct scene_source *src, const uint32_t *bits, const uint32_t *but,
                          size_t word)
 {
-    return src->rock[word] & (bits ? bits[word] : ~0U) & ~(but ? but[word] : 0U);
+    return src->rock.bits[word] & (bits ? bits[word] : ~0U) & ~(but ? but[word] : 0U);
 }
 
 static status check_memory(size_t n)
@@ -159,7 +124,7 @@ status scene_source_particles(const struct scene_source *src, const uint32_t *bi
 {
     status st = OK;
     size_t *first = NULL;
-    const size_t slab = src->words / (size_t)src->s.n[2];
+    const size_t slab = src->rock.words / (size_t)src->s.n[2];
     const int nz = src->s.n[2];
     *rock = (struct rock){0};
     TRY(memory_alloc((size_t)nz + 1, sizeof *first, "the scene's slabs", &first));
@@ -205,7 +170,7 @@ static bool is_uniform(const struct scene_source *src, size_t word, int bit)
     const struct sampler *s = &src->s;
     int v[3];
     float P[4];
-    voxel_at(src, word, bit, v);
+    voxel_set_at(&src->rock, word, bit, v);
     if (!is_full(src, v))
         return false;
     sampler_position(s, v, P);
@@ -217,9 +182,9 @@ void scene_source_uniform(const struct scene_source *src, uint32_t *bits, size_t
 {
     size_t sum = 0;
 #pragma omp parallel for schedule(dynamic, 64) reduction(+ : sum)
-    for (size_t w = 0; w < src->words; w++) {
+    for (size_t w = 0; w < src->rock.words; w++) {
         uint32_t uniform = 0;
-        EACH_BIT(src->rock[w], { uniform |= (uint32_t)is_uniform(src, w, bit) << bit; })
+        EACH_BIT(src->rock.bits[w], { uniform |= (uint32_t)is_uniform(src, w, bit) << bit; })
         bits[w] = uniform;
         sum += (size_t)bits_in(uniform);
     }
@@ -229,21 +194,26 @@ void scene_source_uniform(const struct scene_source *src, uint32_t *bits, size_t
 bool scene_source_ids(const struct scene_source *src, const uint32_t *bits, uint32_t *ids)
 {
     bool full = true;
-    for (size_t w = 0; w < src->words; w++) {
-        full &= (bits[w] & ~src->rock[w]) == 0;
-        EACH_BIT(bits[w] & src->rock[w], {
+    for (size_t w = 0; w < src->rock.words; w++) {
+        full &= (bits[w] & ~src->rock.bits[w]) == 0;
+        EACH_BIT(bits[w] & src->rock.bits[w], {
             int v[3];
-            voxel_at(src, w, bit, v);
+            voxel_set_at(&src->rock, w, bit, v);
             full &= is_full(src, v);
-            *ids++ = id_of(src, w, bit);
+            *ids++ = voxel_set_before(&src->rock, w, bit);
         })
     }
     return full;
 }
 
+void scene_source_position(const struct scene_source *src, const int voxel[3], float P[4])
+{
+    sampler_position(&src->s, voxel, P);
+}
+
 uint64_t scene_source_hash(const struct scene_source *src)
 {
-    return hash_bytes(src->rock, src->words * sizeof *src->rock);
+    return hash_bytes(src->rock.bits, src->rock.words * sizeof *src->rock.bits);
 }
 
 status scene_source_sample(const struct scene_source *src, struct rock *rock)
@@ -252,10 +222,10 @@ status scene_source_sample(const struct scene_source *src, struct rock *rock)
     status st = OK;
     uint32_t *bits = NULL;
     const uint32_t every = (uint32_t)(scene_source_count(src) / ABOUT + 1);
-    TRY(memory_alloc(src->words, sizeof *bits, "some of the scene's voxels", &bits));
-    for (size_t w = 0; w < src->words; w++)
-        if (src->before[w] / every != src->before[w + 1] / every)
-            bits[w] = src->rock[w] & (~src->rock[w] + 1);
+    TRY(memory_alloc(src->rock.words, sizeof *bits, "some of the scene's voxels", &bits));
+    for (size_t w = 0; w < src->rock.words; w++)
+        if (src->rock.before[w] / every != src->rock.before[w + 1] / every)
+            bits[w] = src->rock.bits[w] & (~src->rock.bits[w] + 1);
     TRY(scene_source_particles(src, bits, NULL, rock));
 done:
     free(bits);

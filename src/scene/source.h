@@ -3,8 +3,7 @@
  * Each voxel that contains rock has one particle (scene.h), whose id is the number of such voxels before it in voxel order. So particles
  * that are made late are the same as if they had been made at the start.
  *
- * Voxel sets   are bit sets: 32 voxels of a row along x per word; each row starts with a new word; rows in y, then z order
- *              (particles/held.h has the number of words).
+ * Voxel sets   are given as the bits of a struct voxel_set (particles/voxel_set.h).
  */
 #ifndef HOODOO_SOURCE_H
 #define HOODOO_SOURCE_H
@@ -36,6 +35,10 @@ MUST_USE status scene_source_particles(const struct scene_source *source, const 
 
 /* The ids of these voxels' particles, in voxel order. False: some of the voxels are not full of rock. */
 bool scene_source_ids(const struct scene_source *source, const uint32_t *bits, uint32_t *ids);
+
+/* The position of the particle of a voxel, whether it contains rock or not: its centre plus a jitter that depends on seed and voxel only.
+ * P[3] = 0. */
+void scene_source_position(const struct scene_source *source, const int voxel[3], float P[4]);
 
 /* A fingerprint of the scene: the hash of its voxel set, and about a thousand evenly spread particles; free *rock with rock_free(). */
 uint64_t scene_source_hash(const struct scene_source *source);

@@ -201,7 +201,7 @@ refused("no output folder", INPUT, "--from", "/tmp@1004")
 refused("a missing checkpoint: the error lists the existing ones and the remedy", CHECKPOINT, "--from", "whole@1005",
         says="(its checkpoints are of frames 1007, 1010); to get one, run its job again with checkpoint.mark: [1005]")
 refused("a frame that is not the job's", USAGE, "--from", "every@1004", "--set", "frames=1001-1003", says="1001-1003")
-refused("another spacing", CHECKPOINT, "--from", "every@1004", "--set", "domain.spacing_m=0.25", says="0.25")
+refused("a spacing that is no whole fraction", CHECKPOINT, "--from", "every@1004", "--set", "domain.spacing_m=0.3", says="0.3")
 refused("another size", CHECKPOINT, "--from", "every@1004", "--set", "domain.size_m=[14, 14, 20]", says="28 x 28 x 32")
 refused("other strata", CHECKPOINT, "--from", "every@1004", "--set", "strata.2={}", "--set", "strata.1.to_m=9", says="2 strata")
 refused("another model", CHECKPOINT, "--from", "every@1004", "--set", "model=goblins", "--set", "edits=[]", says="model")

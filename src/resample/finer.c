@@ -1,0 +1,153 @@
+/* Rock at a smaller spacing. Its deposits: heaps.c. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "resample/change.h"
+#include "resample/split.h"
+
+/* The number of a child among the k^3 of its parent, x fastest. */
+static size_t child_number(const struct resample *r, const int child[3])
+{
+    return (size_t)(((child[2] % r->k) * r->k + child[1] % r->k) * r->k + child[0] % r->k);
+}
+
+/* The children of standing voxels: k^3 for each, in the order of the set. */
+struct children {
+    size_t each;
+    struct rock own; /* their particles in the scene */
+    uint32_t *place; /* index in `own` plus 1; 0: none */
+    float *share;    /* of rock */
+};
+
+static void children_free(struct children *k)
+{
+    rock_free(&k->own);
+    free(k->place);
+    free(k->share);
+}
+
+static status find_children(const struct change *c, struct children *k)
+{
+    status st = OK;
+    const struct resample *r = c->r;
+    const struct voxel_set *at = &c->standing.at;
+    struct voxel_set set = {0};
+    int v[3];
+    k->each = (size_t)r->k * (size_t)r->k * (size_t)r->k;
+    TRY(voxel_set_create(r->is.n, "voxels", &set));
+    for (size_t w = 0; w < at->words; w++)
+        EACH_BIT(at->bits[w], {
+            voxel_set_at(at, w, bit, v);
+            EACH_CHILD(r, v, { voxel_set_add(&set, child); })
+        })
+    TRY(scene_source_particles(c->scene, set.bits, NULL, &k->own));
+    TRY(memory_alloc(k->each * voxel_set_count(at), sizeof *k->place, "voxels", &k->place));
+    TRY(memory_alloc(k->each * voxel_set_count(at), sizeof *k->share, "voxels", &k->share));
+    for (size_t q = 0; q < k->own.n; q++) {
+        int parent[3];
+        voxel_of(&r->is, k->own.P + 4 * q, v);
+        for (int a = 0; a < 3; a++)
+            parent[a] = v[a] / r->k;
+        k->place[k->each * voxel_set_index(at, parent) + child_number(r, v)] = (uint32_t)q + 1;
+    }
+done:
+    voxel_set_destroy(&set);
+    return st;
+}
+
+/* Divides the rock of standing voxel i among its children. */
+static void divide(const struct change *c, const int v[3], size_t i, struct children *k)
+{
+    const struct standing *s = &c->standing;
+    float most[SPLIT_MOST * SPLIT_MOST * SPLIT_MOST];
+    double near[27], normal[3];
+    for (size_t e = 0; e < k->each; e++) {
+        const uint32_t place = k->place[k->each * i + e];
+        most[e] = place ? k->own.viability[place - 1] : 0;
+    }
+    for (int e = 0; e < 27; e++)
+        near[e] = change_ground(c, (const int[]){v[0] + e % 3 - 1, v[1] + e / 3 % 3 - 1, v[2] + e / 9 - 1});
+    split_normal(near, normal);
+    split_voxel(c->r->k, (double)s->fill[i], (double)s->first[i], normal, most, RESAMPLE_SLIVER,
+                k->share + k->each * i);
+}
+
+static void divide_all(const struct change *c, struct children *k)
+{
+    const struct voxel_set *at = &c->standing.at;
+#pragma omp parallel for schedule(dynamic, 256)
+    for (size_t w = 0; w < at->words; w++) {
+        int v[3];
+        EACH_BIT(at->bits[w], {
+            voxel_set_at(at, w, bit, v);
+            divide(c, v, voxel_set_before(at, w, bit), k);
+        })
+    }
+}
+
+/* Deep rock stays deep if it is full and unpainted at the new spacing, too; *rest receives the particles of the others. */
+static status divide_deep(struct change *c, struct rock *rest)
+{
+    status st = OK;
+    const struct resample *r = c->r;
+    struct voxel_set set = {0}, *deep = &c->to->deep;
+    size_t n;
+    if (!c->deep)
+        return OK;
+    TRY(voxel_set_create(r->is.n, "voxels", &set));
+    for (size_t w = 0; w < c->standing.at.words; w++)
+        EACH_BIT(c->deep[w], {
+            int v[3];
+            voxel_set_at(&c->standing.at, w, bit, v);
+            EACH_CHILD(r, v, voxel_set_add(&set, child);)
+        })
+    scene_source_uniform(c->scene, deep->bits, &n);
+    for (size_t w = 0; w < set.words; w++)
+        deep->bits[w] &= set.bits[w];
+    TRY(scene_source_particles(c->scene, set.bits, deep->bits, rest));
+done:
+    voxel_set_destroy(&set);
+    return st;
+}
+
+static void append_children(struct change *c, const struct children *k)
+{
+    const struct standing *s = &c->standing;
+    for (size_t w = 0; w < s->at.words; w++)
+        EACH_BIT(s->at.bits[w], {
+            int v[3];
+            const size_t i = voxel_set_before(&s->at, w, bit);
+            voxel_set_at(&s->at, w, bit, v);
+            EACH_CHILD(c->r, v, {
+                const size_t at = k->each * i + (size_t)e;
+                const bool own = s->first[i] > 0 && k->place[at];
+                if (k->share[at] > 0)
+                    change_append(c, child, &k->own, own ? k->place[at] - 1 : SIZE_MAX, s->rate[i],
+                                  s->interlock[i], s->particle[i], k->share[at]);
+            })
+        })
+}
+
+status change_finer(struct change *c)
+{
+    status st = OK;
+    const struct resample *r = c->r;
+    struct children k = {0};
+    struct rock rest = {0};
+    TRY(find_children(c, &k));
+    divide_all(c, &k);
+    TRY(divide_deep(c, &rest));
+    TRY(change_reserve(c, k.each * voxel_set_count(&c->standing.at) + heaps_most(c) + rest.n));
+    append_children(c, &k);
+    for (size_t q = 0; q < rest.n; q++) {
+        int v[3];
+        voxel_of(&r->is, rest.P + 4 * q, v);
+        change_append(c, v, &rest, q, 1, 1, SIZE_MAX, rest.viability[q]);
+    }
+    TRY(heaps_divide(c));
+done:
+    children_free(&k);
+    rock_free(&rest);
+    return st;
+}
