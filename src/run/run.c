@@ -35,6 +35,7 @@ struct run {
     struct provenance provenance;
     struct path lock_path;
     bool lacks_checkpoint; /* there is no checkpoint of the last frame or a later one */
+    bool no_checkpoint;    /* there is none at all */
     bool *done;            /* [last - first + 1], by frame number */
     bool *compared;        /* likewise: the files were read and have the content that was written */
     bool write_provenance; /* run.json or job.yaml is missing or does not describe this job */
@@ -131,7 +132,8 @@ static status survey(struct run *r)
         }
     /* The next block of frames starts from the last frame's checkpoint, so a run without it is not complete. */
     TRY(checkpoint_list(r->options->root, r->job->name, &checkpoints, &n_checkpoints));
-    r->lacks_checkpoint = n_checkpoints == 0 || checkpoints[0] < r->frames.last;
+    r->no_checkpoint = n_checkpoints == 0;
+    r->lacks_checkpoint = r->no_checkpoint || checkpoints[0] < r->frames.last;
     if (r->lacks_checkpoint)
         r->last_missing = r->frames.last;
     TRY(survey_marks(r, checkpoints, n_checkpoints));
@@ -534,6 +536,18 @@ done:
     return st;
 }
 
+/* Whether frames behind the requested ones are still to be made, for which a checkpoint is needed. */
+static bool frames_follow(const struct run *r)
+{
+    struct path path;
+    bool all = true;
+    for (int f = r->frames.last + r->job->frames.step; f <= r->job->frames.last && all;
+         f += r->job->frames.step)
+        all = folder_path(&path, r->options->root, r->job->name, FILE_MANIFEST, f, NULL) == OK &&
+              access(path.text, F_OK) == 0;
+    return !all;
+}
+
 status run_job(struct job *job, const struct run_options *options)
 {
     status st = OK;
@@ -558,7 +572,8 @@ status run_job(struct job *job, const struct run_options *options)
         TRY(survey(&r));
     if (options->resume != RUN_NEVER && r.other.step)
         TRY(owner_refuse_mixed(options->root, r.other, "setting of output, cameras, fps or colours"));
-    if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last)
+    const bool needed = r.no_checkpoint && frames_follow(&r);
+    if (options->repair || options->resume == RUN_NEVER || r.first_missing <= r.frames.last || needed)
         TRY(lock_folder(&r));
     else
         lock_sweep(r.lock_path.text);
@@ -566,7 +581,7 @@ status run_job(struct job *job, const struct run_options *options)
         TRY(advice_log(job, true));
     if (options->begin)
         options->begin(options->user, r.frames, r.n_done);
-    if (r.first_missing > r.frames.last && !(options->repair && r.lacks_checkpoint)) {
+    if (r.first_missing > r.frames.last && !needed && !(options->repair && r.lacks_checkpoint)) {
         log_info("all %zu frames are done already", r.n_done);
         st = complete_folder(&r);
         goto done;

@@ -3,7 +3,8 @@
  * Done        A frame is done when its manifest exists and belongs to this job, and its files are as the manifest lists them.
  * Resume      Work starts at the first frame that is not done, from the newest sound checkpoint at or before that frame, or from the
  *             job's first frame. Frames passed on the way that are already done are not written again. Work ends at the last frame that
- *             is not done, provided that the checkpoint of the last frame exists.
+ *             is not done, provided that the checkpoint of the last frame exists. If the folder has no checkpoint at all and later frames of
+ *             the job are missing, that of the last frame is made, too.
  * Changes     With `change`, a job that differs from the folder's only from a frame on keeps the frames before (owner.h).
  * Branches    A job with `from` starts from that checkpoint (branch.h), whose frame becomes the job's first.
  * Marks       The checkpoints of the frames in checkpoint.mark are kept; missing ones are made, by simulating again if necessary.
