@@ -167,6 +167,29 @@ static status check_material(const struct yaml *map, const struct job_material *
     return OK;
 }
 
+static status check_profiles(const struct yaml *map, const struct job_operation *op)
+{
+    const struct yaml *list = yaml_get(map, "profiles");
+    if (op->n_profiles && !op->n_profile)
+        return yaml_fail(list, NULL, "without profile, which the other points have");
+    for (size_t i = 0; i < op->n_profiles; i++) {
+        const struct job_point_profile *p = &op->profiles[i];
+        const struct yaml *item = yaml_item(list, i);
+        if (p->point >= (long long)op->n_points_m)
+            return yaml_fail(place(item, "point"), NULL,
+                             "%lld is not one of the %zu points, which count from 0", (long long)p->point,
+                             op->n_points_m);
+        if (p->n_profile != op->n_profile)
+            return yaml_fail(place(item, "profile"), NULL, "%zu points, but the sweep's profile has %zu",
+                             p->n_profile, op->n_profile);
+        for (size_t k = 0; k < i; k++)
+            if (op->profiles[k].point == p->point)
+                return yaml_fail(place(item, "point"), NULL, "point %lld has a profile already",
+                                 (long long)p->point);
+    }
+    return OK;
+}
+
 /* Checks what each tool requires. */
 static status check_operation(const struct yaml *map, const struct job_operation *op)
 {
@@ -193,7 +216,7 @@ static status check_operation(const struct yaml *map, const struct job_operation
                          op->n_end_profile, op->n_profile);
     if (op->tool == TOOL_SWEEP && op->n_points_m < 2)
         return yaml_fail(place(map, "points_m"), NULL, "a sweep needs at least two points");
-    return OK;
+    return check_profiles(map, op);
 }
 
 /* Checks a range of stratigraphic heights. */

@@ -43,18 +43,9 @@ static void curve_of(const double (*control)[2], size_t n, double out[PROFILE_PO
     }
 }
 
-static void make_profiles(struct path *p, const struct job_operation *op)
+/* Fills a table with the blends of two profiles. */
+static void make_table(struct path *p, size_t table, double ends[2][PROFILE_POINTS][2])
 {
-    double ends[2][PROFILE_POINTS][2];
-    p->round = op->n_profile == 0;
-    for (int a = 0; a < 2; a++) {
-        p->lo[a] = -p->round;
-        p->hi[a] = p->round;
-    }
-    if (p->round)
-        return;
-    curve_of((const double(*)[2])op->profile, op->n_profile, ends[0]);
-    curve_of((const double(*)[2])(op->n_end_profile ? op->end_profile : op->profile), op->n_profile, ends[1]);
     for (int s = 0; s < PROFILE_STEPS; s++) {
         double at[PROFILE_POINTS][2], share = (double)s / (PROFILE_STEPS - 1);
         for (int k = 0; k < PROFILE_POINTS; k++)
@@ -69,7 +60,7 @@ static void make_profiles(struct path *p, const struct job_operation *op)
             double square = e.ex * e.ex + e.ey * e.ey;
             e.inverse = square > 0 ? 1 / square : 0;
             e.slope = e.ey != 0 ? e.ex / e.ey : 0;
-            p->profile[s][k] = e;
+            p->profile[table * PROFILE_STEPS + (size_t)s][k] = e;
         }
     }
 }
@@ -174,6 +165,67 @@ static void graph_free(struct graph *g)
     free(g->distance);
 }
 
+/* ---- the profiles along the graph: one table for all of it, or if points have profiles of their own, one for each arc and each
+ * isolated point */
+
+static void profile_at_point(const struct graph *g, size_t point, double ends[2][PROFILE_POINTS][2],
+                             double out[PROFILE_POINTS][2])
+{
+    const struct job_operation *op = g->op;
+    const double share = g->longest > 0 ? g->distance[point] / g->longest : 0;
+    for (int k = 0; k < PROFILE_POINTS; k++)
+        for (int a = 0; a < 2; a++)
+            out[k][a] = ends[0][k][a] + share * (ends[1][k][a] - ends[0][k][a]);
+    for (size_t i = 0; i < op->n_profiles; i++)
+        if ((size_t)op->profiles[i].point == point)
+            curve_of((const double(*)[2])op->profiles[i].profile, op->profiles[i].n_profile, out);
+}
+
+static size_t table_of_point(const struct graph *g, size_t point)
+{
+    size_t table = g->n_arcs;
+    for (size_t p = 0; p < point; p++)
+        table += !g->joined[p];
+    return table;
+}
+
+static status make_profiles(struct path *p, const struct graph *g)
+{
+    status st = OK;
+    const struct job_operation *op = g->op;
+    double ends[2][PROFILE_POINTS][2], own[2][PROFILE_POINTS][2];
+    p->round = op->n_profile == 0;
+    for (int a = 0; a < 2; a++) {
+        p->lo[a] = -p->round;
+        p->hi[a] = p->round;
+    }
+    if (p->round)
+        return OK;
+    curve_of((const double(*)[2])op->profile, op->n_profile, ends[0]);
+    curve_of((const double(*)[2])(op->n_end_profile ? op->end_profile : op->profile), op->n_profile, ends[1]);
+    const size_t n = op->n_profiles ? table_of_point(g, op->n_points_m) : 1;
+    TRY(memory_alloc(n * PROFILE_STEPS, sizeof *p->profile, "profiles", &p->profile));
+    if (!op->n_profiles) {
+        make_table(p, 0, ends);
+        return OK;
+    }
+    for (size_t arc = 0; arc < g->n_arcs; arc++) {
+        size_t end[2];
+        arc_of(g, arc, end);
+        for (int e = 0; e < 2; e++)
+            profile_at_point(g, end[e], ends, own[e]);
+        make_table(p, arc, own);
+    }
+    for (size_t point = 0; point < op->n_points_m; point++)
+        if (!g->joined[point]) {
+            profile_at_point(g, point, ends, own[0]);
+            memcpy(own[1], own[0], sizeof own[1]);
+            make_table(p, table_of_point(g, point), own);
+        }
+done:
+    return st;
+}
+
 /* ---- segments */
 
 struct builder {
@@ -260,7 +312,8 @@ static status add_arc(struct builder *m, size_t arc)
     }
     double least = fmin(p[1][3], p[2][3]), length = arc_length(g, arc);
     int n = (int)fmin(fmax(ceil(length / (0.3 * least)), 1), MAX_ARC_SEGMENTS);
-    struct path_segment segment = {0};
+    const bool own = g->op->n_profiles > 0;
+    struct path_segment segment = {.table = own ? (uint32_t)arc : 0};
     for (int k = 0; k <= n; k++) {
         double t = (double)k / n;
         struct path_end e = {0};
@@ -271,6 +324,7 @@ static status add_arc(struct builder *m, size_t arc)
         e.radius = fmax(cubic(p[0][3], p[1][3], p[2][3], p[3][3], t), 0.5 * least);
         double far = g->distance[end[0]] + t * (g->distance[end[1]] - g->distance[end[0]]);
         e.share = g->longest > 0 ? far / g->longest : 0;
+        e.step = own ? t : e.share;
         TRY(make_end(m, &e));
         segment.end[0] = segment.end[1];
         segment.end[1] = e;
@@ -290,7 +344,10 @@ static status add_point(struct builder *m, size_t point)
     struct path_end e = {.at = {at[0], at[1], at[2]}, .radius = at[3], .along = {1, 0, 0}};
     status st = make_end(m, &e);
     if (st == OK && (m->from <= 0))
-        st = add_segment(m->path, &(struct path_segment){.end = {e, e}});
+        st = add_segment(
+            m->path, &(struct path_segment){
+                         .end = {e, e},
+                         .table = m->graph->op->n_profiles ? (uint32_t)table_of_point(m->graph, point) : 0});
     return st;
 }
 
@@ -372,8 +429,8 @@ status path_create(const struct job_operation *op, const struct surface *surface
     *out = (struct path){0};
     if (surface)
         builder.smooth = *surface;
-    make_profiles(out, op);
     TRY(graph_create(op, &graph));
+    TRY(make_profiles(out, &graph));
     for (size_t arc = 0; arc < graph.n_arcs; arc++)
         TRY(add_arc(&builder, arc));
     for (size_t p = 0; p < op->n_points_m; p++)
@@ -392,6 +449,7 @@ done:
 void path_destroy(struct path *p)
 {
     free(p->segment);
+    free(p->profile);
     free(p->first);
     free(p->list);
     *p = (struct path){0};
@@ -483,9 +541,10 @@ static double in_prism(const struct path *p, const struct path_segment *segment,
         return nearest;
     double t = length > 0 ? smaller(larger(-before / length, 0), 1) : 0.5;
     double x = mix(dot3(ax, a->side), dot3(bx, b->side), t), y = mix(dot3(ax, a->up), dot3(bx, b->up), t);
-    int step = (int)lrint(mix(a->share, b->share, t) * (PROFILE_STEPS - 1));
+    size_t step = (size_t)lrint(mix(a->step, b->step, t) * (PROFILE_STEPS - 1));
     *radius = mix(a->radius, b->radius, t);
-    double section = *radius * polygon_distance(p->profile[step], x / *radius, y / *radius);
+    double section = *radius * polygon_distance(p->profile[segment->table * PROFILE_STEPS + step],
+                                                x / *radius, y / *radius);
     /* The plane between two segments is not a wall. */
     if (segment->first || before > 0)
         section = larger(section, before);

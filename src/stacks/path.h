@@ -10,11 +10,13 @@ struct path_end {
     double at[3], radius;
     double along[3], side[3], up[3]; /* orthonormal: the path's direction and the profile's two axes */
     double share; /* distance along the path from the first point, as a share of the longest, 0..1 */
+    double step;  /* where between the first and the last profile of its table, 0..1 */
 };
 
 struct path_segment {
     struct path_end end[2];
     bool first, last;    /* the path begins or ends here, with a flat end */
+    uint32_t table;      /* of profiles */
     double lo[3], hi[3]; /* m, bounding box of the swept volume */
 };
 
@@ -27,7 +29,7 @@ struct path {
     double lo[2], hi[2]; /* the profiles' bounding rectangle, in radii */
     struct profile_edge {
         double x, y, ex, ey, inverse, slope; /* start, vector, 1 / length squared, ex / ey */
-    } profile[PROFILE_STEPS][PROFILE_POINTS];
+    } (*profile)[PROFILE_POINTS];            /* [tables][PROFILE_STEPS]: blended from the first to the last */
     /* The segments that reach each block of 8 x 8 stacks: list[first[b] .. first[b + 1]). */
     int blocks[2];
     uint32_t *first, *list;

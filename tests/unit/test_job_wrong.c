@@ -13,7 +13,22 @@ struct wrong {
     const char *says[3];   /* parts of the message */
 };
 
+#define SWEEP(more)                                                                                                \
+    "fps: 25",                                                                                                     \
+        "fps: 25\narches: {operations: [{tool: sweep, frames: 1001, points_m: [[0, 0, 0, 1], [9, 0, 0, 1]], " more \
+        "}]}"
+#define THREE "[[0, 0], [1, 0], [0, 1]]"
+
 static const struct wrong wrong[] = {
+    /* profiles at points */
+    {SWEEP("profiles: [{point: 0, profile: " THREE "}]"), {"operations.0.profiles: without profile"}},
+    {SWEEP("profile: " THREE ", profiles: [{point: 2, profile: " THREE "}]"),
+     {"profiles.0.point: 2 is not one of the 2 points"}},
+    {SWEEP("profile: " THREE ", profiles: [{point: 1, profile: [[0, 0], [1, 0], [1, 1], [0, 1]]}]"),
+     {"profiles.0.profile: 4 points, but the sweep's profile has 3"}},
+    {SWEEP("profile: " THREE ", profiles: [{point: 1, profile: " THREE "}, {point: 1, profile: " THREE "}]"),
+     {"profiles.1.point: point 1 has a profile already"}},
+    {SWEEP("profile: " THREE ", profiles: [{profile: " THREE "}]"), {"profiles.0.point: missing"}},
     /* keys */
     {"spacing_m: 0.5",
      "spacng_m: 0.5",

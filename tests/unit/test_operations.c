@@ -209,6 +209,77 @@ static double spline_area(const double (*c)[2], int n)
     return fabs(area_of((const double(*)[2])v, 4096));
 }
 
+/* What a sweep carves between x0 and x1, m3. */
+static double carved(const struct stacks *s, int x0, int x1)
+{
+    double air = 0;
+    for (int j = 0; j < s->n[1]; j++)
+        for (int i = x0; i < x1; i++) {
+            size_t n;
+            const uint32_t *layer = stacks_column(s, i, j, &n);
+            double below = 0;
+            for (size_t k = 0; k < n; k++) {
+                const double top = layer_top(layer[k]) * s->quantum;
+                if (layer_material(layer[k]) == MATERIAL_AIR && top < 100)
+                    air += top - below;
+                below = top;
+            }
+        }
+    return air * s->cell * s->cell;
+}
+
+/* Points with profiles of their own: along a path the volume of each arc is that of the blend of its ends, and on a graph a branch has its
+ * own, wherever the others are as far from the first point. */
+static void profiles_at_points(double eight[8][2], double square[8][2])
+{
+    double at[4][4] = {{14, 48, 50, 16}, {46, 48, 50, 16}, {78, 48, 50, 16}, {110, 48, 50, 16}}, flat[8][2];
+    for (int k = 0; k < 8; k++) {
+        flat[k][0] = square[k][0];
+        flat[k][1] = 0.4 * square[k][1];
+    }
+    struct job_point_profile own[2] = {{.point = 1, .profile = square, .n_profile = 8},
+                                       {.point = 2, .profile = flat, .n_profile = 8}};
+    double(*const ends[3][2])[2] = {{eight, square}, {square, flat}, {flat, eight}};
+    struct stacks s = block(128, 96, 128, 100);
+    struct job_operation op = tool(TOOL_SWEEP, at, 4);
+    int lo[2], hi[2];
+    op.profile = eight;
+    op.n_profile = 8;
+    op.profiles = own;
+    op.n_profiles = 2;
+    apply(&s, &op, 1, lo, hi);
+    for (int arc = 0; arc < 3; arc++) {
+        double exact = 0, taken = carved(&s, 14 + 32 * arc, 46 + 32 * arc);
+        for (int k = 0; k < 32; k++) {
+            double mixed[8][2], t = (k + 0.5) / 32;
+            for (int p = 0; p < 8; p++)
+                for (int a = 0; a < 2; a++)
+                    mixed[p][a] = (1 - t) * ends[arc][0][p][a] + t * ends[arc][1][p][a];
+            exact += 256 * spline_area((const double(*)[2])mixed, 8);
+        }
+        print_message("# between points %d and %d: %.0f m3, exactly %.0f\n", arc, arc + 1, taken, exact);
+        assert_true(fabs(taken - exact) < 0.03 * exact);
+    }
+    stacks_destroy(&s);
+    /* Two branches as long as each other: only one of them becomes flat. */
+    double fork[3][4] = {{64, 48, 50, 10}, {14, 48, 50, 10}, {114, 48, 50, 10}},
+           arcs[2][2] = {{0, 1}, {0, 2}};
+    struct stacks two = block(128, 96, 128, 100);
+    struct job_operation branch = tool(TOOL_SWEEP, fork, 3);
+    branch.arcs = arcs;
+    branch.n_arcs = 2;
+    branch.profile = square;
+    branch.n_profile = 8;
+    own[0] = (struct job_point_profile){.point = 2, .profile = flat, .n_profile = 8};
+    branch.profiles = own;
+    branch.n_profiles = 1;
+    apply(&two, &branch, 1, lo, hi);
+    const double left = carved(&two, 14, 64), right = carved(&two, 64, 114);
+    print_message("# branches of one size and one that becomes flat: %.0f and %.0f m3\n", left, right);
+    assert_true(fabs(right / left - 0.7) < 0.03);
+    stacks_destroy(&two);
+}
+
 static void test_profiles(void **state)
 {
     (void)state;
@@ -241,6 +312,7 @@ static void test_profiles(void **state)
         assert_true(fabs(taken - exact) < 0.02 * exact);
         stacks_destroy(&s);
     }
+    profiles_at_points(eight, square);
     /* A rough wall, and nothing but air within: noise moves the wall only. */
     struct stacks rough = block(128, 96, 128, 100);
     double bent[3][4] = {{14, 40, 50, 14}, {60, 56, 50, 14}, {114, 44, 50, 14}};
