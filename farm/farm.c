@@ -128,7 +128,7 @@ status farm_measure(struct farm *f)
     struct path root;
     for (size_t i = 0; i < f->n_wedges; i++) {
         TRY(farm_root(f, (int)f->wedge[i].job->wedge.index, &root));
-        f->wedge[i].frame_seconds = timing_frame_seconds(root.text);
+        TRY(timing_frame_seconds(root.text, &f->wedge[i].frame_seconds));
     }
 done:
     return st;

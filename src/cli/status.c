@@ -113,9 +113,12 @@ static void add_damaged(const struct survey *s, struct text *out)
     json_end_array(out);
 }
 
-static void add_rate(const struct survey *s, struct text *out)
+static status add_rate(const struct survey *s, struct text *out)
 {
-    const double each = timing_frame_seconds(s->root), now = (double)time(NULL);
+    status st = OK;
+    const double now = (double)time(NULL);
+    double each;
+    TRY(timing_frame_seconds(s->root, &each));
     if (each > 0) {
         json_number(out, "frames_per_second", (double)(int64_t)(1e4 / each) / 1e4);
         json_integer(out, "time_left_seconds",
@@ -123,6 +126,8 @@ static void add_rate(const struct survey *s, struct text *out)
     }
     if (s->n[STATE_DONE])
         json_integer(out, "since_last_frame_seconds", (int64_t)(now > s->written ? now - s->written : 0));
+done:
+    return st;
 }
 
 static status add_checkpoints(const struct survey *s, struct text *out)
@@ -155,7 +160,7 @@ static status answer_status(struct survey *s, bool words, struct text *out)
     add_ranges(s, STATE_MISSING, "frames_missing", out);
     add_ranges(s, STATE_DAMAGED, "frames_damaged", out);
     TRY(add_checkpoints(s, out));
-    add_rate(s, out);
+    TRY(add_rate(s, out));
     if (s->n[STATE_DAMAGED])
         add_damaged(s, out);
     if (farm_is(s->root))

@@ -120,28 +120,38 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-double timing_frame_seconds(const char *root)
+/* The seconds in a line, or -1: the first line may be cut, and the last if a machine died in it. */
+static status seconds_of(const char *line, size_t length, double *seconds)
+{
+    struct json *json = NULL;
+    const status st = json_read(NULL, line, length, &json);
+    const struct json *s = st == OK ? json_member(json, "seconds") : NULL;
+    *seconds = s && s->kind == JSON_NUMBER && s->number >= 0 && isfinite(s->number) ? s->number : -1;
+    json_free(&json);
+    return st == E_MEMORY ? st : OK;
+}
+
+status timing_frame_seconds(const char *root, double *seconds)
 {
     enum { RECENT = 50, LEAST = 3, END = 4096 };
+    status st = OK;
     char end[END];
-    double seconds[RECENT];
+    double each, recent[RECENT];
     size_t n = 0;
+    *seconds = 0;
     read_end(root, end, sizeof end);
-    for (char *line = end, *next; *line; line = next) {
-        struct json *json = NULL;
+    for (const char *line = end; *line;) {
         const size_t length = strcspn(line, "\n");
-        next = line + length + (line[length] == '\n');
-        if (json_read(NULL, line, length, &json) ==
-            OK) { /* the first line may be cut, and the last if a machine died in it */
-            const struct json *s = json_member(json, "seconds");
-            if (s && s->kind == JSON_NUMBER && s->number >= 0 && isfinite(s->number))
-                seconds[n++ % RECENT] = s->number;
-        }
-        json_free(&json);
+        TRY(seconds_of(line, length, &each));
+        if (each >= 0)
+            recent[n++ % RECENT] = each;
+        line += length + (line[length] == '\n');
     }
     if (n < LEAST)
-        return 0;
+        return OK;
     n = n < RECENT ? n : RECENT;
-    qsort(seconds, n, sizeof *seconds, ascending);
-    return seconds[n / 2];
+    qsort(recent, n, sizeof *recent, ascending);
+    *seconds = recent[n / 2];
+done:
+    return st;
 }

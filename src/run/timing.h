@@ -19,7 +19,7 @@ void timing_write(const char *root, const struct gpu *gpu, int first, int last, 
 /* Appends a line to frames.jsonl. Errors are only logged. */
 void timing_add_frame(const char *root, int frame, double seconds);
 
-/* The median of the last frames, in seconds, so that a pause among them has no effect; 0 if fewer than three are known. */
-double timing_frame_seconds(const char *root);
+/* *seconds: the median of the last frames, so that a pause among them has no effect; 0 if fewer than three are known. E_MEMORY. */
+MUST_USE status timing_frame_seconds(const char *root, double *seconds);
 
 #endif
