@@ -1,21 +1,40 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per thread, over every NUMBERS_THREADS-th value: the smallest number of a value that is not finite or exceeds
-// its limit.
+// Per thread and array, over every NUMBERS_THREADS-th value: the smallest number of a value that
+// is not finite or exceeds its limit.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_F(0, value)
-WRITE_U(1, found)
+READ_F(0, array_0)
+READ_F(1, array_1)
+READ_F(2, array_2)
+READ_F(3, array_3)
+READ_F(4, array_4)
+READ_F(5, array_5)
+READ_F(6, array_6)
+READ_F(7, array_7)
+WRITE_U(8, found)
 PARAMS(numbers_params)
+
+// Not "> most", which is false for NaN.
+#define CHECK(b, name)                                                                                      \
+    {                                                                                                       \
+        uint first = 0xffffffffu;                                                                           \
+        for (uint i = THREAD; i < k.n[b]; i += NUMBERS_THREADS)                                             \
+            if (!(abs(LOAD_F(name, i)) <= k.most))                                                          \
+                first = min(first, i);                                                                      \
+        if (first != 0xffffffffu)                                                                           \
+            atomicMin(AT(found, k.slot[b]), first);                                                         \
+    }
 
 void main()
 {
-    uint first = 0xffffffffu;
-    // Not "> most", which is false for NaN.
-    for (uint i = THREAD; i < k.n; i += NUMBERS_THREADS)
-        if (!(abs(LOAD_F(value, i)) <= k.most))
-            first = min(first, i);
-    if (first != 0xffffffffu)
-        atomicMin(AT(found, k.slot), first);
+    CHECK(0, array_0)
+    CHECK(1, array_1)
+    CHECK(2, array_2)
+    CHECK(3, array_3)
+    CHECK(4, array_4)
+    CHECK(5, array_5)
+    CHECK(6, array_6)
+    CHECK(7, array_7)
 }

@@ -1,21 +1,40 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Per thread, over every NUMBERS_THREADS-th vector: the smallest number of a vector with a component that is
-// not finite or exceeds its limit.
+// Per thread and array, over every NUMBERS_THREADS-th vector: the smallest number of a vector with a component that
+// is not finite or exceeds its limit.
 #include "shared/buffers.glsl"
 #include "shared/params.h"
 
-READ_V(0, value)
-WRITE_U(1, found)
+READ_V(0, array_0)
+READ_V(1, array_1)
+READ_V(2, array_2)
+READ_V(3, array_3)
+READ_V(4, array_4)
+READ_V(5, array_5)
+READ_V(6, array_6)
+READ_V(7, array_7)
+WRITE_U(8, found)
 PARAMS(numbers_params)
+
+// Not "> most", which is false for NaN.
+#define CHECK(b, name)                                                                                      \
+    {                                                                                                       \
+        uint first = 0xffffffffu;                                                                           \
+        for (uint i = THREAD; i < k.n[b]; i += NUMBERS_THREADS)                                             \
+            if (!(all(lessThanEqual(abs(LOAD_V(name, i)), vec4(k.most)))))                                  \
+                first = min(first, i);                                                                      \
+        if (first != 0xffffffffu)                                                                           \
+            atomicMin(AT(found, k.slot[b]), first);                                                         \
+    }
 
 void main()
 {
-    uint first = 0xffffffffu;
-    // Not "> most", which is false for NaN.
-    for (uint i = THREAD; i < k.n; i += NUMBERS_THREADS)
-        if (!(all(lessThanEqual(abs(LOAD_V(value, i)), vec4(k.most)))))
-            first = min(first, i);
-    if (first != 0xffffffffu)
-        atomicMin(AT(found, k.slot), first);
+    CHECK(0, array_0)
+    CHECK(1, array_1)
+    CHECK(2, array_2)
+    CHECK(3, array_3)
+    CHECK(4, array_4)
+    CHECK(5, array_5)
+    CHECK(6, array_6)
+    CHECK(7, array_7)
 }

@@ -19,14 +19,16 @@ SHARED_SIZE(count_params, 4)
 
 /* ---- numbers */
 
-/* found[slot] becomes the smallest number of an item that is not finite or whose magnitude exceeds `most`. NUMBERS_THREADS threads
- * check every NUMBERS_THREADS-th item each: on a CPU device, starting a thread costs more than checking a number. */
+/* For each of NUMBERS_ARRAYS arrays of n items, found[slot] becomes the smallest number of an item that is not finite or whose magnitude
+ * exceeds `most`. NUMBERS_THREADS threads check every NUMBERS_THREADS-th item each. On a CPU device, starting a thread costs more than
+ * checking a number, and starting a kernel more than checking an array of a small job. */
 #define NUMBERS_THREADS 8192u
+#define NUMBERS_ARRAYS 8
 struct numbers_params {
-    uint n, slot;
+    uint n[NUMBERS_ARRAYS], slot[NUMBERS_ARRAYS];
     float most;
 };
-SHARED_SIZE(numbers_params, 12)
+SHARED_SIZE(numbers_params, 68)
 
 /* ---- gpu: scan, sort, reduce */
 

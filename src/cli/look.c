@@ -366,7 +366,8 @@ status cli_look(int argc, char **argv)
     l.options.frame = frame_done;
     l.options.user = &l;
     signals_install();
-    TRY(look_begin(l.common.device, &look));
+    TRY(look_begin(l.common.device, spacing > 0 || l.common.from ? HUGE_VAL : l.options.sketch.seconds,
+                   &look));
     l.options.sketch.gpu = look_on_gpu(look);
     TRY(page ? serve(&l, look, port) : l.watch ? watch_loop(&l, look) : look_once(&l, look));
 done:

@@ -17,8 +17,9 @@
 
 struct look;
 
-/* Opens the device. Errors as gpu_create(). */
-MUST_USE status look_begin(const char *device, struct look **out);
+/* Opens the device. `seconds`: what looks may take (struct sketch_options); if few, lavapipe is asked to work without threads of its own,
+ * unless LP_NUM_THREADS is set: handing them a small kernel takes longer than the kernel. Errors as gpu_create(). */
+MUST_USE status look_begin(const char *device, double seconds, struct look **out);
 void look_end(struct look **look);
 
 /* Is the device a GPU? */

@@ -33,14 +33,32 @@ status numbers_create(struct gpu *gpu, struct gpu_buffer **found)
     return gpu_buffer_create(gpu, "numbers found", WATCHED_MOST, 4, found);
 }
 
-static void look(struct gpu *gpu, struct gpu_buffer *found, const struct watched *w, unsigned slot)
+/* Looks through the arrays whose items have that many bytes, NUMBERS_ARRAYS at a time. */
+static void look(struct gpu *gpu, struct gpu_buffer *found, const struct watch_list *l, size_t item_bytes)
 {
-    const struct numbers_params k = {(uint)w->n, slot, MOST};
-    const size_t threads = w->n < NUMBERS_THREADS ? w->n : NUMBERS_THREADS;
-    if (gpu_buffer_item(w->buffer) == 16)
-        GPU_RUN(gpu, numbers_vectors, threads, k, w->buffer, found);
-    else
-        GPU_RUN(gpu, numbers_scalars, threads, k, w->buffer, found);
+    for (size_t i = 0; i < l->n;) {
+        struct numbers_params k = {.most = MOST};
+        struct gpu_buffer *b[NUMBERS_ARRAYS];
+        size_t n = 0, threads = 0;
+        for (; i < l->n && n < NUMBERS_ARRAYS; i++) {
+            const struct watched *w = &l->item[i];
+            if ((gpu_buffer_item(w->buffer) == 16) != (item_bytes == 16))
+                continue;
+            b[n] = w->buffer;
+            k.n[n] = (uint)w->n;
+            k.slot[n++] = (uint)i;
+            threads = w->n > threads ? w->n : threads;
+        }
+        if (n == 0)
+            return;
+        for (size_t rest = n; rest < NUMBERS_ARRAYS; rest++) /* of which no item is checked */
+            b[rest] = b[0];
+        threads = threads < NUMBERS_THREADS ? threads : NUMBERS_THREADS;
+        if (item_bytes == 16)
+            GPU_RUN(gpu, numbers_vectors, threads, k, b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], found);
+        else
+            GPU_RUN(gpu, numbers_scalars, threads, k, b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], found);
+    }
 }
 
 /* Writes "particle 7 at (1, 2, 3) m" or "number 7 of NAME". */
@@ -93,8 +111,8 @@ status numbers_check(struct gpu *gpu, struct gpu_buffer *found, const struct wat
     if (l->n == 0)
         return OK;
     gpu_fill(gpu, found, (uint32_t)NONE_BAD);
-    for (size_t i = 0; i < l->n; i++)
-        look(gpu, found, &l->item[i], (unsigned)i);
+    look(gpu, found, l, 4);
+    look(gpu, found, l, 16);
     TRY(gpu_download(gpu, found, 0, first, l->n));
     for (size_t i = 0; i < l->n; i++)
         if (first[i] != (uint32_t)NONE_BAD)

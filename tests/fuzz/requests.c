@@ -31,7 +31,7 @@ int LLVMFuzzerInitialize(int *argc, char ***argv)
     options.sketch = (struct sketch_options){
         .path = strdup(fuzz_file("n.yaml", job, sizeof job - 1)), .width = 64, .samples = 1, .seconds = 1};
     live.options = &options;
-    if (look_begin("cpu", &live.look) != OK || serve_begin(0, live_answer, &live, &serve) != OK) {
+    if (look_begin("cpu", 2, &live.look) != OK || serve_begin(0, live_answer, &live, &serve) != OK) {
         fprintf(stderr, "%s\n", status_message());
         abort();
     }
