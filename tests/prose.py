@@ -119,7 +119,7 @@ KEYS |= {key.replace("farm.sim", f"farm.{kind}") for key in KEYS if key.startswi
 SECTIONS = {key.split(".")[0] for key in KEYS if "." in key}
 # Names with a dot that are not keys: the layers of pictures, and members of structures.
 OTHER = set(re.findall(r"`([a-z_]+\.[A-Za-z_]+)`", read("jobs/README.md").split("## Values")[-1]))
-OTHER.add("erosion.intensity")
+OTHER |= {"erosion.intensity", "voxels.left", "voxels.state", "voxels.x", "voxels.y", "voxels.z"}
 FILE_ENDINGS = (".yaml", ".png", ".vdb", ".exr", ".usda", ".json")
 KEY = r"[a-z_]+(?:\[\])?(?:\.[A-Za-z0-9_]+(?:\[\])?)+"
 

@@ -292,7 +292,7 @@ static bool is_sound(const struct search *s, int frame)
 static bool is_ours(const struct search *s, const char *folder, const char *file)
 {
     static const char *const endings[] = {".usda", ".png",  ".mp4", /* beside the folders only these */
-                                          ".vdb",  ".usdc", ".exr", ".stacks",
+                                          ".vdb",  ".usdc", ".exr", ".stacks", ".voxels",
                                           ".ply",  ".obj",  ".mtl", ".pov"};
     const size_t n = strlen(s->name), n_endings = *folder ? sizeof endings / sizeof *endings : 3;
     const char *dot = strrchr(file, '.');
@@ -309,9 +309,10 @@ static bool is_ours(const struct search *s, const char *folder, const char *file
 }
 
 /* The folders of the files that hoodoo writes; the first ones hold files of frames only, which manifests list. */
-enum { FRAME_FOLDERS = 5 };
-static const char *const stray_folders[] = {"points/", "volumes/", "wind/",      "stacks/", "rocks/", "aov/",
-                                            "mesh/",   "preview/", "turntable/", "report/", ""};
+enum { FRAME_FOLDERS = 6 };
+static const char *const stray_folders[] = {"points/",  "volumes/",   "wind/",   "stacks/",
+                                            "voxels/",  "rocks/",     "aov/",    "mesh/",
+                                            "preview/", "turntable/", "report/", ""};
 
 /* Frames of the job without a sound manifest are reported already, and are made again with all their files. */
 static bool is_stray(const struct search *s, int frame)

@@ -41,6 +41,7 @@ enum job_shape {
     SHAPE_JOINTMAP,
     SHAPE_STROKE,
     SHAPE_STACKS,
+    SHAPE_VOXELS,
     SHAPE_VOLUME,
     SHAPE_FUNCTION
 };
@@ -111,6 +112,7 @@ struct job_node {
         struct job_jointmap jointmap;
         struct job_stroke stroke;
         struct job_stacks stacks;
+        struct job_voxels voxels;
         struct job_volume volume;
         struct job_function function;
         struct job_group group; /* operators */

@@ -27,6 +27,7 @@
 #include "model/type.h"
 #include "particles/particles.h"
 #include "scene/scene.h"
+#include "shape/voxel_file.h"
 #include "stress/elastic.h"
 #include "voxels/support.h"
 #include "voxels/voxels.h"
@@ -247,6 +248,12 @@ done:
     return st;
 }
 
+static bool wants_voxels(const struct job *job, int frame)
+{
+    return job->goblins.voxels == VOXELS_ALL ||
+           (job->goblins.voxels == VOXELS_LAST && frame == job->frames.last);
+}
+
 static status output(struct model *m, struct frame *out)
 {
     status st = OK;
@@ -260,6 +267,8 @@ static status output(struct model *m, struct frame *out)
     TRY(memory_alloc(n, sizeof *factor, "voxels", &factor));
     TRY(voxels_download(m->gpu, &g->voxels, share, factor));
     out->volume_m3 = volume_of(m, share);
+    if (m->makes == MAKES_FILES && wants_voxels(m->job, m->frame))
+        TRY(voxel_file_encode(m->voxels, m->h, share, &out->voxels.bytes, &out->voxels.size));
     if (!wants.points && !wants.volumes && !wants.pictures)
         goto done;
     TRY(make_rock(g, share, factor, &rock));
@@ -453,6 +462,9 @@ static status estimate(const struct job *job, struct model_needs *needs)
     needs->frame.samples = host_grid_samples(needs->voxels, needs->size.n_particles, needs->size.n_surface);
     needs->disk = stressed_ever ? stressed : bare;
     needs->checkpoint_bytes = (uint64_t)(0.1 * (double)state);
+    if (job->goblins.voxels ==
+        VOXELS_ALL) /* runs of equal voxels, of which the surface has two or three per row that it crosses */
+        needs->disk_other = 8 * (uint64_t)needs->size.n_surface;
     needs->steps = cycles(job);
     needs->kernels = 70;
 done:

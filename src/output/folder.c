@@ -39,8 +39,9 @@ static const struct {
     [FILE_STAGE] = {NULL, "usda"},
     [FILE_WIND] = {"wind", "vdb"},
     [FILE_MESH_USD] = {"mesh", "usdc"},
+    [FILE_VOXELS] = {"voxels", "voxels"},
 };
-/* The folders that folder_prepare() creates. The others are created when they are first needed: rocks, stacks and wind by the writer,
+/* The folders that folder_prepare() creates. The others are created when they are first needed: rocks, stacks, voxels and wind by the writer,
  * mesh, preview, turntable and report by their verbs. */
 static const enum folder_file always[] = {FILE_POINTS, FILE_VOLUMES, FILE_AOV, FILE_MANIFEST,
                                           FILE_CHECKPOINT};

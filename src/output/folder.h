@@ -32,7 +32,8 @@ enum folder_file { /* the identity of a VDB depends on these numbers: add new ki
                    FILE_WEDGES, /* contact sheet of a farm's wedges */
                    FILE_STAGE,
                    FILE_WIND,
-                   FILE_MESH_USD
+                   FILE_MESH_USD,
+                   FILE_VOXELS
 };
 
 /* The path of a file relative to the output folder, such as points/NAME.1001.vdb; `name` is the job's. `part`, unless NULL, becomes part

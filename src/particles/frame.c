@@ -22,6 +22,7 @@ void frame_free(struct frame *frame)
     rock_free(&frame->rocks.at);
     free(frame->rocks.box);
     free(frame->stacks.bytes);
+    free(frame->voxels.bytes);
     frame_grids_free(&frame->grids);
     frame_grids_free(&frame->air);
     for (size_t i = 0; i < frame->n_images; i++)

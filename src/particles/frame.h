@@ -85,6 +85,7 @@ struct frame {
     struct frame_grids air; /* the wind; without a grid if it is uniform or not requested */
     struct frame_rocks rocks;
     struct frame_bytes stacks; /* arches: the .stacks file */
+    struct frame_bytes voxels; /* goblins: the .voxels file */
     size_t n_images;
     struct aov_image *image;
     struct ledger ledger;

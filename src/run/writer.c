@@ -194,11 +194,16 @@ status frame_write(const struct job *job, const struct job_states *states, const
     }
     TRY(write_vdbs(job, hash, root, frame, &manifest));
     TRY(write_images(job, hash, root, frame, &manifest));
-    if (frame->stacks.bytes) {
-        TRY(begin_file(root, job->name, FILE_STACKS, frame->number, NULL, &file));
-        TRY(draft_append(&file, frame->stacks.bytes, frame->stacks.size));
-        TRY(end_file(root, &file, &manifest));
-    }
+    const struct {
+        enum folder_file kind;
+        const struct frame_bytes *is;
+    } more[] = {{FILE_STACKS, &frame->stacks}, {FILE_VOXELS, &frame->voxels}};
+    for (size_t i = 0; i < sizeof more / sizeof *more; i++)
+        if (more[i].is->bytes) {
+            TRY(begin_file(root, job->name, more[i].kind, frame->number, NULL, &file));
+            TRY(draft_append(&file, more[i].is->bytes, more[i].is->size));
+            TRY(end_file(root, &file, &manifest));
+        }
     if (*root)
         TRY(manifest_write(root, job->name, &manifest));
 done:

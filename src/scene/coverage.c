@@ -14,15 +14,6 @@ struct coverage {
     uint8_t *share;
 };
 
-/* Coordinate a of probe i in the unit voxel. The 64 probes are a rank-1 lattice: as many as in a 4 x 4 x 4 grid, but with 64 different
- * coordinates on each axis instead of 4, so that axis-aligned faces are resolved to h/64. Slanted planes are more accurate, too (rms
- * error 1.7 % of the voxel instead of 2.0 %). */
-static double probe(int i, int a)
-{
-    static const int step[3] = {1, 47, 57};
-    return ((i * step[a]) % COVERAGE_FULL + 0.5) / COVERAGE_FULL;
-}
-
 /* solid_in_box() of cell `at` of a grid of `side` voxels. Its faces may be the solid's, for no probe is on a face. */
 static enum solid_share in_voxels(const struct solid *solid, double h, const double at[3], double side)
 {

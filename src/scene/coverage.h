@@ -11,8 +11,9 @@
 #include <stdint.h>
 
 #include "base/status.h"
+#include "shape/probes.h"
 
-enum { BRICK = 4, COVERAGE_FULL = 64 };
+enum { BRICK = 4, COVERAGE_FULL = PROBES };
 
 /* Half the diagonal of a brick, in spacings: if its centre is farther from the surface, the surface does not cross it. The solid's
  * distances must reach this far. */

@@ -52,6 +52,7 @@ static status walk(const struct job_node *node, const struct solid *solid, doubl
     const char *file = node->kind != NODE_SHAPE           ? NULL
                        : node->shape == SHAPE_MESH        ? node->u.mesh.file
                        : node->shape == SHAPE_VOLUME      ? node->u.volume.file
+                       : node->shape == SHAPE_VOXELS      ? node->u.voxels.file
                        : node->shape == SHAPE_HEIGHTFIELD ? node->u.heightfield.file
                                                           : NULL;
     if (file) {

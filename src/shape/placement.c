@@ -76,6 +76,8 @@ static struct keys keys_of(const struct job_node *node)
         return KEYS(node->u.stroke);
     case SHAPE_STACKS:
         return KEYS(node->u.stacks);
+    case SHAPE_VOXELS:
+        return KEYS(node->u.voxels);
     case SHAPE_VOLUME:
         return KEYS(node->u.volume);
     case SHAPE_FUNCTION:

@@ -79,6 +79,9 @@ double shape_distance(const struct shape *shape, const double x[3])
     case SHAPE_STACKS:
         d = terrain_shape_distance(shape->u.terrain, p);
         break;
+    case SHAPE_VOXELS:
+        d = voxel_shape_distance(shape->u.voxels, p);
+        break;
     case SHAPE_FUNCTION:
         d = function_distance(shape->u.function, p);
         break;
@@ -251,6 +254,15 @@ status shape_init(struct shape *s, const struct job_node *node, const struct pla
         placement_box(place, origin, size, s->min, s->max);
         break;
     }
+    case SHAPE_VOXELS: {
+        const double origin[3] = {0, 0, 0};
+        double size[3];
+        TRY(voxel_shape_create(&node->u.voxels, &s->u.voxels));
+        voxel_shape_size(s->u.voxels, size);
+        s->file_m3 = voxel_shape_volume(s->u.voxels) * placement_volume_scale(place);
+        placement_box(place, origin, size, s->min, s->max);
+        break;
+    }
     }
 done:
     return st;
@@ -268,6 +280,8 @@ void shape_deinit(struct shape *shape)
         stroke_destroy(&shape->u.stroke);
     if (shape->kind == SHAPE_STACKS)
         terrain_shape_destroy(&shape->u.terrain);
+    if (shape->kind == SHAPE_VOXELS)
+        voxel_shape_destroy(&shape->u.voxels);
     if (shape->kind == SHAPE_FUNCTION)
         function_destroy(&shape->u.function);
 }

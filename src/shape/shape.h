@@ -9,6 +9,7 @@
 #include "shape/placement.h"
 #include "shape/stroke.h"
 #include "shape/terrain.h"
+#include "shape/voxel_shape.h"
 
 struct shape {
     enum job_shape kind;
@@ -30,6 +31,7 @@ struct shape {
         struct jointmap *jointmap;
         struct stroke *stroke;
         struct terrain_shape *terrain;
+        struct voxel_shape *voxels;
         struct function *function;
     } u;
 };
