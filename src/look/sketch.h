@@ -4,7 +4,7 @@
  *            smallest of a few factors with which the frames take about `seconds`, as long as at least LOOK_LEAST particles remain. The
  *            time per particle and step was measured with lavapipe on two cores, per model; GPUs are assumed to be LOOK_GPU times as fast. This
  *            estimate affects nothing but the time.
- * Branches   A job that begins with a checkpoint keeps that checkpoint's spacing.
+ * Branches   A job that begins with a checkpoint keeps its own spacing, unless `spacing_m` is given.
  * Air        The spacing of flowing air is raised to a sixth of the longest side of the domain, since the flow would take most of the time.
  * Pictures   One of the job's cameras (the first, or a named one), or a camera that sees the domain from a direction. The picture has the
  *            shape of the camera and is at most `width` pixels wide.

@@ -98,6 +98,8 @@ _, straight = look("edits.yaml", "--frame", "1008", "--out", "straight.png")
 ok(open("branch.png", "rb").read() == open("straight.png", "rb").read(), "--from: and shows its rock")
 code, made = look("edits.yaml", "--from", "branch@1007", "--out", "branch.png", cache="branched")
 ok(code == 0 and made["from_frame"] == 1008 and made["state_found"], "--from: states are cached too", made)
+code, made = look("edits.yaml", "--from", "branch@1007", "--spacing", "1", "--frame", "1008", "--out", "coarse.png")
+ok(code == 0 and made["from_frame"] == 1007 and made["spacing_m"] == 1, "--from: at another spacing", made)
 
 # ---- options of the picture
 
@@ -127,7 +129,7 @@ WRONG = [
     (("--out", "nowhere/here.png"), 4, "nowhere/here.png"),
     (("--set", "from=elsewhere.ckpt"), 7, "elsewhere.ckpt"),
     (("--from", "branch@1009"), 7, "its checkpoints are of frames"),
-    (("--from", "branch@1007", "--spacing", "1"), 7, "domain"),
+    (("--from", "branch@1007", "--spacing", "0.8"), 7, "domain"),
     (("--device", "99"), 6, "99"),
 ]
 for words, want, sentence in WRONG:
