@@ -45,15 +45,16 @@ static float factor_of(const struct grid *was, size_t w, const struct grid *is, 
 static void divide(const struct resample *r, const struct grid *was, const int v[3], const struct grid *is,
                    float *share, float *factor)
 {
-    float most[SPLIT_MOST * SPLIT_MOST * SPLIT_MOST] = {0}, part[SPLIT_MOST * SPLIT_MOST * SPLIT_MOST];
-    static const double alike[3] = {0, 0, 0};
-    const size_t w = voxel_number(&was->s, v);
+    float most[SPLIT_VOXELS] = {0}, part[SPLIT_VOXELS];
+    const size_t w = voxel_number(&was->s, v), each = (size_t)r->k * (size_t)r->k * (size_t)r->k;
     EACH_CHILD(r, v, most[e] = is->first_share[voxel_number(&is->s, child)];)
-    split_voxel(r->k, (double)was->share[w], (double)was->first_share[w], alike, most, RESAMPLE_SLIVER, part);
+    split_evenly(each, (double)was->share[w], (double)was->first_share[w], most, part);
     EACH_CHILD(r, v, {
         const size_t i = voxel_number(&is->s, child);
-        share[i] = part[e];
-        factor[i] = factor_of(was, w, is, i);
+        if ((double)part[e] >= RESAMPLE_SLIVER) {
+            share[i] = part[e];
+            factor[i] = factor_of(was, w, is, i);
+        }
     })
 }
 

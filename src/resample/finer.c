@@ -56,33 +56,82 @@ done:
     return st;
 }
 
-/* Divides the rock of standing voxel i among its children. */
-static void divide(const struct change *c, const int v[3], size_t i, struct children *k)
+/* Is a voxel, and are those around it, still as the scene has them? */
+static bool is_untouched(const struct change *c, const int v[3])
 {
     const struct standing *s = &c->standing;
-    float most[SPLIT_MOST * SPLIT_MOST * SPLIT_MOST];
-    double near[27], normal[3];
+    for (int e = 0; e < 27; e++) {
+        int at[3] = {v[0] + e % 3 - 1, v[1] + e / 3 % 3 - 1, v[2] + e / 9 - 1};
+        for (int a = 0; a < 3; a++)
+            at[a] = at[a] < 0 ? 0 : at[a] < c->r->was.n[a] ? at[a] : c->r->was.n[a] - 1;
+        if (voxel_set_has(&s->at, at)) {
+            const size_t i = voxel_set_index(&s->at, at);
+            if (s->first[i] <= 0 || s->fill[i] < s->first[i])
+                return false;
+        } else if (change_ground(c, at) < 1 && scene_source_has(c->before, at))
+            return false; /* there was rock */
+    }
+    return true;
+}
+
+/* Divides an untouched voxel, or cuts one by the smooth surface at `level`. Returns how much rock there is now more than before, in
+ * 2^-20 of a small voxel; integers, so that sums do not depend on threads. */
+static int64_t divide(const struct change *c, const int v[3], size_t i, double level, struct children *k)
+{
+    const struct standing *s = &c->standing;
+    const bool untouched = is_untouched(c, v);
+    float most[SPLIT_VOXELS], *share = k->share + k->each * i;
+    double near[27], sum = -(double)s->fill[i] * (double)k->each;
     for (size_t e = 0; e < k->each; e++) {
         const uint32_t place = k->place[k->each * i + e];
         most[e] = place ? k->own.viability[place - 1] : 0;
     }
+    if (untouched) {
+        split_evenly(k->each, (double)s->fill[i], (double)s->first[i], most, share);
+        return 0;
+    }
     for (int e = 0; e < 27; e++)
         near[e] = change_ground(c, (const int[]){v[0] + e % 3 - 1, v[1] + e / 3 % 3 - 1, v[2] + e / 9 - 1});
-    split_normal(near, normal);
-    split_voxel(c->r->k, (double)s->fill[i], (double)s->first[i], normal, most, RESAMPLE_SLIVER,
-                k->share + k->each * i);
+    for (size_t e = 0; e < k->each; e++) {
+        const double below = split_smooth(near, level, c->r->k, (int)e),
+                     rock = s->first[i] > 0 ? fmin(below, (double)most[e]) : below;
+        share[e] = rock < RESAMPLE_SLIVER ? 0 : (float)rock;
+        sum += (double)share[e];
+    }
+    return llround(ldexp(sum, 20));
 }
 
-static void divide_all(const struct change *c, struct children *k)
+/* Returns how much more rock there is at this level, in small voxels. */
+static double divide_all(const struct change *c, double level, struct children *k)
 {
     const struct voxel_set *at = &c->standing.at;
-#pragma omp parallel for schedule(dynamic, 256)
+    int64_t more = 0;
+#pragma omp parallel for schedule(dynamic, 256) reduction(+ : more)
     for (size_t w = 0; w < at->words; w++) {
         int v[3];
         EACH_BIT(at->bits[w], {
             voxel_set_at(at, w, bit, v);
-            divide(c, v, voxel_set_before(at, w, bit), k);
+            more += divide(c, v, voxel_set_before(at, w, bit), level, k);
         })
+    }
+    return ldexp((double)more, -20);
+}
+
+/* Finds the level at which there is as much rock as before, by secants: near 1/2 the volume is almost linear in it. */
+static void divide_alike(const struct change *c, struct children *k)
+{
+    enum { TRIES = 6 };
+    double level[2] = {0.5, 0.49}, more[2];
+    const double enough = 1e-6 * (double)(k->each * voxel_set_count(&c->standing.at));
+    more[0] = divide_all(c, level[0], k);
+    for (int i = 0; i < TRIES && fabs(more[0]) > enough; i++) {
+        more[1] = divide_all(c, level[1], k);
+        const double slope = (more[1] - more[0]) / (level[1] - level[0]);
+        level[0] = level[1];
+        more[0] = more[1];
+        if (!(slope < 0))
+            break;
+        level[1] = fmin(fmax(level[1] - more[1] / slope, 0.4), 0.6);
     }
 }
 
@@ -136,7 +185,7 @@ status change_finer(struct change *c)
     struct children k = {0};
     struct rock rest = {0};
     TRY(find_children(c, &k));
-    divide_all(c, &k);
+    divide_alike(c, &k);
     TRY(divide_deep(c, &rest));
     TRY(change_reserve(c, k.each * voxel_set_count(&c->standing.at) + heaps_most(c) + rest.n));
     append_children(c, &k);

@@ -1,14 +1,13 @@
 /* Rock at another spacing: the particles of a state whose spacing is a whole multiple or a whole fraction of the new one.
  *
- * Rock that stands   a smaller voxel gets its share of the rock in its voxel (split.h), a larger one the mean of its voxels. Its particle
- *                    is that of the job's scene there, with its layer, noise and structure; what edits have painted since is the ratio
- *                    of the old particle's factors to those of the scene at the old spacing. Faces that are still as the scene has them
- *                    get the scene's own shape. Rock that edits have added keeps the old particle's values.
+ * Rock that stands   smaller voxels are cut by a smooth surface through the old ones (split.h); a larger one has the mean of its voxels.
+ *                    Its particle is that of the job's scene there, with its layer, noise and structure; what edits have painted since
+ *                    is the ratio of the old particle's factors to those of the scene at the old spacing. Faces that are still as the
+ *                    scene has them get the scene's own shape. Rock that edits have added keeps the old particle's values.
  * Deposits           keep their values; a smaller spacing makes k^3 particles of each, a larger one a particle of each voxel's deposits.
  * Deep rock          stays deep at a smaller spacing, and gets its particles at a larger one.
  *
- * The volume of each voxel of the larger spacing stays the same, but for faces that are as the scene has them, slivers of 1/64 of a
- * voxel, and voxels with more than one particle. */
+ * There is as much rock as before, but for faces that are as the scene has them. README.md has the equations. */
 #ifndef HOODOO_RESAMPLE_H
 #define HOODOO_RESAMPLE_H
 

@@ -1,22 +1,6 @@
 #include "resample/split.h"
 
 #include <math.h>
-#include <stddef.h>
-
-void split_normal(const double fill[27], double normal[3])
-{
-    static const double weight[3] = {1, 2, 1};
-    for (int a = 0; a < 3; a++)
-        normal[a] = 0;
-    for (int z = 0; z < 3; z++)
-        for (int y = 0; y < 3; y++)
-            for (int x = 0; x < 3; x++) {
-                const double f = fill[9 * z + 3 * y + x];
-                normal[0] -= (x - 1) * weight[y] * weight[z] * f;
-                normal[1] -= (y - 1) * weight[z] * weight[x] * f;
-                normal[2] -= (z - 1) * weight[x] * weight[y] * f;
-            }
-}
 
 static double cube(double x)
 {
@@ -47,85 +31,52 @@ double split_below(const double normal[3], double d, const double low[3], double
     return fmin(fmax(volume / (6 * m[0] * m[1] * m[2]), 0), 1);
 }
 
-/* The shares below the plane at d; returns their mean. */
-static double cut(int k, const double normal[3], double d, const float *most, float *share)
+/* The B-spline at o, -1/2 to 1/2 from the voxel's centre, and the direction in which it falls. */
+static double spline(const double fill[27], const double o[3], double falls[3])
 {
-    const double s = 1.0 / k;
-    double sum = 0;
-    size_t i = 0;
-    for (int z = 0; z < k; z++)
-        for (int y = 0; y < k; y++)
-            for (int x = 0; x < k; x++, i++) {
-                const double low[3] = {x * s - 0.5, y * s - 0.5, z * s - 0.5};
-                share[i] = (float)fmin((double)most[i], split_below(normal, d, low, s));
-                sum += (double)share[i];
-            }
-    return sum * s * s * s;
+    double w[3][3], slope[3][3], f = 0;
+    for (int a = 0; a < 3; a++) {
+        w[a][0] = 0.5 * (0.5 - o[a]) * (0.5 - o[a]);
+        w[a][1] = 0.75 - o[a] * o[a];
+        w[a][2] = 0.5 * (0.5 + o[a]) * (0.5 + o[a]);
+        slope[a][0] = 0.5 - o[a];
+        slope[a][1] = 2 * o[a];
+        slope[a][2] = -0.5 - o[a];
+        falls[a] = 0;
+    }
+    for (int e = 0; e < 27; e++) {
+        const int x = e % 3, y = e / 3 % 3, z = e / 9;
+        f += fill[e] * w[0][x] * w[1][y] * w[2][z];
+        falls[0] += fill[e] * slope[0][x] * w[1][y] * w[2][z];
+        falls[1] += fill[e] * w[0][x] * slope[1][y] * w[2][z];
+        falls[2] += fill[e] * w[0][x] * w[1][y] * slope[2][z];
+    }
+    return f;
 }
 
-enum { SPLIT_VOXELS = SPLIT_MOST * SPLIT_MOST * SPLIT_MOST };
-
-/* Adds `more` to the shares, in proportion to what each lacks to full[i], or to 1. */
-static void fill_up(size_t n, double more, const float *full, float *share)
+double split_smooth(const double fill[27], double level, int k, int e)
 {
-    double room = 0;
+    const double s = 1.0 / k, low[3] = {-0.5 * s, -0.5 * s, -0.5 * s},
+                 o[3] = {(e % k + 0.5) * s - 0.5, (e / k % k + 0.5) * s - 0.5, (e / (k * k) + 0.5) * s - 0.5};
+    double falls[3];
+    const double f = spline(fill, o, falls);
+    if (fabs(falls[0]) + fabs(falls[1]) + fabs(falls[2]) < 1e-9)
+        return f > level;
+    return split_below(falls, f - level, low, s);
+}
+
+void split_evenly(size_t n, double fill, double first, const float *most, float *share)
+{
+    double had = 0;
+    for (size_t i = 0; i < n; i++) {
+        share[i] = first > 0 ? most[i] : 1;
+        had += (double)share[i];
+    }
+    const double more = (first > 0 && fill >= first ? fill - first : fill - had / (double)n) * (double)n,
+                 room = (double)n - had;
     for (size_t i = 0; i < n; i++)
-        room += (double)((full ? full[i] : 1) - share[i]);
-    for (size_t i = 0; i < n && room > 0; i++) {
-        const double lack = (double)((full ? full[i] : 1) - share[i]);
-        share[i] = (float)((double)share[i] + fmin(1, more / room) * lack);
-    }
-}
-
-/* Shares below a plane whose mean is `fill`, which is less than that of most[]. */
-static void cut_to(int k, double fill, const double normal[3], const float *most, float *share)
-{
-    enum { HALVINGS = 40 };
-    const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    const double unit[3] = {normal[0] / length, normal[1] / length, normal[2] / length};
-    double low = -1, high = 1;
-    for (int i = 0; i < HALVINGS; i++) {
-        const double middle = (low + high) / 2;
-        *(cut(k, unit, middle, most, share) < fill ? &low : &high) = middle;
-    }
-    cut(k, unit, high, most, share);
-}
-
-/* Gives slivers to the voxels that have more. */
-static void drop_slivers(size_t n, const float *most, double least, float *share)
-{
-    float full[SPLIT_VOXELS];
-    double lost = 0;
-    for (size_t i = 0; i < n; i++) {
-        if ((double)share[i] < least) {
-            lost += (double)share[i];
-            share[i] = 0;
-        }
-        full[i] = share[i] > 0 ? most[i] : 0;
-    }
-    fill_up(n, lost, full, share);
-}
-
-void split_voxel(int k, double fill, double first, const double normal[3], const float *most, double least,
-                 float *share)
-{
-    const size_t n = (size_t)k * (size_t)k * (size_t)k;
-    float at_first[SPLIT_VOXELS];
-    double room = 0;
-    for (size_t i = 0; i < n; i++) {
-        at_first[i] = first > 0 ? most[i] : 1;
-        share[i] = at_first[i];
-        room += (double)at_first[i];
-    }
-    const double more = first > 0 && fill >= first ? fill - first : fill - room / (double)n;
-    if (more >= 0) {
-        fill_up(n, more * (double)n, NULL, share);
-        return;
-    }
-    if (fabs(normal[0]) + fabs(normal[1]) + fabs(normal[2]) > 1e-6)
-        cut_to(k, fill, normal, at_first, share);
-    else
-        for (size_t i = 0; i < n; i++)
-            share[i] = (float)((double)at_first[i] * fill * (double)n / room);
-    drop_slivers(n, at_first, least, share);
+        if (more > 0)
+            share[i] = (float)((double)share[i] + fmin(more / fmax(room, more), 1) * (1 - (double)share[i]));
+        else
+            share[i] = (float)((double)share[i] * (1 + more / fmax(had, -more)));
 }

@@ -206,6 +206,11 @@ bool scene_source_ids(const struct scene_source *src, const uint32_t *bits, uint
     return full;
 }
 
+bool scene_source_has(const struct scene_source *src, const int voxel[3])
+{
+    return voxel_set_has(&src->rock, voxel);
+}
+
 void scene_source_position(const struct scene_source *src, const int voxel[3], float P[4])
 {
     sampler_position(&src->s, voxel, P);

@@ -36,6 +36,9 @@ MUST_USE status scene_source_particles(const struct scene_source *source, const 
 /* The ids of these voxels' particles, in voxel order. False: some of the voxels are not full of rock. */
 bool scene_source_ids(const struct scene_source *source, const uint32_t *bits, uint32_t *ids);
 
+/* Whether a voxel contains rock. */
+bool scene_source_has(const struct scene_source *source, const int voxel[3]);
+
 /* The position of the particle of a voxel, whether it contains rock or not: its centre plus a jitter that depends on seed and voxel only.
  * P[3] = 0. */
 void scene_source_position(const struct scene_source *source, const int voxel[3], float P[4]);
