@@ -14,7 +14,7 @@ static void says(const char *keys, int frame, const char *want)
              "scene: {box: {min_m: [1, 1, 0], max_m: [3, 3, 3]}}, %s}",
              keys);
     struct job *job = load_good(text);
-    slate_when(job, frame, said);
+    slate_when(job, frame, job_years(job, 1001, frame), said);
     assert_string_equal(said, want);
     job_destroy(&job);
 }
