@@ -55,7 +55,8 @@ static void rows_hold_together(void **state)
         /* What is shown and no grid comes from the points. */
         if ((v->where & IN_SHOW) && !(v->where & IN_VOLUMES)) {
             assert_non_null(field);
-            assert_true(*field->vdb != '\0' && field->is_float && field->components == 1);
+            assert_true(*field->vdb != '\0' && (field->is_float || v->kind == KIND_ID) &&
+                        field->components == 1);
         }
     }
 }
