@@ -41,6 +41,7 @@ done:
 status history_note(struct history *h, uint64_t hash, const struct frame *f)
 {
     struct history_item item = {.hash = hash,
+                                .years = f->years,
                                 .volume_m3 = f->volume_m3,
                                 .start_volume_m3 = f->start_volume_m3,
                                 .max_stress_Pa = f->max_stress_Pa,
@@ -86,6 +87,7 @@ static void as_manifest(const struct job *job, int frame, const struct history_i
 {
     const struct job *then = job_at(job, frame);
     *m = (struct manifest){.frame = frame,
+                           .years = item->years,
                            .volume_m3 = item->volume_m3,
                            .start_volume_m3 = item->start_volume_m3,
                            .max_stress_Pa = item->max_stress_Pa,

@@ -9,7 +9,7 @@
 
 struct history_item {
     uint64_t hash;
-    double volume_m3, start_volume_m3, max_stress_Pa, change_m3[PROCESSES];
+    double years, volume_m3, start_volume_m3, max_stress_Pa, change_m3[PROCESSES];
     struct ledger ledger;
 };
 
