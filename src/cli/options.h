@@ -117,10 +117,10 @@ void common_free(struct common *c);
         "resume", CHOICE_TEXT(RESUME_CHOICE), OPTION_CHOICE, &(c)->resume,                                                                                                                                                                                                             \
             "auto: continue from existing frames and checkpoints; never: discard the folder's manifests and checkpoints and start over; require: fail if there is no checkpoint; other-...: also continue from frames of another device or build, whose results are not bit-identical" \
     }
-#define OPTION_FROM(c)                                                                                                                                                  \
-    {                                                                                                                                                                   \
-        "from", "OUT@FRAME", OPTION_TEXT, &(c)->from,                                                                                                                   \
-            "branch: start from another run's checkpoint of that frame (checkpoint.mark keeps it); the job may differ in everything except domain and number of strata" \
+#define OPTION_FROM(c)                                                                                                                                                                                                                                   \
+    {                                                                                                                                                                                                                                                    \
+        "from", "OUT@FRAME", OPTION_TEXT, &(c)->from,                                                                                                                                                                                                    \
+            "branch: start from another run's checkpoint of that frame (checkpoint.mark keeps it); the job may differ in everything except the size of the domain and the number of strata, and have a half, a quarter, twice, ... of the run's spacing" \
     }
 #define OPTION_WEDGE(number)                                                                                 \
     {                                                                                                        \
