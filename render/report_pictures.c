@@ -99,6 +99,19 @@ done:
     return st;
 }
 
+/* Ends unfinished conversions if one has failed, and removes what they and failed ones have left; frees the n conversions. */
+static void end_conversions(const struct report *r, struct children *children, status st,
+                            struct conversion *c, size_t n)
+{
+    struct path full;
+    if (st != OK)
+        children_end(children);
+    for (size_t i = 0; i < n; i++)
+        if (*c[i].temporary.text && path_join(&full, r->root, c[i].temporary.text) == OK)
+            unlink(full.text); /* no longer there if it was adopted */
+    free(c);
+}
+
 static status wait_all(struct report *r, struct children *children)
 {
     status st = OK;
@@ -172,9 +185,7 @@ static status make_views(struct report *r, struct children *children)
     while (r->n_views < n && made[r->n_views])
         r->n_views++;
 done:
-    if (st != OK)
-        children_end(children);
-    free(c);
+    end_conversions(r, children, st, c, c ? MAX_VIEWS : 0);
     return st;
 }
 
@@ -208,10 +219,8 @@ static status make_stills(struct report *r, struct children *children)
     }
     TRY(wait_all(r, children));
 done:
-    if (st != OK)
-        children_end(children);
+    end_conversions(r, children, st, c, k);
     free(frame);
-    free(c);
     return st;
 }
 

@@ -252,6 +252,7 @@ static status walk_settable(struct walk *w, const struct job *job)
     for (size_t i = 0; i < s->n; i++)
         if (job_settable(s->key[i].name))
             TRY(walk_key(w, &s->key[i], job));
+    TRY(text_status(&w->canonical)); /* some walks are only compared */
 done:
     w->part = part;
     return st;

@@ -108,10 +108,10 @@ status product_adopt(const struct recipe *r, const char *temporary, const char *
     TRY(path_join(&from, r->root, temporary));
     TRY(prepare_path(&to, r->root, path));
     /* Hash the file before it is in place: afterwards another process may have replaced it. */
-    if (hash_file(from.text, &hash, &size) != OK) {
+    st = hash_file(from.text, &hash, &size);
+    if (st == E_INPUT)
         st = fail(E_OUTPUT, "%s: the file could not be made: %s", to.text, strerror(errno));
-        goto done;
-    }
+    TRY(st);
     TRY(atomic_file_adopt(from.text, to.text));
     TRY(write_record(r, path, hash, size));
 done:
