@@ -270,7 +270,7 @@ void page_curves(const struct report *r, struct text *t)
     struct text svg = {0};
     json_object(t, "erosion");
     json_integer(t, "frame", r->frames.first);
-    json_text(t, "zero", c.clock.shot ? "second 0" : "year 0");
+    json_text(t, "zero", c.clock.shot ? "second 0" : phrase("year %.10g", c.clock.began).text);
     chart_lines(&chart, &svg);
     page_chart(t, "volume_chart", &svg);
     chart.title = "How fast it goes";

@@ -56,6 +56,10 @@ ok(now["years"] == was["years"] == 3000 and abs(now["statistics"]["volume_m3"] /
 ok(read_json("fine/run.json")["from"]["spacing_m"] == 1, "run.json says what the spacing was")
 ok("no air of this size" not in said, "its air is kept", said)
 
+code, said = ask(HOODOO, "report", "fine", "--no-pictures")
+with open("fine/report/index.html") as file:
+    ok(code == 0 and "Frame 1004 is year 3000." in file.read(), "its report counts from the other run's first frame", said)
+
 code, said = run("again", *half, "--frames", "1004-1006")
 shutil.rmtree("first/checkpoint")
 second, said = run("again", *half)
