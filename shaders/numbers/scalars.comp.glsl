@@ -16,25 +16,6 @@ READ_F(7, array_7)
 WRITE_U(8, found)
 PARAMS(numbers_params)
 
-// Not "> most", which is false for NaN.
-#define CHECK(b, name)                                                                                      \
-    {                                                                                                       \
-        uint first = 0xffffffffu;                                                                           \
-        for (uint i = THREAD; i < k.n[b]; i += NUMBERS_THREADS)                                             \
-            if (!(abs(LOAD_F(name, i)) <= k.most))                                                          \
-                first = min(first, i);                                                                      \
-        if (first != 0xffffffffu)                                                                           \
-            atomicMin(AT(found, k.slot[b]), first);                                                         \
-    }
-
-void main()
-{
-    CHECK(0, array_0)
-    CHECK(1, array_1)
-    CHECK(2, array_2)
-    CHECK(3, array_3)
-    CHECK(4, array_4)
-    CHECK(5, array_5)
-    CHECK(6, array_6)
-    CHECK(7, array_7)
-}
+#define LOAD_ITEM LOAD_F
+#define FITS(item) (abs(item) <= k.most)
+#include "numbers/arrays.glsl"

@@ -18,6 +18,7 @@ struct children {
     struct rock own; /* their particles in the scene */
     uint32_t *place; /* index in `own` plus 1; 0: none */
     float *share;    /* of rock */
+    bool *cut;       /* [voxels of the set]: it is cut by the smooth surface */
 };
 
 static void children_free(struct children *k)
@@ -25,6 +26,7 @@ static void children_free(struct children *k)
     rock_free(&k->own);
     free(k->place);
     free(k->share);
+    free(k->cut);
 }
 
 static status find_children(const struct change *c, struct children *k)
@@ -44,6 +46,7 @@ static status find_children(const struct change *c, struct children *k)
     TRY(scene_source_particles(c->scene, set.bits, NULL, &k->own));
     TRY(memory_alloc(k->each * voxel_set_count(at), sizeof *k->place, "voxels", &k->place));
     TRY(memory_alloc(k->each * voxel_set_count(at), sizeof *k->share, "voxels", &k->share));
+    TRY(memory_alloc(voxel_set_count(at), sizeof *k->cut, "voxels", &k->cut));
     for (size_t q = 0; q < k->own.n; q++) {
         int parent[3];
         voxel_of(&r->is, k->own.P + 4 * q, v);
@@ -74,22 +77,35 @@ static bool is_untouched(const struct change *c, const int v[3])
     return true;
 }
 
-/* Divides an untouched voxel, or cuts one by the smooth surface at `level`. Returns how much rock there is now more than before, in
- * 2^-20 of a small voxel; integers, so that sums do not depend on threads. */
-static int64_t divide(const struct change *c, const int v[3], size_t i, double level, struct children *k)
+/* What children have in the scene. */
+static void scene_shares(const struct children *k, size_t i, float *most)
 {
-    const struct standing *s = &c->standing;
-    const bool untouched = is_untouched(c, v);
-    float most[SPLIT_VOXELS], *share = k->share + k->each * i;
-    double near[27], sum = -(double)s->fill[i] * (double)k->each;
     for (size_t e = 0; e < k->each; e++) {
         const uint32_t place = k->place[k->each * i + e];
         most[e] = place ? k->own.viability[place - 1] : 0;
     }
-    if (untouched) {
-        split_evenly(k->each, (double)s->fill[i], (double)s->first[i], most, share);
-        return 0;
-    }
+}
+
+/* Divides an untouched voxel, or marks it as one to be cut. */
+static void sort_out(const struct change *c, const int v[3], size_t i, struct children *k)
+{
+    const struct standing *s = &c->standing;
+    float most[SPLIT_VOXELS];
+    k->cut[i] = !is_untouched(c, v);
+    if (k->cut[i])
+        return;
+    scene_shares(k, i, most);
+    split_evenly(k->each, (double)s->fill[i], (double)s->first[i], most, k->share + k->each * i);
+}
+
+/* Cuts a voxel by the smooth surface at `level`. Returns how much rock there is now more than before, in 2^-20 of a small voxel; integers,
+ * so that sums do not depend on threads. */
+static int64_t cut(const struct change *c, const int v[3], size_t i, double level, struct children *k)
+{
+    const struct standing *s = &c->standing;
+    float most[SPLIT_VOXELS], *share = k->share + k->each * i;
+    double near[27], sum = -(double)s->fill[i] * (double)k->each;
+    scene_shares(k, i, most);
     for (int e = 0; e < 27; e++)
         near[e] = change_ground(c, (const int[]){v[0] + e % 3 - 1, v[1] + e / 3 % 3 - 1, v[2] + e / 9 - 1});
     for (size_t e = 0; e < k->each; e++) {
@@ -101,8 +117,21 @@ static int64_t divide(const struct change *c, const int v[3], size_t i, double l
     return llround(ldexp(sum, 20));
 }
 
+static void sort_out_all(const struct change *c, struct children *k)
+{
+    const struct voxel_set *at = &c->standing.at;
+#pragma omp parallel for schedule(dynamic, 256)
+    for (size_t w = 0; w < at->words; w++) {
+        int v[3];
+        EACH_BIT(at->bits[w], {
+            voxel_set_at(at, w, bit, v);
+            sort_out(c, v, voxel_set_before(at, w, bit), k);
+        })
+    }
+}
+
 /* Returns how much more rock there is at this level, in small voxels. */
-static double divide_all(const struct change *c, double level, struct children *k)
+static double cut_all(const struct change *c, double level, struct children *k)
 {
     const struct voxel_set *at = &c->standing.at;
     int64_t more = 0;
@@ -110,22 +139,23 @@ static double divide_all(const struct change *c, double level, struct children *
     for (size_t w = 0; w < at->words; w++) {
         int v[3];
         EACH_BIT(at->bits[w], {
+            const size_t i = voxel_set_before(at, w, bit);
             voxel_set_at(at, w, bit, v);
-            more += divide(c, v, voxel_set_before(at, w, bit), level, k);
+            more += k->cut[i] ? cut(c, v, i, level, k) : 0;
         })
     }
     return ldexp((double)more, -20);
 }
 
 /* Finds the level at which there is as much rock as before, by secants: near 1/2 the volume is almost linear in it. */
-static void divide_alike(const struct change *c, struct children *k)
+static void cut_alike(const struct change *c, struct children *k)
 {
     enum { TRIES = 6 };
     double level[2] = {0.5, 0.49}, more[2];
     const double enough = 1e-6 * (double)(k->each * voxel_set_count(&c->standing.at));
-    more[0] = divide_all(c, level[0], k);
+    more[0] = cut_all(c, level[0], k);
     for (int i = 0; i < TRIES && fabs(more[0]) > enough; i++) {
-        more[1] = divide_all(c, level[1], k);
+        more[1] = cut_all(c, level[1], k);
         const double slope = (more[1] - more[0]) / (level[1] - level[0]);
         level[0] = level[1];
         more[0] = more[1];
@@ -185,7 +215,8 @@ status change_finer(struct change *c)
     struct children k = {0};
     struct rock rest = {0};
     TRY(find_children(c, &k));
-    divide_alike(c, &k);
+    sort_out_all(c, &k);
+    cut_alike(c, &k);
     TRY(divide_deep(c, &rest));
     TRY(change_reserve(c, k.each * voxel_set_count(&c->standing.at) + heaps_most(c) + rest.n));
     append_children(c, &k);
